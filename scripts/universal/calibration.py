@@ -53,7 +53,7 @@ def calibrate(parts, happened, prior, clusters=None, start=None):
         values, vectors = np.linalg.eigh(hessian)
         step = -vectors @ (vectors.T @ gradient / np.maximum(np.abs(values), 1e-3))
         size = min(1.0, 2.0 / np.abs(step).max())
-        while derivatives(b + size * step, parts, happened, prior)[0] > loss and size > 1e-9:
+        while derivatives(b + size * step, parts, happened, prior)[0] > loss + 1e-12 * (1 + loss):
             size /= 2
         b = b + size * step
     covariance = np.linalg.inv(hessian)

@@ -6,7 +6,7 @@ import polars as pl
 from scipy.optimize import minimize
 
 from cases import counted
-from surface import DOMAIN, MOST_IM4, NO_LIMIT, TERMS, design, scaled, uplift
+from surface import DOMAIN, MOST_IM4, NO_LIMIT, design, scaled, uplift
 
 SLACK, STEP = 1e-3, 1.02
 SOUGHT = np.log([2.0, 0.2, 0.5])
@@ -41,7 +41,7 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     return b
 
 
-def rises(event, points=(9, 6, 5)):
+def rises(terms, points=(9, 6, 5)):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
     smaller at the same shape or bouncier, or the limit falls: on a grid over the domain and p beyond it, with
     so many values of IM4, PGA/PGV and p, and the ends of eta, in which all functions are linear. The last
@@ -53,14 +53,14 @@ def rises(event, points=(9, 6, 5)):
         "ratio": spaced((low * STEP, high), points[1]),
         "p_rad_s": np.concatenate([[0.35], spaced(DOMAIN["p"], points[2]), [9.0]]),
         "eta": [0.7, 0.995],
-        "limit": [0.02, 0.1, 0.4, 0.88] if event == "pex" else [NO_LIMIT],
+        "limit": [0.02, 0.1, 0.4, 0.88] if "limit" in terms else [NO_LIMIT],
     }
     grid = dict(zip(axes, (axis.ravel() for axis in np.meshgrid(*axes.values(), indexing="ij"))))
     here = pl.DataFrame(grid).with_columns(im5=pl.col("im4") * pl.col("p_rad_s") / pl.col("ratio"))
     faster = here.with_columns(pl.col("im5") * STEP)
     there = [scaled(here, STEP), faster, faster.with_columns(pl.col("p_rad_s") * STEP)]
     there += [here.with_columns(pl.col("eta") + 0.003), here.with_columns(pl.col("limit") / STEP)]
-    gains = np.concatenate([design(TERMS[event], cases) - design(TERMS[event], here) for cases in there])
+    gains = np.concatenate([design(terms, cases) - design(terms, here) for cases in there])
     gains = np.pad(gains / np.log(STEP), ((0, 0), (0, 1)))
     return gains[np.abs(gains).max(axis=1) > 1e-9]
 
@@ -68,6 +68,7 @@ def rises(event, points=(9, 6, 5)):
 def sample(event, cases):
     """The cases that count, each with a limit state, drawn."""
     low, high = np.log(DOMAIN["limit"])
+    cases = cases.filter(~(pl.col("overturned") & (event == "pex")))
     return counted(event, cases, np.exp(np.random.default_rng(1).uniform(low, high, len(cases))))
 
 
@@ -84,12 +85,12 @@ def weak(numbers):
     return 0.5 * np.square(numbers - SOUGHT).sum()
 
 
-def surface(event, cases, with_magnitude):
-    """Returns the coefficients, that of M - 6.9, and n, d and k of one kind of motion."""
+def surface(event, terms, cases, with_magnitude):
+    """Returns the coefficients by term, that of M - 6.9, and n, d and k of one kind of motion."""
     cases = sample(event, cases)
     happened, mw = cases["happened"].to_numpy().astype(float), (cases["mw"].to_numpy() - 6.9) * with_magnitude
-    columns = np.column_stack([design(TERMS[event], cases), mw])
-    gains, fine = rises(event), rises(event, (24, 25, 10))
+    columns = np.column_stack([design(terms, cases), mw])
+    gains, fine = rises(terms), rises(terms, (24, 25, 10))
     numbers, b = SOUGHT, None
     for _ in range(4):
         b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
@@ -97,4 +98,4 @@ def surface(event, cases, with_magnitude):
     for _ in range(3):
         gains = np.concatenate([gains, fine[fine @ b < 20 * SLACK]])
         b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
-    return b[:-1], b[-1], np.exp(numbers)
+    return dict(zip(terms, b)), b[-1], np.exp(numbers)

@@ -16,7 +16,7 @@ from surface import KINDS, LIMIT, NO_LIMIT, TERMS, Surface
 _, path, FOLDER = sys.argv
 surface = Surface(open(path))
 rng = np.random.default_rng(1)
-SYNTHETIC, UNKNOWN = KINDS[1:], pl.lit(None, pl.Float64)
+UNKNOWN = pl.lit(None, pl.Float64)
 OF_M = pl.col("mw").cut([5.5, 6.4], labels=["below 5.5", "5.5 to 6.4", "6.4 and more"], left_closed=True)
 BINS = pl.col("p").cut([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
 
@@ -93,8 +93,8 @@ def coverage(event, kind, frame):
 
 
 def cells_left_out(event):
-    for kind in SYNTHETIC:
-        study = of.read([f"{FOLDER}/study_101.parquet"], 1.0, kind)
+    for kind in KINDS[1:]:
+        study = of.read([f"{FOLDER}/study_102.parquet"], 1.0, kind)
         coverage(event, kind, of_cells_left_out(surface, event, kind, study, surface.prior(event, kind)))
 
 
@@ -150,7 +150,7 @@ def held_out(event):
     cases = of.read([f"{FOLDER}/test.parquet"])
     for name, frame in {"with M": cases, "M unknown": cases.with_columns(mw=UNKNOWN)}.items():
         each = [predicted(event, kind, of.counted(event, frame.filter(kind=kind), limit))
-                for kind in SYNTHETIC for limit in limits]  # fmt: skip
+                for kind in KINDS[1:] for limit in limits]  # fmt: skip
         show(f"{event}, {name}: 64 structures and a seed held out", scored(pl.concat(each), kind="kind"))
 
 
@@ -175,7 +175,7 @@ def own(event, kind, cases):
 
 def own_responses(event):
     rows = []
-    for kind in SYNTHETIC:
+    for kind in KINDS[1:]:
         study = [of.read([f"{FOLDER}/study_{seed}.parquet"], 1.0, kind) for seed in (101, 102, 103)]
         for number in range(22):
             fitted, *judged = [of.counted(event, cases.filter(structure=number), LIMIT) for cases in study]

@@ -1,4 +1,4 @@
-"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES RESPONSES..."""
+"""Makes data/universal.csv: python make.py OUT.csv MOTIONS STUDY RECORDS_RESPONSES RESPONSES..."""
 
 import sys
 
@@ -9,14 +9,14 @@ from scipy.optimize import minimize
 import cases as of
 import fit
 from calibration import WIDE, allowed, apply, calibrate, left_out, spread
-from surface import DOMAIN, KINDS, LIMIT, MOST_IM4, TERMS, Surface, design, features, magnitude, uplift
+from surface import DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift
 
 MW = {"recorded": (5.0, 7.6)}
 # Sds of c, ln s and m: by coverage and score of few records (judge.py). Spread between structures is .63 in z.
 SD = {"recorded": (0.6, 0.25, 0.4)}
-TAUS = np.arange(0.05, 1.25, 0.05)
-# Of coverage: classes of P, and the middle of .90 to .98.
-CLASSES, MIDDLE, KNOT = [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.94, 0.9
+# The least coverage of a class of P, by which tau is chosen.
+TAUS, CLASSES, LEAST = np.arange(0.05, 2.0, 0.05), [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.905
+KNOT = 0.9
 HEAD = """\
 # The universal fragility surface: P_ro and P_ex of any rocking structure, by scripts/universal/make.sh.
 # From {structures} structures, {motions} synthetic motions on rock ({cases} cases), {records} components of
@@ -54,12 +54,13 @@ def shift(event, logit_of, cases):
 
 
 def fitted(event, kind, cases, recorded):
-    """Coefficients, c, ln s, m and h, and n, d, k of a kind."""
-    of_kind = cases.filter(pl.col("kind") == ("hfc" if kind == "recorded" else kind))
-    b, m, numbers = fit.surface(event, of_kind, kind != "recorded")
+    """Coefficients by term, c, ln s, m and h, and n, d, k of a kind."""
     if kind != "recorded":
+        terms = [*TERMS[event], *SYNTHETIC[event]]
+        b, m, numbers = fit.surface(event, terms, cases.filter(kind=kind), True)
         return b, [0.0, 0.0, m, 0.0], numbers
-    shifted = shift(event, lambda c: design(TERMS[event], c) @ b, recorded)
+    b, _, _ = fit.surface(event, TERMS[event], cases.filter(kind="hfc"), False)
+    shifted = shift(event, lambda c: design(b, c) @ [*b.values()], recorded)
     return b, shifted[:4], np.exp(shifted[4:])
 
 
@@ -74,20 +75,21 @@ def held(frame, taus):
 
 
 def tau_of(frame):
-    """That by which the coverage of the classes of P is nearest to the middle of what is asked."""
+    """The least by which limits hold in each class of P."""
     classes, holds = map(np.array, zip(*held(frame, TAUS)))
-    shares = np.array([holds[classes == k].mean(axis=0) for k in np.unique(classes)])
-    return TAUS[np.abs(shares - MIDDLE).max(axis=0).argmin()]
+    shares = [holds[classes == k].mean(axis=0) for k in np.unique(classes)]
+    return TAUS[np.argmax(np.min(shares, axis=0) >= LEAST)]
 
 
 def of_cells_left_out(surface, event, kind, cases, prior):
     """Cases with z: each structure calibrated on half of its clusters and judged on the others, and the other
-    way round; of records all structures together, each earthquake by the others."""
+    way round; of records all structures together, each earthquake of the table by all others."""
     cases = of.counted(event, cases, LIMIT)
     parts = lambda frame: surface.parts(event, kind, frame)
     known = lambda frame: (parts(frame), frame["happened"].to_numpy())
     if kind == "recorded":
-        return cases.with_columns(z=left_out(*known(cases), cases["cluster"].to_numpy(), WIDE))
+        cases = cases.with_columns(z=left_out(*known(cases), cases["cluster"].to_numpy(), WIDE))
+        return cases.filter(~pl.col("motion_id").str.contains("field"))
     rng, judged = np.random.default_rng(1), []
     for _, own in cases.group_by("structure", maintain_order=True):
         half = rng.permutation(own["cluster"].unique().sort().to_numpy())[::2]
@@ -96,7 +98,7 @@ def of_cells_left_out(surface, event, kind, cases, prior):
 
 
 def priors(surface, event, kind, cases, whole, mean):
-    """Sds of c, ln s and m between structures, and tau, which needs all responses of some structures:
+    """Sds of c, ln s and m between structures, and tau, which needs all responses of a structure, as in
     `whole`."""
     of_kind = lambda frame: frame.filter(pl.col("kind") == kind)
     sd = SD.get(kind)
@@ -127,9 +129,9 @@ def magnitude_line(motions, low, high):
 
 
 def main():
-    out, motions, records_responses, *files = sys.argv[1:]
+    out, motions, study, records_responses, *files = sys.argv[1:]
     recorded = of.read([records_responses]).filter(pl.col("scale").is_in(of.FITTED))
-    cases, whole = of.read(files, 0.15), pl.concat([of.read(files[:1]), recorded])
+    cases, whole = of.read(files, 0.15), pl.concat([of.read([study]), recorded])
     synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
     of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")
     motions_of = {kind: synthetic.filter(pl.col("suite") == kind) for kind in KINDS} | {"recorded": of_records}
@@ -142,8 +144,8 @@ def main():
         put(["domain", name], ends, ".4g")
     found = {(event, kind): fitted(event, kind, cases, recorded) for event in TERMS for kind in KINDS}
     for event, terms in TERMS.items():
-        for row, term in enumerate(terms):
-            put(["term", event, term], (found[event, kind][0][row] for kind in KINDS), ".6g")
+        for term in [*terms, *SYNTHETIC[event]]:
+            put(["term", event, term], (found[event, kind][0].get(term, 0.0) for kind in KINDS), ".6g")
     for event, kind in found:
         put(["uplift", kind, event], found[event, kind][2], ".4g")
     for kind, of_kind in motions_of.items():
