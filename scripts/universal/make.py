@@ -8,12 +8,14 @@ from scipy.optimize import minimize
 
 import cases as of
 import fit
-from calibration import WIDE, allowed, apply, calibrate, left_out, spread
-from surface import DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift
+from calibration import WIDE, allowed, left_out, logistic, spread
+from surface import (
+    DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift,
+)  # fmt: skip
 
 MW = {"recorded": (5.0, 7.6)}
-# Sds of c, ln s and m: by coverage and score of few records (judge.py). Spread between structures is .63 in z.
-SD = {"recorded": (0.6, 0.25, 0.4)}
+# Sds of c, ln s and m of recorded motions, by coverage and score of few records (judge.py).
+SD = (0.6, 0.25, 0.4)
 # The least coverage of a class of P, by which tau is chosen.
 TAUS, CLASSES, LEAST = np.arange(0.05, 2.0, 0.05), [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.905
 KNOT = 0.9
@@ -65,48 +67,54 @@ def fitted(event, kind, cases, recorded):
 
 
 def held(frame, taus):
-    """Groups of five and more cases of one structure and cluster, with the class of P of each and whether limits
-    with each tau allow its count. The frame has z, the logit of cases that were left out, and happened."""
+    """Groups of five and more cases of one structure and cluster: the class of P, whether limits with each
+    tau allow the count, and their width. The frame has z, the logit of cases left out, and happened."""
+    taus = np.array(taus)
     for _, group in frame.group_by("structure", "cluster", maintain_order=True):
         z, happened = group["z"].to_numpy(), group["happened"].to_numpy()
-        p = np.mean(1.0 / (1.0 + np.exp(-z)))
+        p = logistic(z).mean()
         if len(z) >= 5 and CLASSES[0] < p < CLASSES[-1]:
-            yield int(np.digitize(p, CLASSES)) - 1, allowed(z, happened, taus)
+            middle, half = np.log(p / (1 - p)), 1.96 * taus
+            width = logistic(middle + half) - logistic(middle - half)
+            yield np.digitize(p, CLASSES) - 1, allowed(z, happened, taus), width
 
 
 def tau_of(frame):
     """The least by which limits hold in each class of P."""
-    classes, holds = map(np.array, zip(*held(frame, TAUS)))
+    classes, holds, _ = map(np.array, zip(*held(frame, TAUS)))
     shares = [holds[classes == k].mean(axis=0) for k in np.unique(classes)]
     return TAUS[np.argmax(np.min(shares, axis=0) >= LEAST)]
 
 
+def of_records_left_out(surface, event, cases, mw=pl.col("mw")):
+    """Cases with z of all structures together, each earthquake of the table by all others."""
+    cases = of.counted(event, cases, LIMIT)
+    parts, judged = (surface.parts(event, "recorded", frame) for frame in (cases, cases.with_columns(mw=mw)))
+    z = left_out(parts, cases["happened"].to_numpy(), cases["cluster"].to_numpy(), WIDE, judged)
+    return cases.with_columns(z=z).filter(~pl.col("motion_id").str.contains("field"))
+
+
 def of_cells_left_out(surface, event, kind, cases, prior):
     """Cases with z: each structure calibrated on half of its clusters and judged on the others, and the other
-    way round; of records all structures together, each earthquake of the table by all others."""
-    cases = of.counted(event, cases, LIMIT)
-    parts = lambda frame: surface.parts(event, kind, frame)
-    known = lambda frame: (parts(frame), frame["happened"].to_numpy())
-    if kind == "recorded":
-        cases = cases.with_columns(z=left_out(*known(cases), cases["cluster"].to_numpy(), WIDE))
-        return cases.filter(~pl.col("motion_id").str.contains("field"))
+    way round."""
     rng, judged = np.random.default_rng(1), []
-    for _, own in cases.group_by("structure", maintain_order=True):
+    for _, own in of.counted(event, cases, LIMIT).group_by("structure", maintain_order=True):
         half = rng.permutation(own["cluster"].unique().sort().to_numpy())[::2]
-        judged.append(own.with_columns(z=left_out(*known(own), own["cluster"].is_in(half.tolist()).to_numpy(), prior)))
+        folds = own["cluster"].is_in(half.tolist()).to_numpy()
+        z = left_out(surface.parts(event, kind, own), own["happened"].to_numpy(), folds, prior)
+        judged.append(own.with_columns(z=z))
     return pl.concat(judged)
 
 
 def priors(surface, event, kind, cases, whole, mean):
     """Sds of c, ln s and m between structures, and tau, which needs all responses of a structure, as in
     `whole`."""
-    of_kind = lambda frame: frame.filter(pl.col("kind") == kind)
-    sd = SD.get(kind)
-    if sd is None:
-        groups = of.counted(event, of_kind(cases), LIMIT).partition_by("structure")
-        known = [(surface.parts(event, kind, group), group["happened"].to_numpy()) for group in groups]
-        sd = spread(known, mean)
-    return *sd, tau_of(of_cells_left_out(surface, event, kind, of_kind(whole), np.array([*mean, *sd])))
+    if kind == "recorded":
+        return *SD, tau_of(of_records_left_out(surface, event, whole))
+    groups = of.counted(event, cases.filter(kind=kind), LIMIT).partition_by("structure")
+    sd = spread([(surface.parts(event, kind, group), group["happened"].to_numpy()) for group in groups], mean)
+    prior = np.array([*mean, *sd])
+    return *sd, tau_of(of_cells_left_out(surface, event, kind, whole.filter(kind=kind), prior))
 
 
 def peak_lines(motions):
@@ -123,7 +131,8 @@ def peak_lines(motions):
 
 def magnitude_line(motions, low, high):
     """M on ln(PGV/PGA)."""
-    ratio, mw = np.log(motions["pgv_m_s"] / motions["pga_m_s2"]).to_numpy(), motions["mw"].clip(low, high).to_numpy()
+    ratio = np.log(motions["pgv_m_s"] / motions["pga_m_s2"]).to_numpy()
+    mw = motions["mw"].clip(low, high).to_numpy()
     slope, intercept = np.polyfit(ratio, mw, 1)
     return intercept, slope, np.std(mw - intercept - slope * ratio), low, high
 
@@ -131,14 +140,15 @@ def magnitude_line(motions, low, high):
 def main():
     out, motions, study, records_responses, *files = sys.argv[1:]
     recorded = of.read([records_responses]).filter(pl.col("scale").is_in(of.FITTED))
-    cases, whole = of.read(files, 0.15), pl.concat([of.read([study]), recorded])
+    cases, study = of.read(files, 0.15), of.read([study])
     synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
     of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")
-    motions_of = {kind: synthetic.filter(pl.col("suite") == kind) for kind in KINDS} | {"recorded": of_records}
+    motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS} | {"recorded": of_records}
     lines = HEAD.format(
         structures=cases["structure"].n_unique(), motions=cases["motion_id"].n_unique(), cases=len(cases),
         records=len(of_records), earthquakes=recorded["cluster"].n_unique()).splitlines()  # fmt: skip
-    put = lambda words, values, form: lines.append(",".join([*words, *(format(value, form) for value in values)]))
+    texts = lambda values, form: [format(value, form) for value in values]
+    put = lambda words, values, form: lines.append(",".join(words + texts(values, form)))
     of_im5 = np.quantile(cases["im5"], [0.001, 0.999])
     for name, ends in (DOMAIN | {"im4": (1.0, MOST_IM4), "im5": of_im5}).items():
         put(["domain", name], ends, ".4g")
@@ -155,8 +165,9 @@ def main():
     surface = Surface(lines)
     for event, kind in found:
         *mean, h = found[event, kind][1]
-        own = recorded if kind == "recorded" else cases
-        put(["calibration", kind, event], (*mean, *priors(surface, event, kind, own, whole, mean), h), ".3f")
+        whole = recorded if kind == "recorded" else study
+        prior = (*mean, *priors(surface, event, kind, cases, whole, mean), h)
+        put(["calibration", kind, event], prior, ".3f")
     with open(out, "w") as file:
         file.write("\n".join(lines) + "\n")
 

@@ -13,7 +13,8 @@ BOTH = ["1", "x", "w", "x^2", "eta", "p", "x*p", "x*eta", "x*r^2", "w^3"]
 TERMS = {"pro": [*BOTH, "r^2", "r^3"], "pex": [*BOTH, "limit", "end", "x*w", "x^2*r", "eta*p"]}
 # Of synthetic motions alone: under recorded ones these cost .002 of the score on earthquakes left out.
 SYNTHETIC = {"pro": ["x*w", "x^2*eta", "eta*p"], "pex": ["r^2", "x^2*eta"]}
-DOMAIN = {"p": (0.4, 8.0), "eta": (0.7, 0.999), "alpha": (0.04, 0.5), "limit": (0.02, 0.9), "ratio": (1.0, 45.0)}
+DOMAIN = {"p": (0.4, 8.0), "eta": (0.7, 0.999), "alpha": (0.04, 0.5)}
+DOMAIN |= {"limit": (0.02, 0.9), "ratio": (1.0, 45.0)}
 MOST_IM4 = 18.61
 # The limit state at which P_ex is calibrated; at that of P_ro its features are 0.
 LIMIT, NO_LIMIT = 0.1, 0.2
@@ -34,10 +35,12 @@ def features():
 
 def design(terms, cases):
     """Returns the n x k matrix of the functions at n cases."""
-    known = cases.select(**features())
-    powers = lambda term: (factor.partition("^") for factor in term.split("*") if factor != "1")
-    product = lambda term: reduce(mul, (known[name].to_numpy() ** int(k or 1) for name, _, k in powers(term)), 1.0)
-    return np.stack([np.broadcast_to(product(term), len(cases)) for term in terms], axis=1)
+    known, columns = cases.select(**features()), []
+    for term in terms:
+        powers = [factor.partition("^") for factor in term.split("*") if factor != "1"]
+        product = reduce(mul, (known[name].to_numpy() ** int(power or 1) for name, _, power in powers), 1.0)
+        columns.append(np.broadcast_to(product, len(cases)))
+    return np.stack(columns, axis=1)
 
 
 def uplift(cases, numbers):
