@@ -173,6 +173,17 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
             one("cm.csv", &table("pgv_m_s,AFE", |a| format!("{},{}", 60.0 * a, rate(a)))),
             vec!["cm.csv", "cm/s"],
         ),
+        (
+            one("month.csv", &table("pga_g,monthly_rate", |a| format!("{a},{}", rate(a)))),
+            vec!["monthly_rate"],
+        ),
+        (one("ten.csv", &table("pga_g,rate per 10 years", |a| format!("{a},{}", rate(a)))), vec!["10 years"]),
+        (one("up.csv", &table("vertical PGA (g),AFE", |a| format!("{a},{}", rate(a)))), vec!["vertical"]),
+        (one("sites.csv", "site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n"), vec!["several sites"]),
+        (
+            one("tr.csv", "pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n"),
+            vec!["line 4", "contradict"],
+        ),
         (one("up.csv", "pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n"), vec!["up.csv", "point 1"]),
         (
             vec![

@@ -96,7 +96,7 @@ fn the_width_for_a_target_meets_it() {
         assert!((p / 0.01 - 1.0).abs() < 0.01, "{of} {p} at {width}");
     }
     assert!(number(row, "target_width_m") > 0.3);
-    let none = &rows(here, &format!("--width 0.2 --height 2.2 --target 1e-9 {HAZARD}"))[0];
+    let none = &rows(here, &format!("--width 0.2 --height 2.2 --target 1e-7% {HAZARD}"))[0];
     assert!(none["target_width_m"].is_null());
     fail(here, &format!("evaluate --width 0.2 --height 2.2 --target 5 {HAZARD}"), 2, &["--target", "1%"]);
 }
@@ -161,6 +161,17 @@ fn slips_are_named() {
     refused("--eta-sd 8", &["eta-sd"]);
     refused("--beam-mass-ratio 2 --depth 1", &["depth"]);
     refused("--beam-mass-ratio 50", &["beam-mass-ratio", "50"]);
+    refused("--target 0.5", &["--target", "percent"]);
+    refused("--pga 0.4 --pgv 0.5", &["--pga", "--hazard"]);
+    for (list, named) in [
+        ("name,width (m),width (cm),height\na,0.5,50,2\n", "twice"),
+        ("name,width\",height\"\na,20,75\n", "cm"),
+        ("name,width,height,level (m)\na,0.5,2,3\n", "level"),
+        ("name,width,height\n", "rows"),
+    ] {
+        std::fs::write(here.join("list.csv"), list).unwrap();
+        fail(here, &format!("evaluate --structures list.csv {HAZARD}"), 1, &["list.csv", named]);
+    }
     let squat = succeed(here, &format!("evaluate --width 1.6 --height 2 --centre-height 0.4 {HAZARD}")).0;
     assert!(squat.contains("squat"), "{squat}");
 }

@@ -105,7 +105,9 @@ impl Predicted for TreeRow {
 pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
-        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
+        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
+            all.iter().map(|answer| unanswered(answer, &answer.row.warnings)).collect()
+        }
         [answer] => of_one(answer),
         [worst, ..] => of_several(worst, all),
     };

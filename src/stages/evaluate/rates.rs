@@ -113,7 +113,9 @@ impl Predicted for RatesRow {
 pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<Target>, sentence: bool) -> String {
     let text = match all {
         [] => String::new(),
-        [answer] if answer.object.p_rad_s.is_none() => unanswered(answer, &answer.row.warnings),
+        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
+            all.iter().map(|answer| unanswered(answer, &answer.row.warnings)).collect()
+        }
         [answer] => of_one(answer, site, target),
         [worst, ..] => of_several(worst, all, site, target),
     };
@@ -149,12 +151,13 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
         format!("Width for {target} {}: {}; {} by the upper limit.\n", in_years(rates), by[0], by[1])
     });
     format!(
-        "{}: {}\n{}{}{widths}By {}.\n{}\n",
+        "{}: {}\n{}{}{widths}By {}{}.\n{}\n",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),
         about_limits(answer, site),
         model(object),
+        usual_motion(site),
         validity(object)
     )
 }
@@ -212,12 +215,13 @@ fn of_several(
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
     format!(
-        "{} overturns most often: {}\n{table}{}{}Rates a year, by {}. Below its friction an object slides instead.{}\n",
+        "{} overturns most often: {}\n{table}{}{}Rates a year, by {}{}. Below its friction an object slides instead.{}\n",
         worst.object.structure,
         how_often.trim_start_matches("overturns "),
         of_all(all).unwrap_or_default(),
         about_limits(worst, site),
         model_of_all(all),
+        usual_motion(site),
         linear(all.iter().map(|answer| &answer.object)),
     )
 }
@@ -244,6 +248,21 @@ fn about_limits(answer: &Answer<RatesRow>, site: &Site) -> String {
     let parts = [unknown, without, extrapolated(&answer.row).map(|text| format!("{text}."))];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     if parts.is_empty() { String::new() } else { parts.join(" ") + "\n" }
+}
+
+/// The motion that codes design for, by the curve: who knows the site sees a wrong unit or column by it.
+fn usual_motion(site: &Site) -> String {
+    let Hazard::Curve(PeakHazard { peak, curve, .. }) = &site.hazard else { return String::new() };
+    let intensity = curve.intensity(1.0 / 475.0);
+    let years = count((1.0 / curve.exceedance(intensity)).round() as usize);
+    format!("; {} {} once in {years} years", peak.to_string().to_uppercase(), with_unit(*peak, intensity))
+}
+
+fn with_unit(peak: Peak, intensity: f64) -> String {
+    match peak {
+        Peak::Pga => format!("{} g", significant(intensity / G_M_S2, 2)),
+        Peak::Pgv => format!("{} m/s", significant(intensity, 2)),
+    }
 }
 
 fn not_in_limits(site: &Site, before: &str) -> String {
@@ -275,12 +294,9 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
             let end = match &site.hazard {
                 Hazard::Curve(PeakHazard { peak, curve, .. }) => {
                     let [_, (last, rate)] = curve.ends();
-                    let last = match peak {
-                        Peak::Pga => format!("{} g", significant(last / G_M_S2, 3)),
-                        Peak::Pgv => format!("{} m/s", significant(last, 3)),
-                    };
                     format!(
-                        ": the curve ends at {last} (once in {} years)",
+                        ": the curve ends at {} (once in {} years)",
+                        with_unit(*peak, last),
                         count((1.0 / rate).round() as usize)
                     )
                 }

@@ -11,7 +11,7 @@ use crate::number::Limited;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::Object;
 
-/// A probability of overturning in the time of exposure: 1% or 0.01.
+/// A probability of overturning in the time of exposure, such as 1%.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target(pub f64);
 
@@ -19,10 +19,9 @@ impl FromStr for Target {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Target, String> {
-        let (number, size) = text.strip_suffix('%').map_or((text, 1.0), |share| (share.trim_end(), 0.01));
-        match number.parse::<f64>().map(|number| size * number) {
-            Ok(target) if target > 0.0 && target < 1.0 => Ok(Target(target)),
-            _ => Err("expected a probability in --years, such as 1% or 0.01".to_string()),
+        match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
+            Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(Target(0.01 * percent)),
+            _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
         }
     }
 }
