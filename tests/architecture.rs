@@ -187,8 +187,12 @@ fn columns_of_rows() -> BTreeSet<String> {
         let bodies = rows.filter_map(|row| row.split_once(" {\n")?.1.split("\n}").next());
         let lines =
             bodies.flat_map(|body| body.lines().map(str::trim).filter(|line| !line.starts_with("//")));
-        let names = lines.filter_map(|line| Some(line.trim_start_matches("pub ").split_once(": ")?.0));
-        names.map(str::to_string).collect()
+        let columns = |(name, kind): (&str, &str)| {
+            let ends: &[&str] = if kind == "Limited," { &["", "_low", "_high"] } else { &[""] };
+            ends.iter().map(|end| format!("{name}{end}")).collect::<Vec<_>>()
+        };
+        let fields = lines.filter_map(|line| line.trim_start_matches("pub ").split_once(": "));
+        fields.flat_map(columns).collect()
     };
     texts.flat_map(fields).collect()
 }

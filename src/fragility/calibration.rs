@@ -1,11 +1,12 @@
-//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, L the logit of the
-//! surface, M the magnitude and g what makes P go to 0 at uplift. c, s and m are estimated from the responses
-//! of one structure to one suite of motions; without responses they are those of the kind of motion.
+//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, L the logit of
+//! the surface, M the magnitude and g what makes P go to 0 at uplift. c, s and m are estimated from the
+//! responses of one structure to one suite of motions; without responses they are those of the kind of
+//! motion.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event, grouped};
+use super::cases::{Cases, Event, Sample, grouped};
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Kind, Predictor, Prior, predictor};
 use super::tree::{Probability, Z_95};
@@ -109,16 +110,12 @@ impl Calibration {
         let kind = Kind::of_word(cases.suite.as_deref());
         let prior = surface::prior(kind, limit_state);
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
-        let sample = Sample::of(cases, &shipped);
-        let (at, covariance) = sample.maximum(&prior);
-        let (pga, pgv) = (sample.of_cases(&cases.pga_m_s2), sample.of_cases(&cases.pgv_m_s));
-        let ratio: Vec<f64> = pga.iter().zip(&pgv).map(|(pga, pgv)| pgv / pga).collect();
-        let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] = [pga, pgv, ratio].map(ends);
-        let own = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s);
-        let numbers = |of: fn(&JointPeaks) -> RatioGiven| own.as_ref().map(|own| of(own).to_numbers());
-        let expected = sample.predictors.iter().map(|of| logistic(shipped.calibrated(of))).sum();
-        let ratio_given_pga = numbers(|peaks| peaks.given_pga).unwrap_or(shipped.ratio_given_pga);
-        let ratio_given_pgv = numbers(|peaks| peaks.given_pgv).unwrap_or(shipped.ratio_given_pgv);
+        let sample = observed(cases, &shipped);
+        let (at, covariance) = maximum(&sample, &prior);
+        let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] =
+            [0, 1, 2].map(|k| ends(sample.y.iter().map(|case| case.peaks[k])));
+        let peaks = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s).unwrap_or(surface::peaks(kind));
+        let expected = sample.y.iter().map(|case| logistic(shipped.calibrated(&case.predictor))).sum();
         let mut clusters = sample.clusters.clone();
         clusters.sort_unstable();
         clusters.dedup();
@@ -128,8 +125,8 @@ impl Calibration {
             ln_s: at[1],
             m: at[2],
             covariance: covariance.as_slice().to_vec(),
-            n: sample.predictors.len() as i64,
-            n_events: sample.events.iter().filter(|event| **event).count() as i64,
+            n: sample.y.len() as i64,
+            n_events: sample.y.iter().filter(|case| case.happened).count() as i64,
             expected,
             n_clusters: clusters.len() as i64,
             pga_low,
@@ -138,14 +135,13 @@ impl Calibration {
             pgv_high,
             ratio_low,
             ratio_high,
-            ratio_given_pga,
-            ratio_given_pgv,
+            ratio_given_pga: peaks.given_pga.to_numbers(),
+            ratio_given_pgv: peaks.given_pgv.to_numbers(),
             ..shipped
         }
     }
 
-    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is
-    /// missing.
+    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is missing.
     pub fn predictor(
         &self,
         structure: &Structure,
@@ -155,33 +151,35 @@ impl Calibration {
         predictor(self.kind, structure, measures, mw, self.limit_state)
     }
 
-    fn calibrated(&self, of: &Predictor) -> f64 {
-        self.c + self.ln_s.exp() * of.logit + self.m * self.magnitude(of) + of.added
+    fn calibrated(&self, motion: &Predictor) -> f64 {
+        self.c + self.ln_s.exp() * motion.logit + self.m * self.magnitude(motion) + motion.added
     }
 
     /// M - 6.9. That which PGV / PGA tells does not count where P falls with it: P never falls as PGV rises.
-    fn magnitude(&self, of: &Predictor) -> f64 {
-        if self.m < 0.0 && of.magnitude_sd > 0.0 { of.middle } else { of.magnitude }
+    fn magnitude(&self, motion: &Predictor) -> f64 {
+        if self.m < 0.0 && motion.magnitude_sd > 0.0 { motion.middle } else { motion.magnitude }
     }
 
     /// Computes the calibrated probability, with 95 % limits: those of c + s L + m (M - 6.9) by the delta
     /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
-    pub fn probability(&self, of: &Predictor, scenarios: Scenarios) -> Probability {
-        let by_parameters = [1.0, self.ln_s.exp() * of.logit, self.magnitude(of)];
+    pub fn probability(&self, motion: &Predictor, scenarios: Scenarios) -> Probability {
+        let by_parameters = [1.0, self.ln_s.exp() * motion.logit, self.magnitude(motion)];
         let between = match scenarios {
-            Scenarios::One => self.tau.hypot(self.m * of.magnitude_sd),
+            Scenarios::One => self.tau.hypot(self.m * motion.magnitude_sd),
             Scenarios::Many => 0.0,
         };
         let half_width = Z_95 * variance(&self.covariance, &by_parameters).sqrt().hypot(between);
-        let z = self.calibrated(of);
-        let [value, low, high] = [z, z - half_width, z + half_width].map(logistic);
-        Probability { value, low, high }
+        let z = self.calibrated(motion);
+        Probability::with_limits(half_width, |shift| logistic(z + shift))
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
-    pub fn peaks(&self) -> Option<JointPeaks> {
-        let given_pga = RatioGiven::of_numbers(&self.ratio_given_pga)?;
-        Some(JointPeaks { given_pga, given_pgv: RatioGiven::of_numbers(&self.ratio_given_pgv)? })
+    pub fn peaks(&self) -> JointPeaks {
+        let of_kind = surface::peaks(self.kind);
+        JointPeaks {
+            given_pga: RatioGiven::of_numbers(&self.ratio_given_pga).unwrap_or(of_kind.given_pga),
+            given_pgv: RatioGiven::of_numbers(&self.ratio_given_pgv).unwrap_or(of_kind.given_pgv),
+        }
     }
 
     /// What speaks against it as a whole; nothing where it is that of a kind of motion.
@@ -200,8 +198,7 @@ impl Calibration {
     /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
-        let unit = structure.uplift_acceleration_m_s2();
-        let (pga, pgv) = (measures.im4 * unit, measures.im5 * unit / structure.p_rad_s);
+        let [pga, pgv] = measures.peaks(structure);
         let ranges = [
             (pga, self.pga_low, self.pga_high),
             (pgv, self.pgv_low, self.pgv_high),
@@ -218,92 +215,85 @@ fn logistic(z: f64) -> f64 {
 }
 
 /// Least and largest value; none without values.
-fn ends(values: Vec<f64>) -> (Option<f64>, Option<f64>) {
-    (values.iter().copied().reduce(f64::min), values.into_iter().reduce(f64::max))
+fn ends(values: impl Iterator<Item = f64> + Clone) -> (Option<f64>, Option<f64>) {
+    (values.clone().reduce(f64::min), values.reduce(f64::max))
 }
 
-/// The responses that count, with what the surface says of them.
-struct Sample {
-    cases: Vec<usize>,
-    predictors: Vec<Predictor>,
-    events: Vec<bool>,
-    clusters: Vec<u32>,
+/// A response that counts.
+struct Observed {
+    /// What the surface says of it.
+    predictor: Predictor,
+    happened: bool,
+    /// PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motion.
+    peaks: [f64; 3],
 }
 
-impl Sample {
-    fn of(cases: &Cases, shipped: &Calibration) -> Sample {
-        let limit_state = shipped.limit_state;
-        let event = if limit_state.is_some() { Event::Exceeding } else { Event::Overturning };
-        let mut sample = Sample { cases: vec![], predictors: vec![], events: vec![], clusters: vec![] };
-        for case in 0..cases.len() {
-            let happened = cases.happened(case, event, limit_state.unwrap_or(f64::INFINITY));
-            let mw = cases.magnitude(case);
-            let predictor = shipped.predictor(&cases.structure, &cases.measures(case), mw);
-            let predictor = predictor.filter(|of| of.logit.is_finite() && of.added.is_finite());
-            let Some((event, predictor)) = happened.zip(predictor) else { continue };
-            sample.cases.push(case);
-            sample.predictors.push(predictor);
-            sample.events.push(event);
-            sample.clusters.push(cases.cluster[case]);
+fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
+    let (event, limit_state) = match shipped.limit_state {
+        Some(limit_state) => (Event::Exceeding, limit_state),
+        None => (Event::Overturning, f64::INFINITY),
+    };
+    cases.sample(&[], |case| {
+        let happened = cases.happened(case, event, limit_state)?;
+        let mw = cases.magnitude(case);
+        let predictor = shipped.predictor(&cases.structure, &cases.measures(case), mw)?;
+        let (pga, pgv) = (cases.pga_m_s2[case], cases.pgv_m_s[case]);
+        let is_finite = predictor.logit.is_finite() && predictor.added.is_finite();
+        is_finite.then_some(Observed { predictor, happened, peaks: [pga, pgv, pgv / pga] })
+    })
+}
+
+/// Finds c, ln s and m of greatest posterior density, and their covariance V. With B the inverse of the
+/// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
+/// clusters of the squares of their scores and P the information of the prior, which counts as one more
+/// cluster.
+fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
+    let found = maximise(|at| log_posterior(&sample.y, prior, at), DVector::from_vec(prior.mean.to_vec()));
+    let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
+    let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
+    let slopes: Vec<f64> = sample.y.iter().map(|case| s * case.predictor.logit).collect();
+    let magnitudes: Vec<f64> = sample.y.iter().map(|case| case.predictor.magnitude).collect();
+    let score = |Observed { predictor, happened, .. }: &Observed| {
+        let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
+        f64::from(u8::from(*happened)) - logistic(z)
+    };
+    let scores: Vec<f64> = sample.y.iter().map(score).collect();
+    let (clustered, _) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &sample.clusters);
+    let of_prior = DMatrix::from_diagonal(&information(prior));
+    let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
+    (found.at, covariance.unwrap_or(bread))
+}
+
+/// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum of
+/// y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second derivatives
+/// are not those of a maximum, their expectation stands for them.
+fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Objective {
+    let s = at[1].exp();
+    let terms = |case: usize, sum: &mut Objective| {
+        let Observed { predictor, happened, .. } = &cases[case];
+        let by = [1.0, s * predictor.logit, predictor.magnitude];
+        let z = at[0] + by[1] + at[2] * by[2] + predictor.added;
+        let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });
+        let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
+        sum.value -= softplus(-sign * z);
+        for row in 0..3 {
+            sum.gradient[row] += score * by[row];
+            (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
         }
-        sample
+    };
+    let mut sum = Objective::sum(cases.len(), 3, terms);
+    let away = at - DVector::from_vec(prior.mean.to_vec());
+    let precision = information(prior);
+    let bend = sum.gradient[1];
+    sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
+    sum.gradient -= away.component_mul(&precision);
+    sum.information += DMatrix::from_diagonal(&precision);
+    let mut observed = sum.information.clone();
+    observed[(1, 1)] -= bend;
+    if observed.clone().cholesky().is_some() {
+        sum.information = observed;
     }
-
-    fn of_cases(&self, column: &[f64]) -> Vec<f64> {
-        self.cases.iter().map(|&case| column[case]).collect()
-    }
-
-    /// Finds c, ln s and m of greatest posterior density, and their covariance V. With B the inverse of the
-    /// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
-    /// clusters of the squares of their scores and P the information of the prior, which counts as one more
-    /// cluster.
-    fn maximum(&self, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
-        let found = maximise(|at| self.log_posterior(prior, at), DVector::from_vec(prior.mean.to_vec()));
-        let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
-        let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
-        let slopes: Vec<f64> = self.predictors.iter().map(|of| s * of.logit).collect();
-        let magnitudes: Vec<f64> = self.predictors.iter().map(|of| of.magnitude).collect();
-        let score = |(of, event): (&Predictor, &bool)| {
-            f64::from(u8::from(*event)) - logistic(c + s * of.logit + m * of.magnitude + of.added)
-        };
-        let scores: Vec<f64> = self.predictors.iter().zip(&self.events).map(score).collect();
-        let (clustered, _) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &self.clusters);
-        let of_prior = DMatrix::from_diagonal(&information(prior));
-        let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
-        (found.at, covariance.unwrap_or(bread))
-    }
-
-    /// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the
-    /// sum of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
-    /// derivatives are not those of a maximum, their expectation stands for them.
-    fn log_posterior(&self, prior: &Prior, at: &DVector<f64>) -> Objective {
-        let s = at[1].exp();
-        let terms = |case: usize, sum: &mut Objective| {
-            let of = &self.predictors[case];
-            let by = [1.0, s * of.logit, of.magnitude];
-            let z = at[0] + by[1] + at[2] * by[2] + of.added;
-            let (p, sign) = (logistic(z), if self.events[case] { 1.0 } else { -1.0 });
-            let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
-            sum.value -= softplus(-sign * z);
-            for row in 0..3 {
-                sum.gradient[row] += score * by[row];
-                (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
-            }
-        };
-        let mut sum = Objective::sum(self.predictors.len(), 3, terms);
-        let away = at - DVector::from_vec(prior.mean.to_vec());
-        let precision = information(prior);
-        let bend = sum.gradient[1];
-        sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
-        sum.gradient -= away.component_mul(&precision);
-        sum.information += DMatrix::from_diagonal(&precision);
-        let mut observed = sum.information.clone();
-        observed[(1, 1)] -= bend;
-        if observed.clone().cholesky().is_some() {
-            sum.information = observed;
-        }
-        sum
-    }
+    sum
 }
 
 /// The information of the prior on c, ln s and m.

@@ -31,14 +31,16 @@ pub fn limit_states_at(
     mw: Option<f64>,
     scenarios: Scenarios,
 ) -> [Probability; 3] {
-    let of = |(structure, model): &(Structure, Model)| {
+    let in_direction = |(structure, model): &(Structure, Model)| {
         let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
         let probabilities = model.probabilities(structure, &measures, mw, scenarios);
         let rocking = Probability::exact(1.0 - probabilities.p_nr);
         probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
     };
-    let either = |a: [Probability; 3], b: [Probability; 3]| [0, 1, 2].map(|k| a[k].or(b[k]));
-    directions.iter().map(of).reduce(either).unwrap_or([Probability::exact(0.0); 3])
+    let either = |a: [Probability; 3], b: [Probability; 3]| {
+        [0, 1, 2].map(|state| a[state].zip(b[state], |a, b| a + b - a * b))
+    };
+    directions.iter().map(in_direction).reduce(either).unwrap_or([Probability::exact(0.0); 3])
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
@@ -70,9 +72,7 @@ impl GivenPeak<'_> {
             let peaks = self.peaks(intensity, node);
             let states = limit_states_at(self.directions, peaks, self.mw, scenarios);
             for (sum, state) in mean.iter_mut().zip(states) {
-                sum.value += weight * state.value;
-                sum.low += weight * state.low;
-                sum.high += weight * state.high;
+                *sum = sum.zip(state, |sum, p| sum + weight * p);
             }
         }
         mean
@@ -103,16 +103,13 @@ impl GivenPeak<'_> {
 
     /// PGA at which a probability jumps, m/s2, rising.
     fn jumps_of_pga(&self) -> Vec<f64> {
-        let of = |(structure, model): &(Structure, Model)| {
-            let transitions: Vec<f64> = match model {
-                Model::Paper { demand, .. } => demand.iter().filter_map(|fit| fit.range_low).collect(),
-                Model::Calibrated { .. } => Vec::new(),
-            };
+        let jumps = |(structure, model): &(Structure, Model)| {
+            let demand = if let Model::Paper { demand, .. } = model { &demand[..] } else { &[] };
+            let transitions = demand.iter().filter_map(|fit| fit.range_low).filter(|&im4| im4 > 1.0);
             let [uplift, _] = model.uplift_m_s2(structure);
-            let levels = std::iter::once(1.0).chain(transitions.into_iter().filter(|&im4| im4 > 1.0));
-            levels.map(move |im4| im4 * uplift)
+            std::iter::once(1.0).chain(transitions).map(|im4| im4 * uplift).collect::<Vec<f64>>()
         };
-        let mut all: Vec<f64> = self.directions.iter().flat_map(of).collect();
+        let mut all: Vec<f64> = self.directions.iter().flat_map(jumps).collect();
         all.sort_by(f64::total_cmp);
         all
     }
@@ -150,8 +147,8 @@ impl GivenPeak<'_> {
     fn edges(&self, pgv_m_s: f64) -> Vec<f64> {
         let ln_ratio = |z| (self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]).ln();
         let (median, sd) = (ln_ratio(0.0), ln_ratio(1.0) - ln_ratio(0.0));
-        let of_pga = |pga: f64| ((pgv_m_s / pga).ln() - median) / sd;
-        let jumps = self.jumps_of_pga().into_iter().map(of_pga).map(|z| z.clamp(-FARTHEST, FARTHEST));
+        let deviations = |pga: f64| (((pgv_m_s / pga).ln() - median) / sd).clamp(-FARTHEST, FARTHEST);
+        let jumps = self.jumps_of_pga().into_iter().map(deviations);
         // Those with less PGA than uplifts the structure, behind the last, do not count.
         let mut edges: Vec<f64> = std::iter::once(-FARTHEST).chain(jumps).collect();
         edges.sort_by(f64::total_cmp);

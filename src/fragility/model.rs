@@ -18,7 +18,7 @@ use crate::warning::Warning;
 #[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
-    Calibrated { overturning: Calibration, exceeding: Calibration, peaks: JointPeaks, floor: Option<Floor> },
+    Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
@@ -32,7 +32,6 @@ impl Model {
         Model::Calibrated {
             overturning: Calibration::shipped(kind, structure, None),
             exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
-            peaks: surface::peaks(kind),
             floor: None,
         }
     }
@@ -40,8 +39,8 @@ impl Model {
     /// The same on a floor; none of the paper's model, which is fitted to the ground.
     pub fn on(&self, floor: Option<Floor>) -> Option<Model> {
         match (self.clone(), floor) {
-            (Model::Calibrated { overturning, exceeding, peaks, .. }, floor) => {
-                Some(Model::Calibrated { overturning, exceeding, peaks, floor })
+            (Model::Calibrated { overturning, exceeding, .. }, floor) => {
+                Some(Model::Calibrated { overturning, exceeding, floor })
             }
             (model, None) => Some(model),
             (Model::Paper { .. }, Some(_)) => None,
@@ -62,26 +61,20 @@ impl Model {
                 return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
             }
         };
+        let calibrations = [overturning, exceeding];
         // Magnitude is that of the ground's motion, whatever a floor makes of it.
-        let of_ground = |calibration: &Calibration| calibration.predictor(structure, measures, mw);
-        let of_ground = [of_ground(overturning), of_ground(exceeding)];
+        let of_ground = calibrations.map(|calibration| calibration.predictor(structure, measures, mw));
         let given = |measures: &IntensityMeasures, added: [f64; 2]| {
+            let probability = |k: usize| {
+                let Predictor { magnitude, magnitude_sd, .. } = of_ground[k]?;
+                let here = calibrations[k].predictor(structure, measures, mw)?;
+                let here = Predictor { magnitude, magnitude_sd, added: here.added + added[k], ..here };
+                Some(calibrations[k].probability(&here, scenarios))
+            };
             Probabilities::new(measures.im4, || {
-                let of = |calibration: &Calibration, of_ground: Option<Predictor>, added: f64| {
-                    let Predictor { magnitude, magnitude_sd, .. } = of_ground?;
-                    let here = calibration.predictor(structure, measures, mw)?;
-                    let here = Predictor { magnitude, magnitude_sd, added: here.added + added, ..here };
-                    Some(calibration.probability(&here, scenarios))
-                };
-                let p_ro = of(overturning, of_ground[0], added[0])?;
-                let p_ex = of(exceeding, of_ground[1], added[1])?;
+                let (p_ro, p_ex) = (probability(0)?, probability(1)?);
                 // What is not known of a structure moves both branches the same way.
-                let p_failure = Probability {
-                    value: p_failure_given_rocking(p_ro.value, p_ex.value),
-                    low: p_failure_given_rocking(p_ro.low, p_ex.low),
-                    high: p_failure_given_rocking(p_ro.high, p_ex.high),
-                };
-                Some(GivenRocking { p_ex, p_ro, p_failure })
+                Some(GivenRocking { p_ex, p_ro, p_failure: p_ro.zip(p_ex, p_failure_given_rocking) })
             })
         };
         match floor {
@@ -115,9 +108,10 @@ impl Model {
     }
 
     /// How PGA and PGV go together in the motions that it stands for.
-    pub fn peaks(&self) -> &JointPeaks {
+    pub fn peaks(&self) -> JointPeaks {
         match self {
-            Model::Calibrated { peaks, .. } | Model::Paper { peaks, .. } => peaks,
+            Model::Calibrated { overturning, .. } => overturning.peaks(),
+            Model::Paper { peaks, .. } => *peaks,
         }
     }
 

@@ -30,7 +30,7 @@ pub(super) fn median_measures(
     structure: &Structure,
     ground: &IntensityMeasures,
 ) -> IntensityMeasures {
-    let [pga, pgv] = peaks_of(structure, ground);
+    let [pga, pgv] = ground.peaks(structure);
     let peaks = floor.peaks(pga, pgv);
     IntensityMeasures::new(structure, peaks.pfa_m_s2, peaks.pfv_m_s, None, None)
 }
@@ -44,7 +44,7 @@ pub(super) fn probabilities(
     limit_state: f64,
     given: impl Fn(&IntensityMeasures, [f64; 2]) -> Probabilities,
 ) -> Probabilities {
-    let [pga, pgv] = peaks_of(structure, ground);
+    let [pga, pgv] = ground.peaks(structure);
     let peaks = floor.peaks(pga, pgv);
     let narrow = (structure.p_rad_s * floor.period_s).ln();
     let [a, b, by_limit] = EXCEEDING;
@@ -65,30 +65,18 @@ pub(super) fn probabilities(
         false => nodes[0].0.p_nr,
     };
     let rocks = 1.0 - p_nr;
-    let mean = |state: usize, of: fn(&Probability) -> f64| -> Option<f64> {
-        let terms = nodes.iter().map(|(node, weight)| Some(weight * of(&node.limit_states()?[state])));
-        Some((terms.sum::<Option<f64>>()? / rocks).min(1.0))
-    };
-    let limited = |state: usize| {
-        let (value, low, high) =
-            (mean(state, |p| p.value)?, mean(state, |p| p.low)?, mean(state, |p| p.high)?);
-        Some(Probability { value, low, high })
+    let mean = |state: usize| {
+        let add = |sum: Probability, (node, weight): &(Probabilities, f64)| {
+            Some(sum.zip(node.limit_states()?[state], |sum, p| sum + weight * p))
+        };
+        let sum = nodes.iter().try_fold(Probability::exact(0.0), add)?;
+        Some(sum.map(|p| (p / rocks).min(1.0)))
     };
     let given_rocking = || {
-        let (p_failure, p_ro) = (limited(1)?, limited(2)?);
-        let safe = |failure: f64, overturning: f64| ((failure - overturning) / (1.0 - overturning)).max(0.0);
-        let p_ex = Probability {
-            value: safe(p_failure.value, p_ro.value),
-            low: safe(p_failure.low, p_ro.low),
-            high: safe(p_failure.high, p_ro.high),
-        };
+        let (p_failure, p_ro) = (mean(1)?, mean(2)?);
+        let p_ex = p_failure
+            .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
         Some(GivenRocking { p_ex, p_ro, p_failure })
     };
     Probabilities { p_nr, given_rocking: if rocks > 0.0 { given_rocking() } else { None } }
-}
-
-/// PGA and PGV (m/s2 and m/s) of measures; PGV 0 where they have none.
-fn peaks_of(structure: &Structure, measures: &IntensityMeasures) -> [f64; 2] {
-    let uplift = structure.uplift_acceleration_m_s2();
-    [measures.im4 * uplift, measures.im5 * uplift / structure.p_rad_s]
 }

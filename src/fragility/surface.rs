@@ -46,7 +46,8 @@ impl Kind {
 pub struct Predictor {
     /// L, the logit of the surface.
     pub logit: f64,
-    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA tells.
+    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
+    /// tells.
     pub magnitude: f64,
     /// The same in the middle of these magnitudes.
     pub middle: f64,
@@ -66,18 +67,17 @@ pub fn predictor(
     limit_state: Option<f64>,
 ) -> Option<Predictor> {
     let im5 = Measure::Im5.value_of(measures)?;
-    let curve = Curve::of(limit_state);
-    let known = SURFACE.of_kind(kind);
-    let expected = known.magnitude;
+    let curve = SURFACE.curve(kind, limit_state);
+    let expected = &SURFACE.kinds[kind as usize].magnitude;
     let [low, high] = expected.range;
     let seconds = im5 / (measures.im4 * structure.p_rad_s);
     let mean = || expected.intercept + expected.slope * seconds.ln();
     Some(Predictor {
-        logit: SURFACE.logit(curve, kind, &features(structure, measures, im5, limit_state)),
+        logit: curve.logit(&features(structure, measures, im5, limit_state)),
         magnitude: mw.unwrap_or_else(mean).clamp(low, high) - REFERENCE_MAGNITUDE,
         middle: 0.5 * (low + high) - REFERENCE_MAGNITUDE,
         magnitude_sd: if mw.is_some() { 0.0 } else { expected.sd },
-        added: known.uplift[curve as usize].gain(measures.im4, im5),
+        added: curve.uplift.gain(measures.im4, im5),
     })
 }
 
@@ -104,20 +104,6 @@ fn is_inside(name: &str, value: f64) -> bool {
     (low * (1.0 - UNSEEN)..=high * (1.0 + UNSEEN)).contains(&value)
 }
 
-/// The probabilities of the surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Curve {
-    Pro,
-    Pex,
-}
-
-impl Curve {
-    /// P_ex has a limit state, P_ro has none.
-    pub(super) fn of(limit_state: Option<f64>) -> Curve {
-        if limit_state.is_some() { Curve::Pex } else { Curve::Pro }
-    }
-}
-
 /// How the calibrations of structures under a kind of motion are distributed: c, ln s and m are normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prior {
@@ -131,15 +117,14 @@ pub(super) struct Prior {
 
 /// The prior of a kind of motion, of P_ex at a limit state.
 pub(super) fn prior(kind: Kind, limit_state: Option<f64>) -> Prior {
-    let mut prior = SURFACE.of_kind(kind).priors[Curve::of(limit_state) as usize];
+    let mut prior = SURFACE.curve(kind, limit_state).prior;
     prior.mean[0] += prior.by_limit * limits(limit_state)[1];
     prior
 }
 
 /// How PGA and PGV go together in the motions of a kind.
 pub(super) fn peaks(kind: Kind) -> JointPeaks {
-    let [given_pga, given_pgv] = SURFACE.of_kind(kind).peaks;
-    JointPeaks { given_pga, given_pgv }
+    SURFACE.kinds[kind as usize].peaks
 }
 
 /// At this magnitude m does not count.
@@ -161,9 +146,9 @@ fn held(name: &str, value: f64) -> f64 {
     value.clamp(low, high)
 }
 
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l, r = ln(PGA / (p PGV)), (eta - 0.85)/0.1, ln(p/2) and
-/// l = ln(c/0.2) of a limit state c, 0 of P_ro. PGA/PGV, p, eta and c are held within the domain, IM4 below
-/// its end: beyond, a polynomial means nothing.
+/// Computes x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l, r = ln(PGA / (p PGV)), (eta - 0.85)/0.1, ln(p/2)
+/// and l = ln(c/0.2) of a limit state c, 0 of P_ro. PGA/PGV, p, eta and c are held within the domain, IM4
+/// below its end: beyond, a polynomial means nothing.
 fn features(
     structure: &Structure,
     measures: &IntensityMeasures,
@@ -180,22 +165,26 @@ fn features(
 /// The file, read.
 struct Surface {
     domain: Vec<(&'static str, [f64; 2])>,
-    terms: Vec<Term>,
     /// Of each kind of motion.
     kinds: [OfKind; 4],
 }
 
-/// What the file says of a kind of motion; of P_ro and P_ex, or given PGA and PGV.
-#[derive(Clone, Copy)]
+/// What the file says of a kind of motion.
 struct OfKind {
     magnitude: ExpectedMagnitude,
-    uplift: [Uplift; 2],
-    priors: [Prior; 2],
-    peaks: [RatioGiven; 2],
+    /// P_ro and P_ex.
+    curves: [Curve; 2],
+    peaks: JointPeaks,
+}
+
+/// A probability under a kind of motion.
+struct Curve {
+    terms: Vec<Term>,
+    uplift: Uplift,
+    prior: Prior,
 }
 
 /// The magnitude of motions, normal about intercept + slope ln(PGV / PGA), s, and the range of the data.
-#[derive(Clone, Copy)]
 struct ExpectedMagnitude {
     intercept: f64,
     slope: f64,
@@ -204,7 +193,6 @@ struct ExpectedMagnitude {
 }
 
 /// How fast a probability rises from uplift on.
-#[derive(Clone, Copy)]
 struct Uplift {
     n: f64,
     d: f64,
@@ -222,75 +210,73 @@ impl Uplift {
 
 /// A product of powers of features.
 struct Term {
-    curve: Curve,
+    coefficient: f64,
     /// Feature and power of each.
     factors: Vec<(usize, i32)>,
-    /// Of each kind of motion.
-    coefficients: [f64; 4],
+}
+
+impl Curve {
+    fn logit(&self, features: &[f64; FEATURES.len()]) -> f64 {
+        let product = |term: &Term| {
+            term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
+        };
+        self.terms.iter().map(|term| term.coefficient * product(term)).sum()
+    }
 }
 
 static SURFACE: LazyLock<Surface> =
     LazyLock::new(|| Surface::parse(include_str!("../../data/universal.csv")));
 
 impl Surface {
-    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
-    /// tests find.
-    fn parse(text: &'static str) -> Surface {
-        let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        let domain = rows_of(&rows, "domain").map(|row| (row[1], numbers(row, 2)));
-        let term = |row: &Vec<&'static str>| Term {
-            curve: if row[1] == "pro" { Curve::Pro } else { Curve::Pex },
-            factors: factors(row[2]),
-            coefficients: numbers(row, 3),
-        };
-        Surface {
-            domain: domain.collect(),
-            terms: rows_of(&rows, "term").map(term).collect(),
-            kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
-                .map(|kind| OfKind::parse(&rows, kind)),
-        }
-    }
-
-    fn of_kind(&self, kind: Kind) -> &OfKind {
-        &self.kinds[kind as usize]
+    /// P_ex has a limit state, P_ro has none.
+    fn curve(&self, kind: Kind, limit_state: Option<f64>) -> &Curve {
+        &self.kinds[kind as usize].curves[usize::from(limit_state.is_some())]
     }
 
     fn range(&self, name: &str) -> [f64; 2] {
         self.domain.iter().find(|(other, _)| *other == name).expect("the domain has it").1
     }
 
-    fn logit(&self, curve: Curve, kind: Kind, features: &[f64; FEATURES.len()]) -> f64 {
-        let product = |term: &Term| {
-            term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
-        };
-        let terms = self.terms.iter().filter(|term| term.curve == curve);
-        terms.map(|term| term.coefficients[kind as usize] * product(term)).sum()
+    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
+    /// tests find.
+    fn parse(text: &'static str) -> Surface {
+        let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+        let domain = rows_of(&rows, "domain").map(|row| (row[1], numbers(row, 2))).collect();
+        let kinds =
+            [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc].map(|kind| OfKind::parse(&rows, kind));
+        Surface { domain, kinds }
     }
 }
 
 impl OfKind {
     fn parse(rows: &[Vec<&'static str>], kind: Kind) -> OfKind {
-        let row = |what: &'static str, of: Option<&str>| {
-            let is_it = |row: &&Vec<&str>| row[1] == kind.as_str() && of.is_none_or(|of| row[2] == of);
+        let row = |what: &'static str, part: Option<&str>| {
+            let is_it = |row: &&Vec<&str>| row[1] == kind.as_str() && part.is_none_or(|part| row[2] == part);
             rows_of(rows, what).find(is_it).expect("each kind has it")
         };
         let [intercept, slope, sd, low, high] = numbers(row("magnitude", None), 2);
+        let curve = |name: &'static str| {
+            let term = |row: &Vec<&str>| Term {
+                coefficient: numbers::<4>(row, 3)[kind as usize],
+                factors: factors(row[2]),
+            };
+            let [n, d, k] = numbers(row("uplift", Some(name)), 3);
+            let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] = numbers(row("calibration", Some(name)), 3);
+            Curve {
+                terms: rows_of(rows, "term").filter(|row| row[1] == name).map(term).collect(),
+                uplift: Uplift { n, d, k },
+                prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
+            }
+        };
+        let ratio_given = |peak: &str| {
+            let six: [f64; 6] = numbers(row("peaks", Some(peak)), 3);
+            RatioGiven::of_numbers(&six).expect("six numbers")
+        };
         OfKind {
             magnitude: ExpectedMagnitude { intercept, slope, sd, range: [low, high] },
-            uplift: ["pro", "pex"].map(|curve| {
-                let [n, d, k] = numbers(row("uplift", Some(curve)), 3);
-                Uplift { n, d, k }
-            }),
-            priors: ["pro", "pex"].map(|curve| {
-                let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
-                    numbers(row("calibration", Some(curve)), 3);
-                Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit }
-            }),
-            peaks: ["pga", "pgv"].map(|peak| {
-                let six: [f64; 6] = numbers(row("peaks", Some(peak)), 3);
-                RatioGiven::of_numbers(&six).expect("six numbers")
-            }),
+            curves: ["pro", "pex"].map(curve),
+            peaks: JointPeaks { given_pga: ratio_given("pga"), given_pgv: ratio_given("pgv") },
         }
     }
 }

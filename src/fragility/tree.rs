@@ -60,20 +60,19 @@ impl Probability {
         Probability { value, low, high }
     }
 
-    /// Of one or the other of two independent events, with errors of the same causes.
-    pub fn or(self, other: Probability) -> Probability {
-        let either = |a: f64, b: f64| a + b - a * b;
-        Probability {
-            value: either(self.value, other.value),
-            low: either(self.low, other.low),
-            high: either(self.high, other.high),
-        }
-    }
-
     /// Applies a rising function to the value and both limits.
-    fn map(self, f: impl Fn(f64) -> f64) -> Probability {
+    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Probability {
         let [value, low, high] = [self.value, self.low, self.high].map(f);
         Probability { value, low, high }
+    }
+
+    /// Joins two probabilities whose errors have the same causes: the values, the low and the high limits.
+    pub(super) fn zip(self, other: Probability, join: impl Fn(f64, f64) -> f64) -> Probability {
+        Probability {
+            value: join(self.value, other.value),
+            low: join(self.low, other.low),
+            high: join(self.high, other.high),
+        }
     }
 
     /// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is

@@ -49,6 +49,12 @@ impl IntensityMeasures {
         }
     }
 
+    /// Computes PGA (m/s2) and PGV (m/s) of the motion from IM4 and IM5.
+    pub fn peaks(&self, structure: &Structure) -> [f64; 2] {
+        let g_tan_alpha = structure.uplift_acceleration_m_s2();
+        [self.im4 * g_tan_alpha, self.im5 * g_tan_alpha / structure.p_rad_s]
+    }
+
     /// Returns those of a motion without periods, of IM4 and IM5: IM3 = IM4 / IM5 (Eq. 13).
     pub fn of_peaks(im4: f64, im5: f64) -> IntensityMeasures {
         let im3 = (im5 > 0.0).then(|| im4 / im5);

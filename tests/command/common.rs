@@ -8,6 +8,7 @@ use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch};
 use parquet::arrow::ArrowWriter;
 use rockfrag::table::provenance::Provenance;
+use serde_json::Value;
 
 /// The command, called in `folder`.
 pub fn rockfrag(folder: &Path, arguments: &str) -> Command {
@@ -37,6 +38,31 @@ pub fn fail(folder: &Path, arguments: &str, code: i32, named: &[&str]) {
     }
 }
 
+/// The rows that a call of evaluate prints as JSON.
+#[track_caller]
+pub fn evaluated(folder: &Path, arguments: &str) -> Vec<Value> {
+    let (printed, _) = succeed(folder, &format!("evaluate {arguments} --format json"));
+    serde_json::from_str(&printed).unwrap()
+}
+
+/// A number of such a row.
+#[track_caller]
+pub fn number(row: &Value, column: &str) -> f64 {
+    row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
+}
+
+/// Whether two numbers are the same but for this share.
+pub fn near(a: f64, b: f64, tolerance: f64) -> bool {
+    (a / b - 1.0).abs() <= tolerance
+}
+
+/// A folder with these files.
+pub fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
+    folder
+}
+
 /// A small run: 12 scenarios, both suites, both structures of the paper.
 pub const SMALL: &str = "\
 seed: 7
@@ -57,9 +83,7 @@ pub const FILES: [&str; 6] = ["scenarios", "motions", "responses", "pex", "pro",
 
 /// A folder with this pipeline file.
 pub fn folder_with(pipeline: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("pipeline.yaml"), pipeline).unwrap();
-    folder
+    folder(&[("pipeline.yaml", pipeline)])
 }
 
 /// A Parquet file as another program might write it.

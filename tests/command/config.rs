@@ -30,7 +30,6 @@ fn mistakes_on_the_command_line_are_named() {
         ("simulate --pp 3", vec!["--pp", "--p"]),
         ("simulate --p 1 --width 2", vec!["--p", "--width"]),
         ("simulate --p 1 --alpha 0.2", vec!["eta"]),
-        ("simulate --p 1 --alpha 20 --eta 0.9", vec!["alpha", "20"]),
         ("simulate --width 2 --height 0.5", vec!["width"]),
         ("simulate --p 1,0 --alpha 0.2 --eta 0.9", vec!["--p"]),
         ("simulate --structures paper --threads 0", vec!["--threads"]),

@@ -1,50 +1,28 @@
 //! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end
 //! early, slips.
 
-use std::path::Path;
-
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
 use rockfrag::warning::Warning;
 use serde_json::Value;
 
-use crate::common::{fail, folder_with, succeed};
+use crate::common::{evaluated, fail, folder, folder_with, near, number, succeed};
 
 const BLOCK: &str = "--width 0.5 --height 2.0";
 /// 1e-3 (PGA / 1 g)^-2 a year.
 const CURVE: &str = "pga_g,annual_rate_of_exceedance\n0.05,0.4\n4.5,4.938271604938e-5\n";
 
-/// The rows that a call of evaluate prints as JSON.
-fn rows(folder: &Path, arguments: &str) -> Vec<Value> {
-    let (printed, _) = succeed(folder, &format!("evaluate {arguments} --format json"));
-    serde_json::from_str(&printed).unwrap()
-}
-
-fn number(row: &Value, column: &str) -> f64 {
-    row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
-}
-
 fn has(row: &Value, warning: Warning) -> bool {
     row["warnings"].as_str().is_some_and(|warnings| warnings.contains(warning.text()))
-}
-
-fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
-    folder
-}
-
-fn near(a: f64, b: f64, tolerance: f64) -> bool {
-    (a / b - 1.0).abs() <= tolerance
 }
 
 #[test]
 fn nothing_rocks_below_uplift_and_probabilities_are_ordered_above() {
     let folder = folder(&[]);
-    let below = &rows(folder.path(), &format!("{BLOCK} --pga 0.24 --pgv 0.5"))[0];
+    let below = &evaluated(folder.path(), &format!("{BLOCK} --pga 0.24 --pgv 0.5"))[0];
     assert_eq!(number(below, "p_nr"), 1.0);
     assert!(below["p_ro"].is_null() && number(below, "p_f") == 0.0);
-    let above = &rows(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
+    let above = &evaluated(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
     let structure = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
     for (column, expected) in [
         ("p_nr", 0.0),
@@ -64,9 +42,10 @@ fn nothing_rocks_below_uplift_and_probabilities_are_ordered_above() {
 #[test]
 fn rates_over_a_power_law_are_those_of_closed_forms() {
     let folder = folder(&[("hazard.csv", CURVE)]);
-    let row =
-        &rows(folder.path(), &format!("{BLOCK} --hazard hazard.csv --ratio 0.1 --years 100 --magnitude 6.5"))
-            [0];
+    let row = &evaluated(
+        folder.path(),
+        &format!("{BLOCK} --hazard hazard.csv --ratio 0.1 --years 100 --magnitude 6.5"),
+    )[0];
     // Rocking: the curve at g tan(alpha) = 0.25 g.
     let rocking = 1e-3 / 0.25_f64.powi(2);
     assert!(near(number(row, "rocking_per_year"), rocking, 1e-9));
@@ -77,7 +56,7 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     let lines = middles.map(|pga| format!("{pga},{},6.5\n", 0.1 * pga * G_M_S2));
     let table = format!("pga_g,pgv_m_s,mw\n{}", lines.collect::<String>());
     std::fs::write(folder.path().join("table.csv"), table).unwrap();
-    let p: Vec<f64> = rows(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
+    let p: Vec<f64> = evaluated(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
         .iter()
         .map(|row| number(row, "p_ro"))
         .collect();
@@ -93,8 +72,8 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
 fn the_rate_of_one_bin_is_its_rate_times_the_probability_in_it() {
     let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.1,0.1,0.05\n";
     let folder = folder(&[("joint.csv", joint)]);
-    let row = &rows(folder.path(), &format!("{BLOCK} --hazard joint.csv"))[0];
-    let point = &rows(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
+    let row = &evaluated(folder.path(), &format!("{BLOCK} --hazard joint.csv"))[0];
+    let point = &evaluated(folder.path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
     assert!(near(number(row, "rocking_per_year"), 0.002, 1e-12));
     assert!(near(number(row, "overturning_per_year"), 0.002 * number(point, "p_ro"), 1e-9));
     assert!(near(number(row, "failure_per_year"), 0.002 * number(point, "p_f_r"), 1e-9));
@@ -108,7 +87,7 @@ fn a_hazard_that_ends_early_gives_bounds_which_hold_what_a_longer_one_gives() {
         ("short.csv", "pga_g,annual_rate_of_exceedance\n0.05,0.4\n0.5,4e-3\n"),
         ("far.csv", "pga_g,annual_rate_of_exceedance\n0.05,0.4\n5,4e-5\n"),
     ]);
-    let evaluate = |arguments: &str| rows(folder.path(), &format!("{BLOCK} {arguments}")).remove(0);
+    let evaluate = |arguments: &str| evaluated(folder.path(), &format!("{BLOCK} {arguments}")).remove(0);
     let (long, short) = (evaluate("--hazard long.csv"), evaluate("--hazard short.csv"));
     assert!(has(&short, Warning::HazardEndsEarly) && short["overturning_per_year"].is_null());
     let truth = number(&long, "overturning_per_year");
@@ -127,7 +106,7 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
     let folder =
         folder(&[("list.csv", list), ("hazard.csv", CURVE), ("bad.csv", "name,width,height\nwrong,3,2\n")]);
     for question in ["--hazard hazard.csv", "--pga 0.5 --pgv 0.5"] {
-        let all = rows(folder.path(), &format!("--structures list.csv {question}"));
+        let all = evaluated(folder.path(), &format!("--structures list.csv {question}"));
         let names: Vec<&str> = all.iter().map(|row| row["structure"].as_str().unwrap()).collect();
         assert_eq!(names, ["shelf", "rack", "wrong", "no height"], "worst first, {question}");
         assert!((number(&all[0], "depth_m") - 0.3).abs() < 1e-12);
@@ -141,27 +120,18 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
 
 #[test]
 fn slips_are_refused_or_warned() {
-    let curve = |factor: f64| {
-        let points = [(0.05, 0.1), (0.1, 0.04), (0.5, 1e-3), (1.0, 2e-4), (3.0, 4e-6)];
-        let line = |(pga, rate): (f64, f64)| format!("{pga},{}\n", rate * factor);
-        format!("pga_g,annual_rate_of_exceedance\n{}", points.map(line).concat())
-    };
     let folder = folder(&[
-        ("hazard.csv", &curve(1.0)),
-        ("percent.csv", &curve(100.0)),
-        ("impossible.csv", &curve(1e300)),
+        ("hazard.csv", CURVE),
+        ("impossible.csv", "pga_g,annual_rate_of_exceedance\n0.05,1e299\n1,2e296\n"),
         ("both.csv", "pga_g,pgv_m_s,p_rad_s,alpha_rad,eta\n0.5,0.6,2.5,0.2,0.92\n"),
         ("sign.csv", "pga_g,annual rate (%)\n0.1,1.8\n1,0.02\n"),
     ]);
     for (arguments, code, named) in [
         (&format!("{BLOCK} --pga 4.9 --pgv 0.6") as &str, 2, vec!["--pga", "4.9", "m/s2"]),
-        (&format!("{BLOCK} --pga 0.5 --pgv 60"), 2, vec!["--pgv", "60", "cm/s"]),
         ("--p 0.2 --alpha 2.5 --eta 0.9 --pga 0.5 --pgv 0.6", 2, vec!["alpha", "2.5", "p"]),
         ("--p 2.5 --alpha 0.2 --eta 92 --pga 0.5 --pgv 0.6", 2, vec!["eta", "92"]),
-        (&format!("{BLOCK} --hazard percent.csv"), 1, vec!["percent.csv", "once in", "no place"]),
         (&format!("{BLOCK} --hazard impossible.csv"), 1, vec!["impossible.csv", "1000"]),
         (&format!("{BLOCK} --hazard sign.csv"), 1, vec!["sign.csv", "1.8"]),
-        (&format!("{BLOCK} --hazard hazard.csv --ratio 12"), 2, vec!["--ratio", "12"]),
         (&format!("{BLOCK} --hazard hazard.csv --pga 0.5 --pgv 0.6"), 2, vec!["--hazard", "--pga"]),
         (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
@@ -171,11 +141,10 @@ fn slips_are_refused_or_warned() {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
     }
     for _ in 0..2 {
-        succeed(folder.path(), "evaluate --in both.csv --out written.csv");
+        succeed(folder.path(), "evaluate --in both.csv --period 0.6 --level 1 --out written.csv");
     }
     let warned = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
-    let plausible = format!("{BLOCK} --hazard hazard.csv");
-    assert_eq!(warned(&plausible), "");
+    assert_eq!(warned(&format!("{BLOCK} --hazard hazard.csv")), "");
     let low = "--p 2.5 --alpha 0.2 --eta 0.09 --pga 0.5 --pgv 0.6";
     assert!(warned(low).contains(Warning::LowRestitution.text()));
     assert_eq!(warned(&format!("{low} --quiet")), "");
@@ -200,17 +169,13 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
     assert_eq!(again.0, printed, "what is up to date is printed as before");
     assert!(again.1.lines().all(|line| !line.ends_with(" s")), "nothing runs again: {}", again.1);
     let cabinet = "--structure name=cabinet,width=0.8,height=2.2";
-    let row = &rows(
-        folder.path(),
-        &format!("--fits out {cabinet} --hazard hazard.csv --responses out/responses.parquet"),
-    )[0];
+    let counted = format!("--fits out {cabinet} --hazard hazard.csv --responses out/responses.parquet");
+    let row = &evaluated(folder.path(), &counted)[0];
     let [low, value, high] = ["counted_per_year_low", "counted_per_year", "counted_per_year_high"]
         .map(|column| number(row, column));
     assert!(low <= value && value <= high);
-    assert!(
-        row["model"].as_str().unwrap().contains("60 responses") || number(row, "counted_motions") <= 60.0
-    );
-    let all = rows(folder.path(), "--fits out --hazard hazard.csv");
+    assert!(number(row, "counted_motions") <= 60.0);
+    let all = evaluated(folder.path(), "--fits out --hazard hazard.csv");
     assert_eq!(all.len(), 1, "without a structure, all that are fitted");
     assert!(near(number(&all[0], "overturning_per_year"), number(row, "overturning_per_year"), 1e-12));
     let other = "evaluate --fits out --name cabinet --width 0.4 --height 1.6 --pga 0.8 --pgv 0.9";
@@ -240,7 +205,7 @@ fn an_exported_curve_is_that_of_evaluate_and_rises() {
         let curve = (0..5).map(line).collect::<String>();
         let curve = format!("pga_g,annual_rate_of_exceedance\n{curve}");
         std::fs::write(folder.path().join("one.csv"), curve).unwrap();
-        let row = &rows(folder.path(), &format!("{BLOCK} --hazard one.csv"))[0];
+        let row = &evaluated(folder.path(), &format!("{BLOCK} --hazard one.csv"))[0];
         assert!((1e5 * number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
     }
 }

@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use crate::common::{fail, succeed};
+use crate::common::{evaluated, fail, folder, near, number};
 
-const BLOCK: &str = "evaluate --width 0.5 --height 2.0";
+const BLOCK: &str = "--width 0.5 --height 2.0";
 const PGA_G: [f64; 8] = [0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 4.5];
 
 /// 1e-3 (PGA / 1 g)^-2 a year.
@@ -30,18 +30,18 @@ fn openquake(imt: &str, kind: &str, scale: f64, factor: f64) -> String {
 }
 
 /// The answer for files that are written into a folder under their names.
-fn answer(files: &[(&str, String)], options: &str) -> Value {
-    let folder = written(files);
+#[track_caller]
+fn answer(files: &[(&str, &str)], options: &str) -> Value {
     let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    let call = format!("{BLOCK} --hazard {} --format json {options}", names.join(","));
-    let (printed, _) = succeed(folder.path(), &call);
-    serde_json::from_str::<Vec<Value>>(&printed).unwrap().remove(0)
+    let call = format!("{BLOCK} --hazard {} {options}", names.join(","));
+    evaluated(folder(files).path(), &call).remove(0)
 }
 
-fn written(files: &[(&str, String)]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
-    folder
+#[track_caller]
+fn refused(files: &[(&str, &str)], options: &str, named: &[&str]) {
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    let call = format!("evaluate {BLOCK} --hazard {} {options}", names.join(","));
+    fail(folder(files).path(), &call, 1, named);
 }
 
 #[test]
@@ -67,13 +67,11 @@ fn a_curve_is_the_same_however_agencies_write_it() {
         table("return_period,a_g [g]", |a| format!("{},{a}", 1.0 / rate(a))),
         openquake("PGA", "mean", 1.0, 1.0),
     ];
-    let of = |text: &String| {
-        answer(&[("hazard.csv", text.clone())], "--ratio 0.1")["overturning_per_year"].as_f64()
-    };
-    let expected = of(&files[0]).unwrap();
+    let rate_by =
+        |text: &str| number(&answer(&[("hazard.csv", text)], "--ratio 0.1"), "overturning_per_year");
+    let expected = rate_by(&files[0]);
     for text in &files {
-        let rate = of(text).unwrap_or_else(|| panic!("{text}"));
-        assert!((rate / expected - 1.0).abs() < 1e-6, "{rate} for {expected}: {text}");
+        assert!(near(rate_by(text), expected, 1e-6), "{text}");
     }
 }
 
@@ -82,20 +80,12 @@ fn fractiles_are_a_part_of_the_error() {
     let columns = table("pga_g,AFE,AFE_16,AFE_84", |a| {
         format!("{a},{0},{1},{2}", rate(a), rate(a) / 2.0, rate(a) * 2.0)
     });
-    let kinds = ["mean", "quantile-0.16", "quantile-0.84"];
-    let files = kinds.map(|kind| {
-        openquake(
-            "PGA",
-            kind,
-            1.0,
-            if kind == "mean" { 1.0 } else { 2f64.powf(if kind.contains("84") { 1.0 } else { -1.0 }) },
-        )
-    });
-    let [mean, low, high] = files;
-    for files in [vec![("all.csv", columns)], vec![("mean.csv", mean), ("low.csv", low), ("high.csv", high)]]
+    let [mean, low, high] = [("mean", 1.0), ("quantile-0.16", 0.5), ("quantile-0.84", 2.0)]
+        .map(|(kind, factor)| openquake("PGA", kind, 1.0, factor));
+    for files in
+        [vec![("all.csv", &*columns)], vec![("mean.csv", &*mean), ("low.csv", &*low), ("high.csv", &*high)]]
     {
-        let error = answer(&files, "")["error_hazard"].as_f64().unwrap();
-        assert!((error - 2f64.ln()).abs() < 1e-6, "{error}");
+        assert!(near(number(&answer(&files, ""), "error_hazard"), 2f64.ln(), 1e-6));
     }
 }
 
@@ -104,49 +94,38 @@ fn a_second_curve_tells_pgv_and_narrows_the_limits() {
     let pga = openquake("PGA", "mean", 1.0, 1.0);
     // PGV of 0.6 m/s, and SA(1.0 s) of as much by Newmark & Hall, as often as PGA of 1 g.
     let (pgv, sa) = (openquake("PGV", "mean", 60.0, 1.0), openquake("SA(1.0)", "mean", 0.6341, 1.0));
-    let one = answer(&[("pga.csv", pga.clone())], "");
-    let velocity = answer(&[("pga.csv", pga.clone()), ("pgv.csv", pgv)], "");
-    let spectrum = answer(&[("pga.csv", pga), ("sa.csv", sa)], "");
     let table = table("TR,PGA (g),SA(0.2) (g),SA(1.0) (g)", |a| {
         format!("{},{a},{},{}", 1.0 / rate(a), 2.0 * a, 0.6341 * a)
     });
-    let in_one = answer(&[("table.csv", table)], "");
-    let rate = |row: &Value| row["overturning_per_year"].as_f64().unwrap();
-    let error = |row: &Value| row["error_velocity"].as_f64().unwrap();
-    assert!((rate(&spectrum) / rate(&velocity) - 1.0).abs() < 1e-3);
-    assert!((rate(&in_one) / rate(&spectrum) - 1.0).abs() < 1e-6);
+    let one = answer(&[("pga.csv", &pga)], "");
+    let velocity = answer(&[("pga.csv", &pga), ("pgv.csv", &pgv)], "");
+    let spectrum = answer(&[("pga.csv", &pga), ("sa.csv", &sa)], "");
+    let in_one = answer(&[("table.csv", &table)], "");
+    let rate = |row: &Value| number(row, "overturning_per_year");
+    let error = |row: &Value| number(row, "error_velocity");
+    assert!(near(rate(&spectrum), rate(&velocity), 1e-3) && near(rate(&in_one), rate(&spectrum), 1e-6));
     assert!(error(&velocity) < error(&spectrum) && error(&spectrum) < error(&one));
-    assert_eq!(
-        [&one, &velocity, &spectrum].map(|row| row["velocity_by"].as_str().unwrap()),
-        ["sites", "pgv", "sa"]
-    );
+    let sources = [&one, &velocity, &spectrum].map(|row| row["velocity_by"].as_str().unwrap());
+    assert_eq!(sources, ["sites", "pgv", "sa"]);
 }
 
 #[test]
 fn ground_motion_fields_are_motions_with_a_rate() {
     let fields = "#,,\"generated_by='OpenQuake engine 3.26'\"\nevent_id,gmv_PGA,gmv_PGV,site_id\n1,0.5,60,0\n2,0.1,5,0\n3,0.5,60,0\n";
-    let row = answer(&[("gmf.csv", fields.to_string())], "--effective-years 1000");
+    let row = answer(&[("gmf.csv", fields)], "--effective-years 1000");
     let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.1,0.05,0.001\n";
-    let same = answer(&[("joint.csv", joint.to_string())], "");
-    assert_eq!(row["rocking_per_year"].as_f64(), Some(0.002));
-    let rate = |row: &Value| row["overturning_per_year"].as_f64().unwrap();
-    assert!((rate(&row) / rate(&same) - 1.0).abs() < 1e-12);
-    let folder =
-        written(&[("gmf.csv", fields.to_string()), ("two.csv", fields.replace("3,0.5,60,0", "3,0.5,60,1"))]);
-    fail(folder.path(), &format!("{BLOCK} --hazard gmf.csv"), 1, &["gmf.csv", "--effective-years"]);
-    fail(
-        folder.path(),
-        &format!("{BLOCK} --hazard two.csv --effective-years 9"),
-        1,
-        &["two.csv", "several sites"],
-    );
+    let same = answer(&[("joint.csv", joint)], "");
+    assert_eq!(number(&row, "rocking_per_year"), 0.002);
+    assert!(near(number(&row, "overturning_per_year"), number(&same, "overturning_per_year"), 1e-12));
+    let two_sites = fields.replace("3,0.5,60,0", "3,0.5,60,1");
+    refused(&[("gmf.csv", fields)], "", &["gmf.csv", "--effective-years"]);
+    refused(&[("two.csv", &two_sites)], "--effective-years 9", &["two.csv", "several sites"]);
 }
 
 #[test]
 fn files_that_cannot_be_right_are_refused_by_what_they_are() {
-    let pga = table("pga_g,AFE", |a| format!("{a},{}", rate(a)));
-    let one = |name: &'static str, text: &str| vec![(name, text.to_string())];
     let uniform: String = [0.0, 0.1, 0.5, 1.0].map(|t| format!("{t},0.4\n")).concat();
+<<<<<<< HEAD
     for (files, named) in [
         (
             one("uhs.csv", &format!("Period (s),Sa (g)\n{uniform}")),
@@ -200,9 +179,33 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
             ],
             vec!["alone"],
         ),
+=======
+    let uniform = format!("Period (s),Sa (g)\n{uniform}");
+    let curve = |heading: &str, size: f64| table(heading, |a| format!("{},{}", size * a, rate(a)));
+    let in_50_years = table("pga_g,AFE", |a| format!("{a},{}", -(-50.0 * rate(a)).exp_m1()));
+    for (text, named) in [
+        (&*uniform, ["a.csv", "uniform hazard spectrum"]),
+        ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", ["a.csv", "uniform hazard spectrum"]),
+        (&openquake("PGA", "mean", 1.0, 1.0).replace(", imt='PGA'", ""), ["a.csv", "imt"]),
+        (&openquake("SA(0.3)", "mean", 1.0, 1.0), ["SA(0.3)", "SA(1.0)"]),
+        (&curve("intensity,AFE", 1.0), ["intensity", "PGA"]),
+        (&curve("SA(0.2) (g),AFE", 1.0), ["SA(0.2)", "1 s"]),
+        (&curve("SA(1.0) (g),AFE", 1.0), ["SA(1.0 s) alone", "PGA"]),
+        (&in_50_years, ["a.csv", "probabilities in 50 years"]),
+        (&curve("pga_g,AFE", 9.81), ["a.csv", "m/s2"]),
+        (&curve("pgv_m_s,AFE", 60.0), ["a.csv", "cm/s"]),
+        ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 1"]),
+>>>>>>> main
     ] {
-        let folder = written(&files);
-        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-        fail(folder.path(), &format!("{BLOCK} --hazard {}", names.join(",")), 1, &named);
+        refused(&[("a.csv", text)], "", &named);
+    }
+    let pga = curve("pga_g,AFE", 1.0);
+    let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n";
+    for (other, named) in [
+        (&*curve("PGV (cm/s),AFE", 0.1), ["PGV/PGA", "s at"]),
+        (&pga, ["two curves of PGA", "b.csv"]),
+        (joint, ["PGA and PGV", "alone"]),
+    ] {
+        refused(&[("a.csv", &pga), ("b.csv", other)], "", &named);
     }
 }

@@ -88,7 +88,7 @@ fn what_is_no_hazard_curve_is_refused() {
 fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
     let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
     (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
-    let peaks = *Model::shipped(rockfrag::fragility::Kind::Csgm, &equipment(), 0.1).peaks();
+    let peaks = Model::shipped(rockfrag::fragility::Kind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
     (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
 }

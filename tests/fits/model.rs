@@ -24,8 +24,7 @@ fn at(im4: f64, im5: f64) -> IntensityMeasures {
 
 fn calibrated(cases: &Cases) -> Model {
     let (overturning, exceeding) = (Calibration::fit(cases, None), Calibration::fit(cases, Some(0.1)));
-    let peaks = overturning.peaks().unwrap();
-    Model::Calibrated { overturning, exceeding, peaks, floor: None }
+    Model::Calibrated { overturning, exceeding, floor: None }
 }
 
 #[derive(serde::Deserialize)]

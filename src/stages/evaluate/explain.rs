@@ -19,12 +19,12 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
         Model::Calibrated { overturning, exceeding, .. } => {
             let _ = writeln!(text, "overturning: {}", calibration(overturning));
             let _ = writeln!(text, "too far:     {}", calibration(exceeding));
-            let of = overturning;
+            let Calibration { pga_low, pga_high, ratio_low, ratio_high, .. } = overturning;
             if let (Some(low), Some(high), Some(least), Some(most)) =
-                (of.pga_low, of.pga_high, of.ratio_low, of.ratio_high)
+                (pga_low, pga_high, ratio_low, ratio_high)
             {
                 let [low, high, least, most] =
-                    [low / G_M_S2, high / G_M_S2, least, most].map(|value| significant(value, 3));
+                    [low / G_M_S2, high / G_M_S2, *least, *most].map(|value| significant(value, 3));
                 let _ =
                     writeln!(text, "fitted to:   PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
             }

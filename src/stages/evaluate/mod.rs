@@ -41,7 +41,7 @@ use crate::units::G_M_S2;
 use crate::warning::Warning;
 
 use self::object::{Answer, Prediction, Subject};
-pub use self::object::{ErrorsRow, ObjectRow, Predicted};
+pub use self::object::{DoubtsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
@@ -73,7 +73,7 @@ pub struct Evaluate {
     /// Years that the ground-motion fields of --hazard stand for
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
-    /// Moment magnitude of the motion; at a site the mean of the disaggregation of PGA at 2475 years
+    /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
     #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Headings of --hazard or --in that stand for columns
@@ -171,8 +171,7 @@ impl Evaluate {
         let predict = |object: &Object, subject: &Subject| {
             let rates = site.rates(&subject.directions, &subject.unknowns);
             let widths = |target| target::widths(object, models, &site, self.years, target);
-            let mut row = RatesRow::new(&rates, self.years);
-            [row.target_width_m, row.target_width_m_high] = self.target.map_or([None; 2], widths);
+            let row = RatesRow::new(&rates, self.years, self.target.map_or([None; 2], widths));
             let budget = rates.budgets.overturning;
             Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
@@ -206,7 +205,7 @@ impl Evaluate {
     fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
             let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
-            return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
+            return Ok(models.structures().into_iter().map(fitted).map(Object::new).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());

@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::explain::explained;
 use crate::fragility::Model;
 use crate::hazard::{Budget, Part, Unknown};
+use crate::keyword::Keyword;
 use crate::motion::{Floor, IntensityMeasures};
+use crate::number::Limited;
 use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
@@ -21,21 +23,24 @@ use crate::warning::{Warning, Warnings};
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
+    pub doubts: DoubtsRow,
     pub warnings: Vec<Warning>,
-    /// Errors of its probability or rate of overturning.
-    pub budget: Budget,
     /// The model and the measures of the motion, if requested.
     pub explained: String,
     /// Responses that the model was fitted to.
     pub responses: i64,
 }
 
-/// A row of predictions; the default one is that of an object whose row cannot be right.
+/// A row of predictions; the default one is that of an object without an answer.
 pub trait Predicted: Row + Default + Send + Sync {
-    fn with_warnings(self, warnings: Option<String>) -> Self;
+    /// Probability or rate of overturning.
+    fn overturning(&self) -> Limited;
 
     /// By which objects are sorted, the worst first.
-    fn severity(&self) -> f64;
+    fn severity(&self) -> f64 {
+        let [value, _, high] = self.overturning();
+        value.or(high).unwrap_or(f64::NEG_INFINITY)
+    }
 }
 
 /// An object and the model that predicts for it; without parameters where its row cannot be right.
@@ -56,6 +61,12 @@ pub struct ObjectRow {
     pub friction: Option<f64>,
     pub model: Option<String>,
     pub limit_state: Option<f64>,
+    /// Block, body or frame.
+    #[serde(skip)]
+    pub kind: &'static str,
+    /// Whether friction was given, and is enough.
+    #[serde(skip)]
+    pub is_friction_known: bool,
 }
 
 impl ObjectRow {
@@ -81,15 +92,19 @@ impl ObjectRow {
             floor_period_s: object.floor().map(|floor| floor.period_s),
             floor_level: object.floor().map(|floor| floor.level),
             count: object.spec.count.map(f64::from),
+            kind: object.spec.shape.kind(),
+            is_friction_known: object.spec.place.friction.is_some(),
             ..ObjectRow::default()
         }
     }
 }
 
-/// The parts of the error of overturning: standard deviations of ln of its annual rate, or of the logit of its
-/// probability; none where nothing of a part is unknown.
+/// What speaks against an answer, and the parts of the error of overturning: standard deviations of ln of its
+/// annual rate, or of the logit of its probability; none where nothing of a part is unknown.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct ErrorsRow {
+pub struct DoubtsRow {
+    /// Warnings, or why there is no answer.
+    pub warnings: Option<String>,
     pub error_fit: Option<f64>,
     pub error_magnitude: Option<f64>,
     pub error_velocity: Option<f64>,
@@ -98,28 +113,14 @@ pub struct ErrorsRow {
     pub error_floor: Option<f64>,
     pub error_hazard: Option<f64>,
     /// The largest part.
-    pub error_largest: Option<String>,
+    pub error_largest: Option<Part>,
 }
 
-impl ErrorsRow {
-    /// The parts that are there, in words, and the largest.
-    pub fn words(&self) -> (Vec<&'static str>, Option<&'static str>) {
-        let parts = [
-            (self.error_fit, Part::Fit),
-            (self.error_magnitude, Part::Magnitude),
-            (self.error_velocity, Part::Velocity),
-            (self.error_eta, Part::Eta),
-            (self.error_object, Part::Object),
-            (self.error_floor, Part::Floor),
-            (self.error_hazard, Part::Hazard),
-        ];
-        let known = parts.into_iter().filter_map(|(sd, part)| Some((sd?, part)));
-        let largest = known.clone().max_by(|a, b| a.0.total_cmp(&b.0));
-        (known.map(|(_, part)| part.words()).collect(), largest.map(|(_, part)| part.words()))
-    }
-
-    pub fn of(budget: &Budget) -> ErrorsRow {
-        ErrorsRow {
+impl DoubtsRow {
+    pub fn new(warnings: &[Warning], budget: &Budget) -> DoubtsRow {
+        let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
+        DoubtsRow {
+            warnings: (!texts.is_empty()).then(|| texts.join("; ")),
             error_fit: budget.sd_of(Part::Fit),
             error_magnitude: budget.sd_of(Part::Magnitude),
             error_velocity: budget.sd_of(Part::Velocity),
@@ -127,8 +128,23 @@ impl ErrorsRow {
             error_object: budget.sd_of(Part::Object),
             error_floor: budget.sd_of(Part::Floor),
             error_hazard: budget.sd_of(Part::Hazard),
-            error_largest: budget.largest().map(|part| part.to_string()),
+            error_largest: budget.largest(),
         }
+    }
+
+    /// The parts that are there, in words.
+    pub fn words(&self) -> Vec<&'static str> {
+        let parts = [
+            self.error_fit,
+            self.error_magnitude,
+            self.error_velocity,
+            self.error_eta,
+            self.error_object,
+            self.error_floor,
+            self.error_hazard,
+        ];
+        let known = Part::ALL.iter().zip(parts).filter(|(_, sd)| sd.is_some());
+        known.map(|(part, _)| part.words()).collect()
     }
 }
 
@@ -157,24 +173,21 @@ impl Subject {
             let problem = || UsageError::because("period: the paper's model is that of the ground");
             on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
         };
-        let structures = || found.iter().map(|direction| direction.structure.clone());
         let models = on(object.floor())?;
-        let mut unknowns = Vec::new();
-        for number in 0..found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0) {
-            let of = |end: fn(&Unknown<Structure>) -> &Structure| {
+        let structures = || found.iter().map(|direction| direction.structure.clone());
+        let fewest = found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0);
+        let unknown = |number: usize| {
+            let at = |end: fn(&Unknown<Structure>) -> &Structure| {
                 let structures = found.iter().map(|direction| end(&direction.unknowns[number]).clone());
                 structures.zip(models.iter().cloned()).collect()
             };
             let part = found[0].unknowns[number].part;
-            unknowns.push(Unknown {
-                part,
-                low: of(|unknown| &unknown.low),
-                high: of(|unknown| &unknown.high),
-            });
-        }
+            Unknown { part, low: at(|unknown| &unknown.low), high: at(|unknown| &unknown.high) }
+        };
+        let mut unknowns: Vec<Unknown<Vec<(Structure, Model)>>> = (0..fewest).map(unknown).collect();
         if let Some(Unknown { part, low, high }) = object.unknown_floor() {
-            let of = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
-            unknowns.push(Unknown { part, low: of(low)?, high: of(high)? });
+            let at = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
+            unknowns.push(Unknown { part, low: at(low)?, high: at(high)? });
         }
         let directions = structures().zip(models.iter().cloned()).collect();
         Ok((Subject { directions, unknowns }, warnings))
@@ -187,11 +200,11 @@ impl Subject {
 
     /// What speaks against predictions at a motion (m/s2 and m/s).
     pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
-        let of = |(structure, model): &(Structure, Model)| {
+        let warnings = |(structure, model): &(Structure, Model)| {
             let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
             model.warnings(structure, &measures)
         };
-        self.directions.iter().flat_map(of).collect()
+        self.directions.iter().flat_map(warnings).collect()
     }
 }
 
@@ -218,9 +231,9 @@ pub fn answers<R: Predicted>(
             Err(Reason { warning, text }) => {
                 return Ok(Answer {
                     object: ObjectRow::refused(&object),
-                    row: R::default().with_warnings(Some(text.clone())),
+                    row: R::default(),
+                    doubts: DoubtsRow { warnings: Some(text.clone()), ..DoubtsRow::default() },
                     warnings: vec![*warning],
-                    budget: Budget::default(),
                     explained: String::new(),
                     responses: 0,
                 });
@@ -234,9 +247,9 @@ pub fn answers<R: Predicted>(
         let (structure, model) = subject.weaker();
         Ok(Answer {
             object: ObjectRow::new(&object, structure, model, models.limit_state()),
-            row: row.with_warnings(texts(&warnings)),
+            row,
+            doubts: DoubtsRow::new(&warnings, &budget),
             warnings,
-            budget,
             responses: match model {
                 Model::Calibrated { overturning, .. } => overturning.n,
                 Model::Paper { overturning, .. } => overturning.n,
@@ -251,27 +264,21 @@ pub fn answers<R: Predicted>(
 
 /// The warnings of all objects, each with the names of these.
 pub fn warnings_of_all<R>(all: &[Answer<R>]) -> Warnings {
-    let of = |answer: &Answer<R>| {
+    let warnings = |answer: &Answer<R>| {
         let name = answer.object.structure.clone();
         answer.warnings.clone().into_iter().map(move |warning| (warning, name.clone()))
     };
-    all.iter().flat_map(of).collect()
+    all.iter().flat_map(warnings).collect()
 }
 
 /// The rows of all objects.
 pub fn batch<R: Predicted>(all: &[Answer<R>]) -> anyhow::Result<RecordBatch> {
     let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
     let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
-    let errors: Vec<ErrorsRow> = all.iter().map(|answer| ErrorsRow::of(&answer.budget)).collect();
+    let doubts: Vec<&DoubtsRow> = all.iter().map(|answer| &answer.doubts).collect();
     rows::side_by_side(&[
         rows::batch_of::<ObjectRow, _>(&objects)?,
         rows::batch_of::<R, _>(&predicted)?,
-        rows::batch(&errors)?,
+        rows::batch_of::<DoubtsRow, _>(&doubts)?,
     ])
-}
-
-/// Warnings as they stand in a file.
-pub fn texts(warnings: &[Warning]) -> Option<String> {
-    let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
-    (!texts.is_empty()).then(|| texts.join("; "))
 }

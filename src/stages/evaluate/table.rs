@@ -8,7 +8,7 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 
 use super::intensities::{self, peaks};
-use super::object::{ErrorsRow, Predicted, Subject, texts};
+use super::object::{DoubtsRow, Subject};
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
@@ -20,8 +20,8 @@ use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
 use crate::stages::shared::objects::Object;
-use crate::stages::shared::spec::Place;
-use crate::stages::shared::structures::{StructureArgs, warnings_of};
+use crate::stages::shared::spec::{Place, Restitution, Spec};
+use crate::stages::shared::structures::StructureArgs;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::rows;
@@ -46,11 +46,6 @@ pub fn evaluate(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
-    if given.is_empty() && *place != Place::default() {
-        return Err(UsageError::because(
-            "a table with structures of its own: they stand on the ground; give one structure by options",
-        ));
-    }
     let of_structures = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
     let columns = batches.first().map(|batch| batch.rows.schema());
     let column = columns.and_then(|all| of_structures.into_iter().find(|name| all.index_of(name).is_ok()));
@@ -60,57 +55,59 @@ pub fn evaluate(
             "{path}: column {column} and options of a structure; leave out the one or the other"
         )));
     }
-    let subject = |object: &Object| {
-        object.structure().map_err(UsageError::because)?;
-        Subject::of(object, object.directions.as_deref().unwrap_or_default(), models)
-    };
-    let given = given.first().map(subject).transpose()?;
-    let mut known = HashMap::new();
-    let evaluate = |batch: &Batch| of_batch(batch, given.as_ref(), models, &mut known, context);
-    let evaluated = batches.iter().map(evaluate).collect::<anyhow::Result<Vec<RecordBatch>>>()?;
+    let given = given.first().map(|object| subject(object, models)).transpose()?;
+    let mut of_rows = HashMap::new();
+    let mut evaluated = Vec::new();
+    for batch in &batches {
+        let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
+        for structure in &structures {
+            if let Entry::Vacant(vacant) = of_rows.entry(key(structure)) {
+                let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
+                vacant.insert(subject(&Object::new(spec), models)?);
+            }
+        }
+        let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
+        evaluated.push(of_batch(batch, of_row, context)?);
+    }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
         rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
     }
 }
 
+/// What distinguishes structures.
+fn key(structure: &Structure) -> [u64; 3] {
+    [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits)
+}
+
+fn subject(object: &Object, models: &Models) -> anyhow::Result<Known> {
+    object.structure().map_err(UsageError::because)?;
+    Subject::of(object, object.directions.as_deref().unwrap_or_default(), models)
+}
+
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
-fn of_batch(
+fn of_batch<'a>(
     batch: &Batch,
-    given: Option<&Known>,
-    models: &Models,
-    known_structures: &mut HashMap<[u64; 3], Known>,
+    of_row: impl Fn(usize) -> &'a Known + Sync,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
     let mw = batch.numbers("mw")?;
-    let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
-    let key =
-        |structure: &Structure| [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits);
-    for structure in &structures {
-        if let Entry::Vacant(place) = known_structures.entry(key(structure)) {
-            let (model, mut warnings) = models.model(structure)?;
-            warnings.extend(warnings_of(structure));
-            let subject = Subject { directions: vec![(structure.clone(), model)], unknowns: Vec::new() };
-            place.insert((subject, warnings));
-        }
-    }
-    let of_row = |row: usize| {
-        let (subject, of_structure) = given.unwrap_or_else(|| &known_structures[&key(&structures[row])]);
+    let evaluate = |row: usize| {
+        let (subject, of_structure) = of_row(row);
         let mut warnings = of_structure.clone();
         warnings.extend(subject.warnings([pga[row], pgv[row]]));
         let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
         let (tree, budget) = TreeRow::new(&motion, subject);
-        ((tree.with_warnings(texts(&warnings)), ErrorsRow::of(&budget)), warnings)
+        (tree, (DoubtsRow::new(&warnings, &budget), warnings))
     };
-    let (rows_of_all, warnings): (Vec<(TreeRow, ErrorsRow)>, Vec<Vec<Warning>>) =
-        (0..batch.rows.num_rows()).into_par_iter().map(of_row).unzip();
-    let (trees, errors): (Vec<TreeRow>, Vec<ErrorsRow>) = rows_of_all.into_iter().unzip();
+    let (trees, others): (Vec<_>, Vec<_>) = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).unzip();
+    let (doubts, warnings): (Vec<DoubtsRow>, Vec<Vec<Warning>>) = others.into_iter().unzip();
     for (row, warnings) in warnings.into_iter().enumerate() {
         let place = format!("row {}", batch.first_row + row as u64 + 1);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
     }
-    let own = rows::side_by_side(&[rows::batch(&trees)?, rows::batch(&errors)?])?;
+    let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch(&doubts)?])?;
     let schema = batch.rows.schema();
     let kept: Vec<usize> = (0..schema.fields().len())
         .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())

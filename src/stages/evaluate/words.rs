@@ -1,52 +1,52 @@
 //! An object, its model and what speaks against its answer, in words.
 
 use super::object::{Answer, ObjectRow};
-use crate::hazard::{Budget, Part};
+use crate::hazard::Part;
 use crate::number;
-use crate::rocking::rectangular_p;
 use crate::warning::UNNAMED;
+
+/// The answer for all objects, the worst of which is the first, and the sentences for a report, if requested. A
+/// sentence goes on after the name.
+pub fn text<R>(
+    all: &[Answer<R>],
+    of_one: impl Fn(&Answer<R>) -> String,
+    of_several: impl Fn(&Answer<R>) -> String,
+    sentence: Option<impl Fn(&Answer<R>) -> String>,
+) -> String {
+    let mut text = match all {
+        [] => String::new(),
+        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
+            all.iter().map(|answer| format!("{}: {}\n", title(&answer.object), brief(answer))).collect()
+        }
+        [answer] => of_one(answer),
+        [worst, ..] => of_several(worst),
+    };
+    for answer in all.iter().filter(|answer| answer.object.p_rad_s.is_some()) {
+        let Some(sentence) = sentence.as_ref().map(|sentence| sentence(answer)) else { break };
+        let title = title(&answer.object);
+        let comma = if title.contains(", ") { "," } else { "" };
+        let friction = match answer.object.is_friction_known {
+            true => String::new(),
+            false => format!(", if its friction is above {}", friction(&answer.object)),
+        };
+        text += &format!("\n{title}{comma} {sentence}{friction}.\n");
+    }
+    text + &all.iter().map(|answer| answer.explained.as_str()).collect::<String>()
+}
 
 /// An object that has a name by it, others by what they are.
 pub fn title(object: &ObjectRow) -> String {
     let size = size(object);
-    match (object.structure.as_str(), object.width_m, object.height_m, object.p_rad_s) {
-        (UNNAMED, Some(width), Some(height), Some(p)) => {
-            let is_block = (rectangular_p(0.5 * width.hypot(height)) / p - 1.0).abs() < 1e-9;
-            let is_upright = object.friction.is_some_and(|tan| (tan * height / width - 1.0).abs() < 1e-9);
-            let what = match (is_block, is_upright && object.depth_m.is_none()) {
-                (true, _) => "Block",
-                (_, true) => "Frame of columns",
-                _ => "Body",
-            };
-            format!("{what} of {size}")
-        }
-        (UNNAMED, ..) => format!("Structure of {size}"),
-        (name, ..) => format!("{name}, {size}"),
+    match object.structure.as_str() {
+        UNNAMED => format!("{} of {size}", object.kind),
+        name => format!("{name}, {size}"),
     }
 }
 
-/// Width and height, else p and alpha.
+/// Width and height, else p and alpha; and the floor that it stands on.
 pub fn size(object: &ObjectRow) -> String {
-    size_alone(object) + &floor(object)
-}
-
-/// The floor that it stands on.
-fn floor(object: &ObjectRow) -> String {
-    object.floor_level.zip(object.floor_period_s).map_or(String::new(), |(level, period)| {
-        let [level, period] = [level, period].map(number::plain);
-        format!(" at level {level} of a {period} s building")
-    })
-}
-
-/// What is taken of the buildings, if an object stands on a floor.
-pub fn linear<'a>(mut objects: impl Iterator<Item = &'a ObjectRow>) -> &'static str {
-    let is_any = objects.any(|object| object.floor_level.is_some());
-    if is_any { " The building is taken as linear." } else { "" }
-}
-
-fn size_alone(object: &ObjectRow) -> String {
     let depth = object.depth_m.map_or(String::new(), |depth| format!(" x {}", number::length(depth)));
-    match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
+    let size = match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
         (Some(width), Some(height), ..) => {
             format!("{}{depth} x {} m", number::length(width), number::length(height))
         }
@@ -55,16 +55,34 @@ fn size_alone(object: &ObjectRow) -> String {
             format!("p {p} rad/s, alpha {alpha}")
         }
         _ => "-".to_string(),
-    }
+    };
+    let floor = object.floor_level.zip(object.floor_period_s).map(|(level, period)| {
+        let [level, period] = [level, period].map(number::plain);
+        format!(" at level {level} of a {period} s building")
+    });
+    size + &floor.unwrap_or_default()
 }
 
 pub fn model(object: &ObjectRow) -> &str {
     object.model.as_deref().unwrap_or("no model")
 }
 
+/// Sentences that are there, in a line.
+pub fn line(sentences: impl IntoIterator<Item = Option<String>>) -> String {
+    let sentences: Vec<String> = sentences.into_iter().flatten().collect();
+    if sentences.is_empty() { String::new() } else { sentences.join(" ") + "\n" }
+}
+
+/// What is taken of the buildings, if an object stands on a floor.
+pub fn linear<'a>(mut objects: impl Iterator<Item = &'a ObjectRow>) -> Option<String> {
+    let is_any = objects.any(|object| object.floor_level.is_some());
+    is_any.then(|| "The building is taken as linear.".to_string())
+}
+
+/// What the answer for an object takes as given.
 pub fn validity(object: &ObjectRow) -> String {
-    let linear = linear(std::iter::once(object));
-    format!("Valid if friction is above {}; else it slides.{linear}", friction(object))
+    let friction = || format!("Valid if friction is above {}; else it slides.", friction(object));
+    line([(!object.is_friction_known).then(friction), linear(std::iter::once(object))])
 }
 
 pub fn friction(object: &ObjectRow) -> String {
@@ -77,8 +95,8 @@ pub fn too_far(object: &ObjectRow) -> String {
 }
 
 /// The largest part of the error, and what would narrow it: of PGV / PGA this advice.
-pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
-    let part = budget.largest()?;
+pub fn mostly_unknown<R>(answer: &Answer<R>, of_velocity: &str) -> Option<String> {
+    let part = answer.doubts.error_largest?;
     let advice = match part {
         Part::Fit => "Calibrate it (--fits).",
         Part::Magnitude => "Add --magnitude.",
@@ -91,14 +109,9 @@ pub fn mostly_unknown(budget: &Budget, of_velocity: &str) -> Option<String> {
     Some(format!("Largest uncertainty: {}. {advice}", part.words()).trim_end().to_string())
 }
 
-/// Why an object has no answer.
-pub fn unanswered<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
-    format!("{}: {}\n", title(&answer.object), reason.as_deref().unwrap_or("no answer"))
-}
-
-/// The warnings of a row in a few words; the reason in full if the row cannot be right.
-pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
-    match reason {
+/// The warnings of an object in a few words, or in full why it has no answer.
+fn brief<R>(answer: &Answer<R>) -> String {
+    match &answer.doubts.warnings {
         Some(reason) if answer.object.p_rad_s.is_none() => reason.clone(),
         _ => {
             let words = answer.warnings.iter().map(|warning| warning.to_string().replace('_', " "));
@@ -107,13 +120,18 @@ pub fn brief<R>(answer: &Answer<R>, reason: &Option<String>) -> String {
     }
 }
 
-/// A table of a list: a heading, and a row per object; at its end the responses to which each was fitted, if these
-/// are not the same for all.
-pub fn table<R>(heading: &[&str], all: &[Answer<R>], row: impl Fn(&Answer<R>) -> Vec<String>) -> String {
-    let differ = is_fitted_each(all);
-    let responses = |answer: &Answer<R>| differ.then(|| number::count(answer.responses as usize));
-    let heading = heading.iter().copied().chain(differ.then_some("responses")).map(str::to_string).collect();
-    let row = |answer: &Answer<R>| row(answer).into_iter().chain(responses(answer)).collect();
+/// A table of a list: of each object its size, these cells and what speaks against them; at its end the responses to
+/// which each was fitted, if these are not the same for all.
+pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
+    let responses = is_fitted_each(all).then_some("responses");
+    let heading =
+        ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
+    let row = |answer: &Answer<R>| {
+        let name = [answer.object.structure.clone(), size(&answer.object)].into_iter();
+        let responses = responses.map(|_| number::count(answer.responses as usize));
+        name.chain(cells(answer)).chain([brief(answer)]).chain(responses).collect()
+    };
+    let heading = heading.map(str::to_string).collect();
     let rows: Vec<Vec<String>> = std::iter::once(heading).chain(all.iter().map(row)).collect();
     number::aligned(&rows, |_| false)
 }
@@ -124,32 +142,10 @@ fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
 }
 
 /// What predicts for all objects, the worst of which is the first.
-pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
-    let Some(worst) = all.first() else { return String::new() };
-    let is_of_surface = worst.object.model.as_deref().is_some_and(|model| model.contains("surface"));
-    match is_of_surface && is_fitted_each(all) {
-        true => "rockfrag's universal surface, calibrated where there are responses".to_string(),
-        false => model(&worst.object).to_string(),
+pub fn model_of_all<R>(all: &[Answer<R>]) -> &str {
+    let model = all.first().map_or("", |worst| model(&worst.object));
+    match model.contains("surface") && is_fitted_each(all) {
+        true => "rockfrag's universal surface, calibrated where there are responses",
+        false => model,
     }
-}
-
-/// Adds the sentences for a report, if requested, and the explanations. A sentence goes on after the name.
-pub fn with_sentences<R>(
-    mut text: String,
-    all: &[Answer<R>],
-    requested: bool,
-    sentence: impl Fn(&ObjectRow, &R) -> String,
-) -> String {
-    for Answer { object, row, .. } in all {
-        if requested && object.p_rad_s.is_some() {
-            let title = title(object);
-            let comma = if title.contains(", ") { "," } else { "" };
-            let (sentence, friction) = (sentence(object, row), friction(object));
-            text += &format!("\n{title}{comma} {sentence}, if its friction is above {friction}.\n");
-        }
-    }
-    for answer in all {
-        text += &answer.explained;
-    }
-    text
 }

@@ -13,7 +13,7 @@ use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
-use crate::stages::evaluate::{ObjectRow, RatesRow, size};
+use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -93,7 +93,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
 /// What was asked, of which objects, by which motions and hazard, and what the limits leave out.
 fn facts(tables: &Tables) -> Vec<String> {
     let mut facts = Vec::new();
-    if let Some((_, rates)) = tables.objects.first() {
+    if let Some((_, rates, doubts)) = tables.objects.first() {
         let made = tables.made_by("evaluate");
         let hazard = made.and_then(|made| made.files.get("hazard")).map_or("a hazard", |name| name);
         let years = number::plain(rates.years.unwrap_or(f64::NAN));
@@ -102,16 +102,14 @@ fn facts(tables: &Tables) -> Vec<String> {
             "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
         ));
         let mut models: Vec<&str> =
-            tables.objects.iter().filter_map(|(object, _)| object.model.as_deref()).collect();
+            tables.objects.iter().filter_map(|(object, ..)| object.model.as_deref()).collect();
         models.sort_unstable();
         models.dedup();
         facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
-        if let Some(errors) = &tables.errors {
-            let (parts, largest) = errors.words();
-            let without = if errors.error_hazard.is_none() { ", without those of the hazard" } else { "" };
-            facts.push(format!("The 95 % limits hold the errors of {}{without}.", parts.join(", ")));
-            facts.extend(largest.map(|largest| format!("Largest uncertainty: {largest}.")));
-        }
+        let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
+        let parts = doubts.words().join(", ");
+        facts.push(format!("The 95 % limits hold the errors of {parts}{without}."));
+        facts.extend(doubts.error_largest.map(|part| format!("Largest uncertainty: {}.", part.words())));
         return facts;
     }
     for stage in ["synthesize-motions", "import-motions"] {
@@ -166,19 +164,19 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
 }
 
 /// One row per object.
-fn rates(objects: &[(ObjectRow, RatesRow)]) -> Table {
-    let years = objects.iter().find_map(|(_, row)| row.years).unwrap_or(f64::NAN);
+fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Table {
+    let years = objects.iter().find_map(|(_, row, _)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
-    let row = |(object, row): &(ObjectRow, RatesRow)| {
+    let row = |(object, row, doubts): &(ObjectRow, RatesRow, DoubtsRow)| {
         json!({
             "object": object.structure,
             "size": object.p_rad_s.map(|_| size(object)),
             "rocks a year": row.rocking_per_year.map(|rate| RATE.one(rate)),
-            "overturns a year": row.overturning_per_year.map(|rate| RATE.one(rate)),
+            "overturns a year": row.overturning_per_year[0].map(|rate| RATE.one(rate)),
             "once in years": row.return_period_years.map(number::period),
-            (percent.as_str()): OF_HUNDRED.both(row.in_years(), ""),
+            (percent.as_str()): OF_HUNDRED.both(row.p_overturning, ""),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
-            "warning": row.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
+            "warning": doubts.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
     };
     let fields =

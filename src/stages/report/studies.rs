@@ -7,7 +7,6 @@ use crate::fragility::{Measure, Z_95, grouped, p_overturning};
 use crate::report::Estimate;
 use crate::report::figures::{AnnualRate, Curve, Ida, NamedEstimates, label, observed_shares};
 use crate::rocking::{CapacityStatus, Outcome};
-use crate::stages::evaluate::RatesRow;
 use crate::stages::ida::{CapacityFitRow, CapacityRow, ScaledMeasure};
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target, wilson_limits};
 use crate::table::TableError;
@@ -26,24 +25,19 @@ fn rate(name: &str, rates: [Option<f64>; 3]) -> AnnualRate {
     AnnualRate { name: name.to_string(), rate, low, high }
 }
 
-fn overturning(name: &str, row: &RatesRow) -> AnnualRate {
-    rate(name, [row.overturning_per_year, row.overturning_per_year_low, row.overturning_per_year_high])
-}
-
 /// Annual rates of overturning of objects, if there are several.
 pub fn objects(tables: &Tables) -> Vec<AnnualRate> {
     let objects = tables.objects.iter().filter(|_| tables.objects.len() > 1).take(OBJECTS);
-    objects.map(|(object, row)| overturning(&object.structure, row)).collect()
+    objects.map(|(object, row, _)| rate(&object.structure, row.overturning_per_year)).collect()
 }
 
 /// Annual rates of the limit states, if there is one object.
 pub fn states(tables: &Tables) -> Vec<AnnualRate> {
-    let [(_, row)] = &tables.objects[..] else { return Vec::new() };
-    let failure = [row.failure_per_year, row.failure_per_year_low, row.failure_per_year_high];
+    let [(_, row, _)] = &tables.objects[..] else { return Vec::new() };
     vec![
         rate("rocks", [row.rocking_per_year, None, None]),
-        rate("rocks too far, or overturns", failure),
-        overturning("overturns", row),
+        rate("rocks too far, or overturns", row.failure_per_year),
+        rate("overturns", row.overturning_per_year),
     ]
 }
 

@@ -6,7 +6,7 @@ use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::paper;
-use crate::stages::evaluate::{ErrorsRow, ObjectRow, Predicted, RatesRow};
+use crate::stages::evaluate::{DoubtsRow, ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -31,9 +31,7 @@ pub struct Tables {
     pub limit_state: f64,
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
-    pub objects: Vec<(ObjectRow, RatesRow)>,
-    /// The parts of the error of the first of them.
-    pub errors: Option<ErrorsRow>,
+    pub objects: Vec<(ObjectRow, RatesRow, DoubtsRow)>,
     /// Each file with its number of rows and, if it is ours, what made it.
     pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
     /// What is not shown, and why.
@@ -85,7 +83,6 @@ impl Tables {
 
     /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
     fn read_objects(&mut self) -> anyhow::Result<()> {
-        let mut all: Vec<((ObjectRow, RatesRow), ErrorsRow)> = Vec::new();
         let mut first: Option<(Option<&String>, Option<&Vec<String>>)> = None;
         for (path, _, made) in &self.files {
             if Table::open(path)?.schema().index_of(RATES).is_err() {
@@ -100,11 +97,10 @@ impl Tables {
                 continue;
             }
             let objects = rows::read::<ObjectRow>(path)?.into_iter().zip(rows::read::<RatesRow>(path)?);
-            all.extend(objects.zip(rows::read::<ErrorsRow>(path)?));
+            let objects = objects.zip(rows::read::<DoubtsRow>(path)?);
+            self.objects.extend(objects.map(|((object, rates), doubts)| (object, rates, doubts)));
         }
-        all.sort_by(|((_, a), _), ((_, b), _)| b.severity().total_cmp(&a.severity()));
-        self.errors = all.first().map(|(_, errors)| errors.clone());
-        self.objects = all.into_iter().map(|(object, _)| object).collect();
+        self.objects.sort_by(|(_, a, _), (_, b, _)| b.severity().total_cmp(&a.severity()));
         Ok(())
     }
 

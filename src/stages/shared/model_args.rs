@@ -83,10 +83,6 @@ impl Models {
     /// named; without one, the surface, with a warning if there are fits.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
-        if self.args.fits.is_none() {
-            let kind = suite.unwrap_or(Kind::Recorded);
-            return Ok((Model::shipped(kind, structure, limit_state), Vec::new()));
-        }
         let fitted = self.of_structure(structure)?;
         if fitted.is_empty() && model == ModelName::Paper {
             bail!(
@@ -97,30 +93,30 @@ impl Models {
             );
         }
         let Some(overturning) = self.of_suite(fitted)? else {
-            let of_fits = || {
-                Ok::<_, anyhow::Error>(self.of_suite(self.overturning.iter().collect())?.map(|row| row.kind))
+            let kind = match suite {
+                Some(kind) => kind,
+                None => {
+                    self.of_suite(self.overturning.iter().collect())?.map_or(Kind::Recorded, |row| row.kind)
+                }
             };
-            let kind = suite.map_or_else(of_fits, |kind| Ok(Some(kind)))?.unwrap_or(Kind::Recorded);
-            return Ok((Model::shipped(kind, structure, limit_state), vec![Warning::NotFitted]));
+            let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
+            return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         };
         let exceeding = self.exceeding(overturning)?;
-        let shipped = || *Model::shipped(overturning.kind, structure, limit_state).peaks();
-        let peaks = overturning.peaks().unwrap_or_else(shipped);
         let model = match model {
             ModelName::Calibrated => Model::Calibrated {
                 overturning: overturning.clone(),
                 exceeding: exceeding.clone(),
-                peaks,
                 floor: None,
             },
             ModelName::Paper => Model::Paper {
                 demand: self.planes(overturning),
                 overturning: self.curve(overturning)?,
                 limit_state,
-                peaks,
+                peaks: overturning.peaks(),
             },
         };
-        let is_other = self.args.name.is_some() && !structure.is_like(&self.structure(overturning)?);
+        let is_other = self.args.name.is_some() && !structure.is_like(&structure_of(overturning));
         let warnings =
             [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
@@ -137,20 +133,15 @@ impl Models {
     }
 
     /// All fitted structures, or the one named.
-    pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
+    pub fn structures(&self) -> Vec<Structure> {
         let mut structures: Vec<Structure> = Vec::new();
         for row in &self.overturning {
             let is_wanted = self.args.name.as_ref().is_none_or(|wanted| *wanted == row.structure);
             if is_wanted && structures.iter().all(|other| other.name != row.structure) {
-                structures.push(self.structure(row)?);
+                structures.push(structure_of(row));
             }
         }
-        Ok(structures)
-    }
-
-    fn structure(&self, row: &Calibration) -> anyhow::Result<Structure> {
-        let structure = Structure::new(&row.structure, row.p_rad_s, row.alpha_rad, row.eta);
-        structure.map_err(|error| anyhow::anyhow!("{}: {error}", self.folder()))
+        structures
     }
 
     fn folder(&self) -> String {
@@ -166,23 +157,18 @@ impl Models {
     /// The rows of a structure, of one name.
     fn of_structure(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
         let named = |name: &str| self.overturning.iter().filter(|row| row.structure == name).collect();
-        if let Some(name) = &self.args.name {
-            let rows: Vec<&Calibration> = named(name);
-            if rows.is_empty() {
-                let (folder, names) = (self.folder(), self.names());
-                let problem = format!("{folder}: no structure '{name}'; expected one of {names}");
-                return Err(UsageError::because(problem));
-            }
-            return Ok(rows);
+        let Some(name) = &self.args.name else {
+            let mut like = self.overturning.iter().filter(|row| structure.is_like(&structure_of(row)));
+            let row = like.clone().find(|row| row.structure == structure.name).or_else(|| like.next());
+            return Ok(row.map_or(Vec::new(), |row| named(&row.structure)));
+        };
+        let rows: Vec<&Calibration> = named(name);
+        if rows.is_empty() {
+            let (folder, names) = (self.folder(), self.names());
+            let problem = format!("{folder}: no structure '{name}'; expected one of {names}");
+            return Err(UsageError::because(problem));
         }
-        let mut like = Vec::new();
-        for row in &self.overturning {
-            if structure.is_like(&self.structure(row)?) {
-                like.push(row);
-            }
-        }
-        let row = like.iter().find(|row| row.structure == structure.name).or(like.first());
-        Ok(row.map_or(Vec::new(), |row| named(&row.structure)))
+        Ok(rows)
     }
 
     /// Returns the row of the requested suite, or the only row; none if there is no row.
@@ -247,6 +233,11 @@ impl Models {
             "{folder}: the paper's curve of '{structure}' has the status '{status}'; use --model calibrated"
         )
     }
+}
+
+/// The structure that a row is about.
+fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
+    Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta }
 }
 
 /// What predicts, in words.

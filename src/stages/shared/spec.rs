@@ -72,6 +72,21 @@ pub struct Shape {
     pub eta: Option<Restitution>,
 }
 
+impl Shape {
+    /// What it is, in words.
+    pub fn kind(&self) -> &'static str {
+        let is_solid = self.centre_height.is_none_or(|centre| Some(2.0 * centre) == self.height)
+            && self.centre_offset.is_none_or(|offset| offset == 0.0)
+            && self.inertia.is_none();
+        match (self.width, self.beam_mass_ratio) {
+            (None, _) => "Structure",
+            (_, Some(_)) => "Frame of columns",
+            _ if is_solid => "Block",
+            _ => "Body",
+        }
+    }
+}
+
 /// Where an object stands, and how well it is known; of all objects of a list that do not say so themselves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
 #[command(next_help_heading = "Object")]

@@ -93,11 +93,9 @@ pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
 
 /// The same of several structures.
 pub fn warnings_of_all(structures: &[Structure]) -> Warnings {
-    let of = |structure: &Structure| {
-        warnings_of(structure)
-            .into_iter()
-            .map(|warning| (warning, structure.name.clone()))
-            .collect::<Vec<_>>()
+    let warnings = |structure: &Structure| {
+        let name = structure.name.clone();
+        warnings_of(structure).into_iter().map(move |warning| (warning, name.clone()))
     };
-    structures.iter().flat_map(of).collect()
+    structures.iter().flat_map(warnings).collect()
 }
