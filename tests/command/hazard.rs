@@ -125,61 +125,6 @@ fn ground_motion_fields_are_motions_with_a_rate() {
 #[test]
 fn files_that_cannot_be_right_are_refused_by_what_they_are() {
     let uniform: String = [0.0, 0.1, 0.5, 1.0].map(|t| format!("{t},0.4\n")).concat();
-<<<<<<< HEAD
-    for (files, named) in [
-        (
-            one("uhs.csv", &format!("Period (s),Sa (g)\n{uniform}")),
-            vec!["uhs.csv", "uniform hazard spectrum"],
-        ),
-        (one("uhs.csv", "lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n"), vec!["uniform hazard spectrum"]),
-        (
-            one("oq.csv", &openquake("PGA", "mean", 1.0, 1.0).replace(", imt='PGA'", "")),
-            vec!["oq.csv", "imt"],
-        ),
-        (one("oq.csv", &openquake("SA(0.3)", "mean", 1.0, 1.0)), vec!["SA(0.3)", "SA(1.0)"]),
-        (one("none.csv", &table("intensity,AFE", |a| format!("{a},{}", rate(a)))), vec!["intensity", "PGA"]),
-        (one("sa.csv", &table("SA(0.2) (g),AFE", |a| format!("{a},{}", rate(a)))), vec!["SA(0.2)", "1 s"]),
-        (
-            one("sa.csv", &table("SA(1.0) (g),AFE", |a| format!("{a},{}", rate(a)))),
-            vec!["SA(1.0 s) alone", "PGA"],
-        ),
-        (
-            one("poe.csv", &table("pga_g,AFE", |a| format!("{a},{}", -(-50.0 * rate(a)).exp_m1()))),
-            vec!["poe.csv", "probabilities in 50 years"],
-        ),
-        (one("si.csv", &table("pga_g,AFE", |a| format!("{},{}", 9.81 * a, rate(a)))), vec!["si.csv", "m/s2"]),
-        (
-            one("cm.csv", &table("pgv_m_s,AFE", |a| format!("{},{}", 60.0 * a, rate(a)))),
-            vec!["cm.csv", "cm/s"],
-        ),
-        (
-            one("month.csv", &table("pga_g,monthly_rate", |a| format!("{a},{}", rate(a)))),
-            vec!["monthly_rate"],
-        ),
-        (one("ten.csv", &table("pga_g,rate per 10 years", |a| format!("{a},{}", rate(a)))), vec!["10 years"]),
-        (one("up.csv", &table("vertical PGA (g),AFE", |a| format!("{a},{}", rate(a)))), vec!["vertical"]),
-        (one("sites.csv", "site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n"), vec!["several sites"]),
-        (
-            one("tr.csv", "pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n"),
-            vec!["line 4", "contradict"],
-        ),
-        (one("up.csv", "pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n"), vec!["up.csv", "point 1"]),
-        (
-            vec![
-                ("pga.csv", pga.clone()),
-                ("pgv.csv", table("PGV (cm/s),AFE", |a| format!("{},{}", 0.1 * a, rate(a)))),
-            ],
-            vec!["PGV/PGA", "s at"],
-        ),
-        (vec![("pga.csv", pga.clone()), ("b.csv", pga.clone())], vec!["two curves of PGA", "b.csv"]),
-        (
-            vec![
-                ("pga.csv", pga),
-                ("j.csv", "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n".to_string()),
-            ],
-            vec!["alone"],
-        ),
-=======
     let uniform = format!("Period (s),Sa (g)\n{uniform}");
     let curve = |heading: &str, size: f64| table(heading, |a| format!("{},{}", size * a, rate(a)));
     let in_50_years = table("pga_g,AFE", |a| format!("{a},{}", -(-50.0 * rate(a)).exp_m1()));
@@ -194,8 +139,12 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         (&in_50_years, ["a.csv", "probabilities in 50 years"]),
         (&curve("pga_g,AFE", 9.81), ["a.csv", "m/s2"]),
         (&curve("pgv_m_s,AFE", 60.0), ["a.csv", "cm/s"]),
+        (&curve("pga_g,monthly_rate", 1.0), ["a.csv", "monthly_rate"]),
+        (&curve("pga_g,rate per 10 years", 1.0), ["a.csv", "per 10 years"]),
+        (&curve("vertical PGA (g),AFE", 1.0), ["a.csv", "vertical"]),
+        ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "several sites"]),
+        ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["line 4", "contradict"]),
         ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 1"]),
->>>>>>> main
     ] {
         refused(&[("a.csv", text)], "", &named);
     }
