@@ -16,9 +16,19 @@ pub trait Keyword: Copy + PartialEq + 'static {
     fn as_str(self) -> &'static str;
 }
 
-/// Implements [`Keyword`], `FromStr`, `Display` and serde for an enum.
+/// Declares an enum with a word for each variant, with [`Keyword`], `FromStr`, `Display` and serde.
 macro_rules! keywords {
-    ($type:ident { $($variant:ident = $word:literal),* $(,)? } $(but $advice:expr)?) => {
+    (
+        $(#[$meaning:meta])*
+        $visible:vis enum $type:ident { $($(#[$detail:meta])* $variant:ident = $word:literal),* $(,)? }
+        $(but $advice:expr)?
+    ) => {
+        $(#[$meaning])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        $visible enum $type {
+            $($(#[$detail])* $variant),*
+        }
+
         impl $crate::keyword::Keyword for $type {
             const ALL: &'static [Self] = &[$(Self::$variant),*];
             $(const ADVICE: &'static [(&'static str, &'static str)] = $advice;)?

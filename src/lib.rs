@@ -75,8 +75,9 @@
 //!
 //! Names end in their unit: `pga_m_s2`, `p_rad_s`. Quantities without a unit have none: demands are |*θ*|max /
 //! *α*, and IM1 to IM6 are those of Eq. 13. A fit takes columns of length n and has k coefficients, the
-//! intercept first; a covariance is k × k, row by row. What is unknown is `None`, and NaN in columns. Limits
-//! hold 95 % unless a confidence is given. The same seed gives the same numbers for any number of threads.
+//! intercept first; a covariance is k × k, row by row. An unknown number is `None`, and NaN in a slice of
+//! numbers. Limits hold 95 % unless a confidence is given. The same seed gives the same numbers for any
+//! number of threads.
 //!
 //! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
 //! Before 1.0, any version may change them.
@@ -86,13 +87,17 @@
 //! The command `rockfrag` runs the stages of this diagram over Parquet files; [`table`] has their rows.
 //!
 //! ```text
-//! sample-scenarios -> scenarios -> synthesize-motions -> motions -> simulate -> responses
-//!                                  records -> import-motions ----^                  |-> fit-pex -> pex --|
-//!                                                                                   |-> fit-pro -> pro --|-> compare-paper
-//!                                                                                   |-> rank-ims         |-> evaluate
-//!                                                                                   |-> validate         |-> export
-//!                                                              all of these files, in figures and a page --> report
-//! run: all of pipeline.yaml, skipping what is up to date        inspect: what a file holds and where it came from
+//! sample-scenarios -> scenarios -> synthesize-motions -> motions
+//!                            records -> import-motions -> motions
+//!
+//! motions -> simulate -> responses -> fit-pex -> pex --|-> compare-paper
+//!                                  -> fit-pro -> pro --|-> evaluate
+//!                                  -> rank-ims         |-> export
+//!                                  -> validate
+//!
+//! report: all of these files, in figures and a page
+//! run: all of pipeline.yaml, skipping what is up to date
+//! inspect: what a file holds and where it came from
 //! ```
 //!
 //! `docs/review/architecture.md` has the picture of the code.

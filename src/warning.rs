@@ -6,58 +6,35 @@ use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
 
-/// A warning that changes what one would decide, the weightiest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "text() says it")]
-pub enum Warning {
-    UnusualScenario,
-    ImplausibleRow,
-    NotRocking,
-    ImplausibleRecord,
-    OtherPeak,
-    ImplausibleSize,
-    LowRestitution,
-    HazardEndsEarly,
-    HazardExtrapolated,
-    HazardStartsLate,
-    NotFitted,
-    OtherStructure,
-    Extrapolated,
-    UnusualStructure,
-    PoorFit,
-    NoEvents,
-    FewEvents,
-    FewClusters,
-    ScanEndsEarly,
-    UnreadableFile,
-    NoPartner,
-    UnusedColumns,
+keywords! {
+    /// A warning that changes what one would decide, the weightiest first.
+    #[derive(PartialOrd, Ord)]
+    #[expect(missing_docs, reason = "text() says it")]
+    pub enum Warning {
+        UnusualScenario = "unusual_scenario",
+        ImplausibleRow = "implausible_row",
+        NotRocking = "not_rocking",
+        ImplausibleRecord = "implausible_record",
+        OtherPeak = "other_peak",
+        ImplausibleSize = "implausible_size",
+        LowRestitution = "low_restitution",
+        HazardEndsEarly = "hazard_ends_early",
+        HazardExtrapolated = "hazard_extrapolated",
+        HazardStartsLate = "hazard_starts_late",
+        NotFitted = "not_fitted",
+        OtherStructure = "other_structure",
+        Extrapolated = "extrapolated",
+        UnusualStructure = "unusual_structure",
+        PoorFit = "poor_fit",
+        NoEvents = "no_events",
+        FewEvents = "few_events",
+        FewClusters = "few_clusters",
+        ScanEndsEarly = "scan_ends_early",
+        UnreadableFile = "unreadable_file",
+        NoPartner = "no_partner",
+        UnusedColumns = "unused_columns",
+    }
 }
-
-keywords!(Warning {
-    UnusualScenario = "unusual_scenario",
-    ImplausibleRow = "implausible_row",
-    NotRocking = "not_rocking",
-    ImplausibleRecord = "implausible_record",
-    OtherPeak = "other_peak",
-    ImplausibleSize = "implausible_size",
-    LowRestitution = "low_restitution",
-    HazardEndsEarly = "hazard_ends_early",
-    HazardExtrapolated = "hazard_extrapolated",
-    HazardStartsLate = "hazard_starts_late",
-    NotFitted = "not_fitted",
-    OtherStructure = "other_structure",
-    Extrapolated = "extrapolated",
-    UnusualStructure = "unusual_structure",
-    PoorFit = "poor_fit",
-    NoEvents = "no_events",
-    FewEvents = "few_events",
-    FewClusters = "few_clusters",
-    ScanEndsEarly = "scan_ends_early",
-    UnreadableFile = "unreadable_file",
-    NoPartner = "no_partner",
-    UnusedColumns = "unused_columns",
-});
 
 impl Warning {
     /// In at most 15 words.

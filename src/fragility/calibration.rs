@@ -104,8 +104,8 @@ impl Calibration {
         }
     }
 
-    /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind of
-    /// motion.
+    /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind
+    /// of motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
         let kind = Kind::of_word(cases.suite.as_deref());
         let prior = surface::prior(kind, limit_state);
@@ -141,7 +141,8 @@ impl Calibration {
         }
     }
 
-    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is missing.
+    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is
+    /// missing.
     pub fn predictor(
         &self,
         structure: &Structure,
@@ -264,9 +265,9 @@ fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f
     (found.at, covariance.unwrap_or(bread))
 }
 
-/// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum of
-/// y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second derivatives
-/// are not those of a maximum, their expectation stands for them.
+/// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum
+/// of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
+/// derivatives are not those of a maximum, their expectation stands for them.
 fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Objective {
     let s = at[1].exp();
     let terms = |case: usize, sum: &mut Objective| {

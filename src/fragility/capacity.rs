@@ -22,6 +22,13 @@ pub enum KnownCapacity {
     Above(f64),
 }
 
+impl KnownCapacity {
+    /// Its logarithm, where it is known.
+    fn ln(&self) -> Option<f64> {
+        if let KnownCapacity::At(x) = self { Some(x.ln()) } else { None }
+    }
+}
+
 /// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -38,21 +45,18 @@ pub struct CapacityFit {
 /// (divisor n - 1), with the exact limits of a normal sample. Else by maximum likelihood, capacities above or
 /// below an intensity counting with the probability of that (Baker 2015, Efficient analytical fragility
 /// function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599); limits from the
-/// information in ln theta and ln beta, too narrow for few. Motions of one cluster (`clusters`, one number per
-/// capacity) may depend on each other: limits are wider by as much as the standard error of the mean is.
+/// information in ln theta and ln beta, too narrow for few. Motions of one cluster (`clusters`, one number
+/// per capacity) may depend on each other: limits are wider by as much as the standard error of the mean is.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
 pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<CapacityFit, FitStatus> {
     let fit = fit_independent(capacities)?;
     // The variance of the mean of the known ones by clusters, over that without.
-    let known = |(capacity, cluster): (&KnownCapacity, &u32)| match capacity {
-        KnownCapacity::At(x) => Some((x.ln(), *cluster)),
-        KnownCapacity::Below(_) | KnownCapacity::Above(_) => None,
-    };
-    let (ln_x, of): (Vec<f64>, Vec<u32>) = capacities.iter().zip(clusters).filter_map(known).unzip();
+    let known = capacities.iter().zip(clusters).filter_map(|(capacity, &own)| Some((capacity.ln()?, own)));
+    let (ln_x, clusters): (Vec<f64>, Vec<u32>) = known.unzip();
     let alone: Vec<u32> = (0..ln_x.len() as u32).collect();
-    let wider = (clustered_mean(&ln_x, &of).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
+    let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
     // Of one earthquake alone nothing is known about others.
     let wider = if wider.is_finite() { wider } else { 1.0 };
     let widened = |value: f64, limit: f64| value * (limit / value).powf(wider);
@@ -66,11 +70,7 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
 }
 
 fn fit_independent(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
-    let exact = |capacity: &KnownCapacity| match capacity {
-        KnownCapacity::At(x) => Some(x.ln()),
-        KnownCapacity::Below(_) | KnownCapacity::Above(_) => None,
-    };
-    let known: Vec<f64> = capacities.iter().filter_map(exact).collect();
+    let known: Vec<f64> = capacities.iter().filter_map(KnownCapacity::ln).collect();
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);
     }

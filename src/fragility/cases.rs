@@ -10,25 +10,19 @@ use crate::rocking::{Outcome, Response, Structure};
 /// The most cases of one structure and suite.
 pub const MOST_CASES: usize = 20_000_000;
 
-/// The event whose probability is fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Event {
-    /// Overturning given rocking: P_ro.
-    Overturning,
-    /// Rocking: 1 - P_nr.
-    Rocking,
-    /// A demand above the limit state in safe rocking: P_ex.
-    Exceeding,
-    /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
-    Failure,
+keywords! {
+    /// The event whose probability is fitted.
+    pub enum Event {
+        /// Overturning given rocking: P_ro.
+        Overturning = "overturning",
+        /// Rocking: 1 - P_nr.
+        Rocking = "rocking",
+        /// A demand above the limit state in safe rocking: P_ex.
+        Exceeding = "exceeding",
+        /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
+        Failure = "failure",
+    }
 }
-
-keywords!(Event {
-    Overturning = "overturning",
-    Rocking = "rocking",
-    Exceeding = "exceeding",
-    Failure = "failure",
-});
 
 impl Event {
     /// Returns whether it happened in a response with this outcome and demand; none where the response does

@@ -163,18 +163,17 @@ pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> Vec<DemandFit> {
     fits
 }
 
-/// The form of a regression of demand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DemandModel {
-    /// On one measure.
-    Univariate,
-    /// On two measures.
-    Plane,
-    /// On two measures, on one side of the transition.
-    Biplanar,
+keywords! {
+    /// The form of a regression of demand.
+    pub enum DemandModel {
+        /// On one measure.
+        Univariate = "univariate",
+        /// On two measures.
+        Plane = "plane",
+        /// On two measures, on one side of the transition.
+        Biplanar = "biplanar",
+    }
 }
-
-keywords!(DemandModel { Univariate = "univariate", Plane = "plane", Biplanar = "biplanar" });
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -6,34 +6,26 @@ use std::str::FromStr;
 use crate::keyword::{self, Keyword, keywords};
 use crate::motion::IntensityMeasures;
 
-/// A dimensionless intensity measure (Eq. 13).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Measure {
-    /// wp / p.
-    Im1,
-    /// wm / p.
-    Im2,
-    /// PGA / (p PGV).
-    Im3,
-    /// PGA / (g tan alpha).
-    Im4,
-    /// p PGV / (g tan alpha).
-    Im5,
-    /// wm PGV / (g tan alpha).
-    Im6,
-    /// p PGV / PGA, the frequency ratio of Figure 12: 1 / IM3.
-    Im3Inverse,
+keywords! {
+    /// A dimensionless intensity measure (Eq. 13).
+    #[derive(Hash)]
+    pub enum Measure {
+        /// wp / p.
+        Im1 = "im1",
+        /// wm / p.
+        Im2 = "im2",
+        /// PGA / (p PGV).
+        Im3 = "im3",
+        /// PGA / (g tan alpha).
+        Im4 = "im4",
+        /// p PGV / (g tan alpha).
+        Im5 = "im5",
+        /// wm PGV / (g tan alpha).
+        Im6 = "im6",
+        /// p PGV / PGA, the frequency ratio of Figure 12: 1 / IM3.
+        Im3Inverse = "im3_inv",
+    }
 }
-
-keywords!(Measure {
-    Im1 = "im1",
-    Im2 = "im2",
-    Im3 = "im3",
-    Im4 = "im4",
-    Im5 = "im5",
-    Im6 = "im6",
-    Im3Inverse = "im3_inv",
-});
 
 impl Measure {
     /// The six of Eq. 13.

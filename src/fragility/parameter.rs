@@ -5,37 +5,27 @@ use serde::{Deserialize, Serialize};
 use super::measure::Measure;
 use crate::keyword::keywords;
 
-/// A parameter of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parameter {
-    /// ln a (Eqs. 16 and 17).
-    LnA,
-    /// Slope on the first measure.
-    B1,
-    /// Slope on the second measure.
-    B2,
-    /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
-    Beta,
-    /// Dispersion of the demand over its slope, beta / b1.
-    Zeta,
-    /// Exponent of the first measure of a hybrid (Eq. 23).
-    Lambda,
-    /// Logarithm of the median intensity (Eqs. 20 and 24).
-    Mu,
-    /// Median intensity, exp(mu).
-    Theta,
+keywords! {
+    /// A parameter of a fit.
+    pub enum Parameter {
+        /// ln a (Eqs. 16 and 17).
+        LnA = "ln_a",
+        /// Slope on the first measure.
+        B1 = "b1",
+        /// Slope on the second measure.
+        B2 = "b2",
+        /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
+        Beta = "beta",
+        /// Dispersion of the demand over its slope, beta / b1.
+        Zeta = "zeta",
+        /// Exponent of the first measure of a hybrid (Eq. 23).
+        Lambda = "lambda",
+        /// Logarithm of the median intensity (Eqs. 20 and 24).
+        Mu = "mu",
+        /// Median intensity, exp(mu).
+        Theta = "theta",
+    }
 }
-
-keywords!(Parameter {
-    LnA = "ln_a",
-    B1 = "b1",
-    B2 = "b2",
-    Beta = "beta",
-    Zeta = "zeta",
-    Lambda = "lambda",
-    Mu = "mu",
-    Theta = "theta",
-});
 
 /// A parameter of a fit: a row of pex.parameters.parquet or pro.parameters.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -3,16 +3,15 @@
 use crate::keyword::keywords;
 use crate::statistics::least_squares;
 
-/// A peak of the ground motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Peak {
-    /// Peak ground acceleration, m/s2.
-    Pga,
-    /// Peak ground velocity, m/s.
-    Pgv,
+keywords! {
+    /// A peak of the ground motion.
+    pub enum Peak {
+        /// Peak ground acceleration, m/s2.
+        Pga = "pga",
+        /// Peak ground velocity, m/s.
+        Pgv = "pgv",
+    }
 }
-
-keywords!(Peak { Pga = "pga", Pgv = "pgv" });
 
 /// The ratio PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,20 +9,19 @@ use crate::keyword::{Keyword, keywords};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
 
-/// Kinds of motion that the surface knows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Recorded motions.
-    Recorded,
-    /// Combined synthetic motions on rock: pulse and high frequencies.
-    Csgm,
-    /// Coherent pulses alone.
-    Pulse,
-    /// High frequencies alone.
-    Hfc,
+keywords! {
+    /// Kinds of motion that the surface knows.
+    pub enum Kind {
+        /// Recorded motions.
+        Recorded = "recorded",
+        /// Combined synthetic motions on rock: pulse and high frequencies.
+        Csgm = "csgm",
+        /// Coherent pulses alone.
+        Pulse = "pulse",
+        /// High frequencies alone.
+        Hfc = "hfc",
+    }
 }
-
-keywords!(Kind { Recorded = "recorded", Csgm = "csgm", Pulse = "pulse", Hfc = "hfc" });
 
 impl Kind {
     /// The kind of a suite of motions; those without a suite are taken for recorded ones.

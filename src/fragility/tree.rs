@@ -5,18 +5,17 @@ use crate::keyword::keywords;
 /// The 97.5 % quantile of the normal distribution.
 pub const Z_95: f64 = 1.959_963_984_540_054;
 
-/// Limit states, each within the one before (Table I).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LimitState {
-    /// LS1: rocking.
-    Rocking,
-    /// LS2: a demand above the limit, or overturning.
-    Failure,
-    /// LS3: overturning.
-    Overturning,
+keywords! {
+    /// Limit states, each within the one before (Table I).
+    pub enum LimitState {
+        /// LS1: rocking.
+        Rocking = "LS1",
+        /// LS2: a demand above the limit, or overturning.
+        Failure = "LS2",
+        /// LS3: overturning.
+        Overturning = "LS3",
+    }
 }
-
-keywords!(LimitState { Rocking = "LS1", Failure = "LS2", Overturning = "LS3" });
 
 /// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0
 /// from there on; NaN of NaN.

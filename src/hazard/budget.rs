@@ -5,34 +5,25 @@ use crate::fragility::Z_95;
 use crate::keyword::{Keyword, keywords};
 use crate::statistics::Limits;
 
-/// What an error comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
-    /// c and ln s of the calibration.
-    Fit,
-    /// Magnitude of the earthquakes.
-    Magnitude,
-    /// Level of PGV / PGA.
-    Velocity,
-    /// Coefficient of restitution.
-    Eta,
-    /// Centre of mass and inertia.
-    Object,
-    /// Building under the object.
-    Floor,
-    /// The hazard itself, where its fractiles are given.
-    Hazard,
+keywords! {
+    /// What an error comes from.
+    pub enum Part {
+        /// c and ln s of the calibration.
+        Fit = "fit",
+        /// Magnitude of the earthquakes.
+        Magnitude = "magnitude",
+        /// Level of PGV / PGA.
+        Velocity = "velocity",
+        /// Coefficient of restitution.
+        Eta = "eta",
+        /// Centre of mass and inertia.
+        Object = "object",
+        /// Building under the object.
+        Floor = "floor",
+        /// The hazard itself, where its fractiles are given.
+        Hazard = "hazard",
+    }
 }
-
-keywords!(Part {
-    Fit = "fit",
-    Magnitude = "magnitude",
-    Velocity = "velocity",
-    Eta = "eta",
-    Object = "object",
-    Floor = "floor",
-    Hazard = "hazard",
-});
 
 impl Part {
     /// What is unknown, in words.

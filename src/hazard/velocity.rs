@@ -8,28 +8,21 @@ use crate::keyword::keywords;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
 
-/// Source of PGV / PGA.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum VelocitySource {
-    /// Curves of PGA and PGV.
-    Velocity,
-    /// Curves of PGA and of the spectral acceleration at 1 s.
-    Spectrum,
-    /// A ratio that the user gives.
-    Given,
-    /// The motions that the model was fitted to.
-    Motions,
-    /// Ground-motion models, at sites in general.
-    Sites,
+keywords! {
+    /// Source of PGV / PGA.
+    pub enum VelocitySource {
+        /// Curves of PGA and PGV.
+        Velocity = "pgv",
+        /// Curves of PGA and of the spectral acceleration at 1 s.
+        Spectrum = "sa",
+        /// A ratio that the user gives.
+        Given = "ratio",
+        /// The motions that the model was fitted to.
+        Motions = "motions",
+        /// Ground-motion models, at sites in general.
+        Sites = "sites",
+    }
 }
-
-keywords!(VelocitySource {
-    Velocity = "pgv",
-    Spectrum = "sa",
-    Given = "ratio",
-    Motions = "motions",
-    Sites = "sites",
-});
 
 /// PGV / PGA of the motions of a site.
 #[derive(Debug, Clone, Copy, PartialEq)]

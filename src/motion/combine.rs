@@ -4,33 +4,32 @@ use super::fourier::Complex64;
 
 use crate::keyword::keywords;
 
-/// Treatment of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The
-/// literature leaves open what to do where the pulse is larger.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Difference {
-    /// |D|.
-    Absolute,
-    /// D; a negative one shifts the phase by half a cycle.
-    Signed,
-    /// max(D, 0).
-    Clamp,
-    /// |H|: the sum of both motions.
-    None,
+keywords! {
+    /// Treatment of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The
+    /// literature leaves open what to do where the pulse is larger.
+    pub enum Difference {
+        /// |D|.
+        Absolute = "absolute",
+        /// D; a negative one shifts the phase by half a cycle.
+        Signed = "signed",
+        /// max(D, 0).
+        Clamp = "clamp",
+        /// |H|: the sum of both motions.
+        None = "none",
+    }
 }
 
-/// When the pulse peaks in the high-frequency motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Epoch {
-    /// At the peak of the window.
-    EnvelopePeak,
-    /// At the peak ground acceleration of the high frequencies.
-    Pga,
-    /// At the peak ground velocity of the high frequencies.
-    Pgv,
+keywords! {
+    /// When the pulse peaks in the high-frequency motion.
+    pub enum Epoch {
+        /// At the peak of the window.
+        EnvelopePeak = "envelope-peak",
+        /// At the peak ground acceleration of the high frequencies.
+        Pga = "pga",
+        /// At the peak ground velocity of the high frequencies.
+        Pgv = "pgv",
+    }
 }
-
-keywords!(Difference { Absolute = "absolute", Signed = "signed", Clamp = "clamp", None = "none" });
-keywords!(Epoch { EnvelopePeak = "envelope-peak", Pga = "pga", Pgv = "pgv" });
 
 impl Difference {
     /// Computes D', the amplitude of the high frequencies in the combined motion, from |H| and |P|.

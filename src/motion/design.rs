@@ -7,16 +7,15 @@ use super::scenario::Scenario;
 use crate::keyword::keywords;
 use crate::random::{Purpose, stream};
 
-/// Sampling of the four random parameters in a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Design {
-    /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
-    Lhs,
-    /// Independent samples.
-    Random,
+keywords! {
+    /// Sampling of the four random parameters in a cell.
+    pub enum Design {
+        /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
+        Lhs = "lhs",
+        /// Independent samples.
+        Random = "random",
+    }
 }
-
-keywords!(Design { Lhs = "lhs", Random = "random" });
 
 /// Number of random parameters: Vp, Tp, gamma and nu.
 const DIMENSIONS: usize = 4;

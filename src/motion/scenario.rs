@@ -81,35 +81,35 @@ pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }
 
-/// A kind of ground motion in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Suite {
-    /// The coherent pulse alone.
-    Pulse,
-    /// The combined synthetic ground motion: pulse and high frequencies.
-    Csgm,
-    /// The stochastic high-frequency component alone.
-    Hfc,
-    /// A recorded motion.
-    Record,
-    /// A recorded motion without its pulse.
-    Residual,
+keywords! {
+    /// A kind of ground motion in a file.
+    #[derive(Hash)]
+    pub enum Suite {
+        /// The coherent pulse alone.
+        Pulse = "pulse",
+        /// The combined synthetic ground motion: pulse and high frequencies.
+        Csgm = "csgm",
+        /// The stochastic high-frequency component alone.
+        Hfc = "hfc",
+        /// A recorded motion.
+        Record = "record",
+        /// A recorded motion without its pulse.
+        Residual = "residual",
+    }
 }
 
-keywords!(Suite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc", Record = "record", Residual = "residual" });
-
-/// A kind of ground motion that is synthesized from a scenario.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum SyntheticSuite {
-    /// The coherent pulse alone.
-    Pulse,
-    /// Pulse and high frequencies combined.
-    Csgm,
-    /// The stochastic high-frequency component alone.
-    Hfc,
+keywords! {
+    /// A kind of ground motion that is synthesized from a scenario.
+    #[derive(Hash)]
+    pub enum SyntheticSuite {
+        /// The coherent pulse alone.
+        Pulse = "pulse",
+        /// Pulse and high frequencies combined.
+        Csgm = "csgm",
+        /// The stochastic high-frequency component alone.
+        Hfc = "hfc",
+    }
 }
-
-keywords!(SyntheticSuite { Pulse = "pulse", Csgm = "csgm", Hfc = "hfc" });
 
 impl SyntheticSuite {
     /// Motion numbers reserved for each scenario.

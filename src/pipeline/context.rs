@@ -40,15 +40,15 @@ pub struct Common {
     pub progress: Bars,
 }
 
-/// When to draw progress bars: if stderr is a terminal, or never.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Bars {
-    #[default]
-    Auto,
-    Never,
+keywords! {
+    /// When to draw progress bars: if stderr is a terminal, or never.
+    #[derive(Default)]
+    pub enum Bars {
+        #[default]
+        Auto = "auto",
+        Never = "never",
+    }
 }
-
-keywords!(Bars { Auto = "auto", Never = "never" });
 
 /// A program that observes the progress of a stage, in place of the terminal.
 pub trait Listener: Send + Sync {

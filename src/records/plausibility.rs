@@ -34,33 +34,37 @@ const DRIFT: (f64, f64) = (0.1, 0.5);
 /// Least PGA, g: accelerographs resolve some 1e-4 g, and 1e-3 g rocks no stable structure.
 const WEAKEST_PGA_G: f64 = 1e-3;
 
+fn digits(value: &f64) -> String {
+    significant(*value, 3)
+}
+
 /// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum Implausibility {
-    #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", significant(*.dt_s, 3))]
+    #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", digits(.dt_s))]
     TimeStep { dt_s: f64 },
     #[error("{samples} samples; expected 25 or more: a part of a record, or another table?")]
     FewSamples { samples: usize },
     #[error("0 throughout; expected a motion: another column?")]
     Still,
-    #[error("sample {sample} of {} g; those beside it are below a quarter: a spike?", significant(*.pga_g, 3))]
+    #[error("sample {sample} of {} g; those beside it are below a quarter: a spike?", digits(.pga_g))]
     Spike { sample: usize, pga_g: f64 },
-    #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", significant(*.pga_g, 3))]
+    #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", digits(.pga_g))]
     Pga { pga_g: f64 },
-    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", significant(*.velocity_m_s, 3))]
+    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", digits(.velocity_m_s))]
     Drift { velocity_m_s: f64 },
-    #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", significant(*.pgv_m_s, 3))]
+    #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", digits(.pgv_m_s))]
     Pgv { pgv_m_s: f64 },
-    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", significant(*.ratio_s, 3))]
+    #[error("PGV/PGA {} s; FEMA P695 has up to 0.5 s: velocity, or another time step?", digits(.ratio_s))]
     Slow { ratio_s: f64 },
-    #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", significant(*.frequency_hz, 3))]
+    #[error("mean frequency {} Hz; records reach 20 Hz: another time step?", digits(.frequency_hz))]
     Fast { frequency_hz: f64 },
-    #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", significant(*.pga_g, 3))]
+    #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", digits(.pga_g))]
     WeakPga { pga_g: f64 },
-    #[error("PGA {} g; few records exceed 2 g: is it in m/s2, and called g?", significant(*.pga_g, 3))]
+    #[error("PGA {} g; few records exceed 2 g: is it in m/s2, and called g?", digits(.pga_g))]
     RarePga { pga_g: f64 },
-    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in m/s2, and called g?", significant(*.pgv_m_s, 3))]
+    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in m/s2, and called g?", digits(.pgv_m_s))]
     RarePgv { pgv_m_s: f64 },
 }
 

@@ -87,16 +87,15 @@ impl ImportedMotion {
     }
 }
 
-/// Whether to search for pulses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PulseSearch {
-    /// Search for a pulse, and fit it.
-    Find,
-    /// Do not search.
-    Skip,
+keywords! {
+    /// Whether to search for pulses.
+    pub enum PulseSearch {
+        /// Search for a pulse, and fit it.
+        Find = "find",
+        /// Do not search.
+        Skip = "skip",
+    }
 }
-
-keywords!(PulseSearch { Find = "find", Skip = "skip" });
 
 /// Treatment of implausible motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -54,8 +54,8 @@ impl RecordedMotion {
 const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "DWN"];
 
 impl RecordedMotion {
-    /// Whether the component of a network's file is vertical, by its name or, as in HNZ, the last letter of its
-    /// channel code. Columns of CSV are what the user has chosen.
+    /// Whether the component of a network's file is vertical, by its name or, as in HNZ, the last letter of
+    /// its channel code. Columns of CSV are what the user has chosen.
     pub fn is_vertical(&self) -> bool {
         let name = self.component.as_deref().unwrap_or_default().to_ascii_uppercase();
         let is_code = name.len() == 3 && name.ends_with('Z');

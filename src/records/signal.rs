@@ -17,18 +17,17 @@ const KAISER_BETA: f64 = 8.0;
 /// Corner of the resampling filter as a share of the lower Nyquist frequency.
 const CORNER: f64 = 0.9;
 
-/// Baseline to remove from an acceleration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Baseline {
-    /// Nothing.
-    None,
-    /// Mean.
-    Mean,
-    /// Least-squares line.
-    Linear,
+keywords! {
+    /// Baseline to remove from an acceleration.
+    pub enum Baseline {
+        /// Nothing.
+        None = "none",
+        /// Mean.
+        Mean = "mean",
+        /// Least-squares line.
+        Linear = "linear",
+    }
 }
-
-keywords!(Baseline { None = "none", Mean = "mean", Linear = "linear" });
 
 impl Baseline {
     /// Removes the baseline from samples, in place.

@@ -59,8 +59,8 @@ impl Body {
     }
 
     /// Coefficient of restitution: the geometric mean of the impacts from either edge to the other, by
-    /// conservation of angular momentum about the new one, (I/m + R_i R_j cos(alpha_i + alpha_j))/(I/m + R_j^2).
-    /// Not above 0 where an impact stops the body.
+    /// conservation of angular momentum about the new one,
+    /// (I/m + R_i R_j cos(alpha_i + alpha_j))/(I/m + R_j^2). Not above 0 where an impact stops the body.
     pub fn eta(&self) -> f64 {
         let [weak, strong] = self.sides();
         let common =

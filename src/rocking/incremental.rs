@@ -203,18 +203,17 @@ impl ScanResponse {
     }
 }
 
-/// Whether and where a structure overturns in a scan.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CapacityStatus {
-    /// Overturns from an intensity within the scan.
-    Overturns,
-    /// Safe at all simulated intensities.
-    Safe,
-    /// Overturns at the lowest intensity of the scan.
-    Below,
+keywords! {
+    /// Whether and where a structure overturns in a scan.
+    pub enum CapacityStatus {
+        /// Overturns from an intensity within the scan.
+        Overturns = "overturns",
+        /// Safe at all simulated intensities.
+        Safe = "safe",
+        /// Overturns at the lowest intensity of the scan.
+        Below = "below",
+    }
 }
-
-keywords!(CapacityStatus { Overturns = "overturns", Safe = "safe", Below = "below" });
 
 /// The overturning capacity of a structure in a scan.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,22 +5,17 @@ use std::f64::consts::FRAC_PI_2;
 use super::taylor::State;
 use crate::keyword::keywords;
 
-/// The outcome of one structure under one ground motion (Figure 6).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// The structure stays on its base.
-    NoRocking,
-    /// It rocks and comes to rest.
-    SafeRocking,
-    /// Its rotation reaches pi/2, in the record or, by its energy, after it.
-    Overturning,
+keywords! {
+    /// The outcome of one structure under one ground motion (Figure 6).
+    pub enum Outcome {
+        /// The structure stays on its base.
+        NoRocking = "no_rocking",
+        /// It rocks and comes to rest.
+        SafeRocking = "safe_rocking",
+        /// Its rotation reaches pi/2, in the record or, by its energy, after it.
+        Overturning = "overturning",
+    }
 }
-
-keywords!(Outcome {
-    NoRocking = "no_rocking",
-    SafeRocking = "safe_rocking",
-    Overturning = "overturning",
-});
 
 /// The response of one structure to one ground motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,20 +3,19 @@
 use super::record::Record;
 use crate::keyword::keywords;
 
-/// An event of a rocking structure in the solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SolverEvent {
-    /// The structure leaves its base.
-    Uplift,
-    /// It strikes its base and continues on the other side.
-    Impact,
-    /// It comes to rest.
-    Rest,
-    /// Its rotation reaches pi/2.
-    Overturn,
+keywords! {
+    /// An event of a rocking structure in the solver.
+    pub enum SolverEvent {
+        /// The structure leaves its base.
+        Uplift = "uplift",
+        /// It strikes its base and continues on the other side.
+        Impact = "impact",
+        /// It comes to rest.
+        Rest = "rest",
+        /// Its rotation reaches pi/2.
+        Overturn = "overturn",
+    }
 }
-
-keywords!(SolverEvent { Uplift = "uplift", Impact = "impact", Rest = "rest", Overturn = "overturn" });
 
 /// A point of a traced response: a sample of the record, or an event between two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -35,14 +35,13 @@ pub struct Export {
     structures: StructureArgs,
 }
 
-/// A program that reads fragility.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Program {
-    OpenQuake,
-    Pelicun,
+keywords! {
+    /// A program that reads fragility.
+    enum Program {
+        OpenQuake = "openquake",
+        Pelicun = "pelicun",
+    }
 }
-
-keywords!(Program { OpenQuake = "openquake", Pelicun = "pelicun" });
 
 /// Largest error of straight lines between the levels for OpenQuake.
 const TOLERANCE: f64 = 4e-6;

@@ -64,24 +64,23 @@ pub struct Ida {
     structures: StructureArgs,
 }
 
-/// A measure that grows with a motion in proportion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ScaledMeasure {
-    /// The factor itself.
-    Scale,
-    /// Peak ground acceleration, g.
-    Pga,
-    /// Peak ground velocity, m/s.
-    Pgv,
-    /// PGA / (g tan alpha).
-    Im4,
-    /// p PGV / (g tan alpha).
-    Im5,
-    /// wm PGV / (g tan alpha).
-    Im6,
+keywords! {
+    /// A measure that grows with a motion in proportion.
+    pub enum ScaledMeasure {
+        /// The factor itself.
+        Scale = "scale",
+        /// Peak ground acceleration, g.
+        Pga = "pga",
+        /// Peak ground velocity, m/s.
+        Pgv = "pgv",
+        /// PGA / (g tan alpha).
+        Im4 = "im4",
+        /// p PGV / (g tan alpha).
+        Im5 = "im5",
+        /// wm PGV / (g tan alpha).
+        Im6 = "im6",
+    }
 }
-
-keywords!(ScaledMeasure { Scale = "scale", Pga = "pga", Pgv = "pgv", Im4 = "im4", Im5 = "im5", Im6 = "im6" });
 
 /// The capacity of a structure under a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -200,7 +199,7 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let fits = fits(&capacities, &scan)?;
+        let fits = fits(&capacities, &scan);
         context.warn(ends_early(&fits));
         let summary = summary(&fits, &self.out);
         context.finish(stripes, &summary)?;
@@ -362,12 +361,12 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 }
 
 /// The lognormal distribution of the capacities of each suite and structure.
-fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
+fn fits(capacities: &[CapacityRow], scan: &Scan) -> Vec<CapacityFitRow> {
     let of = |rows: Vec<usize>| {
         let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
         fit(&rows, scan)
     };
-    Ok(frame::groups(capacities.iter().map(CapacityRow::group))?.into_iter().map(of).collect())
+    frame::groups(capacities.iter().map(CapacityRow::group)).into_iter().map(of).collect()
 }
 
 fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {

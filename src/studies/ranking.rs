@@ -13,27 +13,25 @@ use crate::keyword::{Keyword, keywords};
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::{FitStatus, Folds, LinearFit, ProbitFit, least_squares, normal, predict, probit};
 
-/// Target of the prediction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Target {
-    /// ln EDP in safe rocking: P_ex.
-    Demand,
-    /// Overturning given rocking: P_ro.
-    Overturning,
+keywords! {
+    /// Target of the prediction.
+    pub enum Target {
+        /// ln EDP in safe rocking: P_ex.
+        Demand = "p_ex",
+        /// Overturning given rocking: P_ro.
+        Overturning = "p_ro",
+    }
 }
 
-keywords!(Target { Demand = "p_ex", Overturning = "p_ro" });
-
-/// Form of a set of measures: linear in their logarithms, and so a power law of their product.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// One power law.
-    Single,
-    /// One below the transition in IM4 and one above, as the two planes of Eq. 18; demand only.
-    Biplanar,
+keywords! {
+    /// Form of a set of measures: linear in their logarithms, and so a power law of their product.
+    pub enum Form {
+        /// One power law.
+        Single = "single",
+        /// One below the transition in IM4 and one above, as the two planes of Eq. 18; demand only.
+        Biplanar = "biplanar",
+    }
 }
-
-keywords!(Form { Single = "single", Biplanar = "biplanar" });
 
 /// Options of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -133,6 +133,16 @@ impl Table {
         Ok(Table { rows: rows.start as u64..rows.end as u64, ..table })
     }
 
+    /// Checks that the first file, of the table at `path`, has these columns.
+    pub fn expect<'a>(
+        &self,
+        path: &Path,
+        columns: impl IntoIterator<Item = &'a str>,
+    ) -> Result<(), TableError> {
+        let missing = columns.into_iter().find(|column| self.schema().index_of(column).is_err());
+        missing.map_or(Ok(()), |column| Err(TableError::missing_column(path, column)))
+    }
+
     /// Returns the number of rows.
     pub fn rows(&self) -> u64 {
         self.rows.end - self.rows.start
@@ -249,16 +259,18 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     }
 }
 
+/// Returns the files and folders in a folder that are not hidden, in the order of their names.
+pub(super) fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
+    let entries = std::fs::read_dir(folder).map_err(|source| TableError::io(folder, source))?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
+    paths.sort_unstable();
+    Ok(paths)
+}
+
 /// Returns the Parquet files of a folder, in the order of their names.
-pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
-    let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
-    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    files.retain(|file| {
-        let is_hidden = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-        !is_hidden && is_table(file)
-    });
-    files.sort_unstable();
-    Ok(files)
+pub fn tables(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
+    Ok(entries(folder)?.into_iter().filter(|path| is_table(path)).collect())
 }
 
 /// Returns whether a file has the name of a table.

@@ -1,9 +1,10 @@
 //! Narrow tables as polars frames, and their text, CSV and JSON.
 
+use std::collections::BTreeMap;
+
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, IntoColumn, NamedFrom};
-use polars::prelude::{PolarsError, Series};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
 use serde_json::{Map, Value};
 
 use super::columns::numbers;
@@ -12,15 +13,14 @@ use crate::fragility::Group;
 use crate::keyword::keywords;
 use crate::number::{aligned, fixed, significant};
 
-/// Format of a printed table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    Text,
-    Csv,
-    Json,
+keywords! {
+    /// Format of a printed table.
+    pub enum Format {
+        Text = "text",
+        Csv = "csv",
+        Json = "json",
+    }
 }
-
-keywords!(Format { Text = "text", Csv = "csv", Json = "json" });
 
 /// Reads the first rows of a table, at most this many; a list is shown by its length.
 pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
@@ -47,21 +47,15 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
 }
 
 /// The rows of each suite and structure, in the order in which these first come.
-pub fn groups<'a>(of: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize>>, PolarsError> {
-    let (suites, structures): (Vec<_>, Vec<_>) = of.map(|group| (group.suite, group.structure)).unzip();
-    let height = structures.len();
-    let keys = vec![
-        Series::new("suite".into(), suites).into_column(),
-        Series::new("structure".into(), structures).into_column(),
-    ];
-    // On this thread: the pool of polars does not know --threads.
-    let frame = DataFrame::new(height, keys)?;
-    let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
-    let rows = |group: GroupsIndicator| match group {
-        GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
-        GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
-    };
-    Ok(groups.get_groups().iter().map(rows).collect())
+pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let mut places = BTreeMap::new();
+    for (row, group) in rows.enumerate() {
+        let place = *places.entry(group).or_insert(groups.len());
+        groups.resize(groups.len().max(place + 1), Vec::new());
+        groups[place].push(row);
+    }
+    groups
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {

@@ -31,11 +31,7 @@ pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
             files.push(path.clone());
             continue;
         }
-        let entries = std::fs::read_dir(path).map_err(|source| TableError::io(path, source))?;
-        let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-        inside.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
-        inside.sort_unstable();
-        files.extend(files_below(&inside)?);
+        files.extend(files_below(&file::entries(path)?)?);
     }
     Ok(files)
 }

@@ -111,10 +111,7 @@ impl Motions {
 /// Opens a table that has the columns of motions.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
     let table = Table::open_partition(path, partition)?;
-    let required = ["motion_id", "dt_s", ACCELERATION];
-    if let Some(column) = required.iter().find(|column| table.schema().index_of(column).is_err()) {
-        return Err(TableError::missing_column(path, column));
-    }
+    table.expect(path, ["motion_id", "dt_s", ACCELERATION])?;
     match table.rows() {
         0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
         _ => Ok(table),
@@ -144,13 +141,11 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
     let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
     let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
-    let owned = |text: Option<Cow<str>>| text.map(Cow::into_owned);
-    let (suites, earthquakes) = (suites.into_iter().map(owned), earthquakes.into_iter().map(owned));
-    let rows = ids.into_iter().map(Cow::into_owned).zip(suites).zip(earthquakes).zip(samples).enumerate();
-    let motion = |(at, (((motion_id, suite), earthquake), acceleration_m_s2))| Motion {
-        motion_id,
-        suite,
-        earthquake,
+    let text = |texts: &[Option<Cow<str>>], at: usize| texts[at].as_deref().map(str::to_string);
+    let motion = |(at, acceleration_m_s2): (usize, Vec<f64>)| Motion {
+        motion_id: ids[at].to_string(),
+        suite: text(&suites, at),
+        earthquake: text(&earthquakes, at),
         mw: mw[at],
         re_km: re_km[at],
         dt_s: dt[at],
@@ -161,7 +156,7 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
         acceleration_m_s2,
         row: batch.first_row + at as u64,
     };
-    Ok((batch.path.clone(), rows.map(motion).collect()))
+    Ok((batch.path.clone(), samples.into_iter().enumerate().map(motion).collect()))
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.

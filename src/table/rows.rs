@@ -74,12 +74,8 @@ pub fn batch_of<R: Row, S: Serialize>(rows: &[S]) -> anyhow::Result<RecordBatch>
 /// Reads all rows of a table. A column of optional values may be missing.
 pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     let (table, schema) = (Table::open(path)?, schema::<R>());
-    let found = table.schema();
-    if let Some(field) =
-        schema.fields().iter().find(|f| !f.is_nullable() && found.index_of(f.name()).is_err())
-    {
-        return Err(TableError::missing_column(path, field.name()));
-    }
+    let required = schema.fields().iter().filter(|field| !field.is_nullable());
+    table.expect(path, required.map(|field| field.name().as_str()))?;
     let mut rows = Vec::new();
     for batch in table.batches(&|name| schema.index_of(name).is_ok()) {
         let batch = batch?;

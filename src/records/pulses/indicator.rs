@@ -38,20 +38,19 @@ pub struct PulseIndicator {
     pub verdict: Verdict,
 }
 
-/// Whether a record has a pulse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// It has an early pulse.
-    Pulse,
-    /// The indicator is too low.
-    NoPulse,
-    /// The pulse is late, and so no effect of directivity.
-    Late,
-    /// The peak velocity is below 0.3 m/s.
-    Weak,
+keywords! {
+    /// Whether a record has a pulse.
+    pub enum Verdict {
+        /// It has an early pulse.
+        Pulse = "pulse",
+        /// The indicator is too low.
+        NoPulse = "no_pulse",
+        /// The pulse is late, and so no effect of directivity.
+        Late = "late",
+        /// The peak velocity is below 0.3 m/s.
+        Weak = "weak",
+    }
 }
-
-keywords!(Verdict { Pulse = "pulse", NoPulse = "no_pulse", Late = "late", Weak = "weak" });
 
 impl PulseIndicator {
     /// Computes the indicator of a velocity (m/s) at steps of `dt_s`; none if it is zero.

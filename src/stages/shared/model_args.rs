@@ -15,16 +15,15 @@ use crate::stages::shared::fit_tables::verdict;
 use crate::table::rows;
 use crate::warning::Warning;
 
-/// The model that predicts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModelName {
-    /// The universal surface, calibrated where there are fits.
-    Calibrated,
-    /// The two planes and the lognormal curve of the paper.
-    Paper,
+keywords! {
+    /// The model that predicts.
+    pub enum ModelName {
+        /// The universal surface, calibrated where there are fits.
+        Calibrated = "calibrated",
+        /// The two planes and the lognormal curve of the paper.
+        Paper = "paper",
+    }
 }
-
-keywords!(ModelName { Calibrated = "calibrated", Paper = "paper" });
 
 /// The model of a call.
 #[derive(Debug, Clone, Args)]
