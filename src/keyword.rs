@@ -98,10 +98,9 @@ pub struct UnknownKeyword {
 impl fmt::Display for UnknownKeyword {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "'{}' is none of {}", self.word, self.known.join(", "))?;
-        match (self.advice, nearest(&self.word, &self.known)) {
-            (Some(advice), _) => write!(f, "; {advice}"),
-            (None, Some(near)) => write!(f, "; did you mean '{near}'?"),
-            (None, None) => Ok(()),
+        match self.advice {
+            Some(advice) => write!(f, "; {advice}"),
+            None => f.write_str(&hint(&self.word, &self.known)),
         }
     }
 }
@@ -121,9 +120,10 @@ pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
     })
 }
 
-/// Returns the most similar known word, if any is similar.
-pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
-    let similarity = |candidate: &str| strsim::jaro_winkler(word, candidate);
-    let best = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
-    (similarity(best) > 0.7).then_some(*best)
+/// Asks whether the most similar known word was meant, if any is similar.
+pub fn hint(word: &str, known: &[&str]) -> String {
+    let similarity = |candidate: &&str| strsim::jaro_winkler(word, candidate);
+    let best = known.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    let near = best.filter(|best| similarity(best) > 0.7);
+    near.map_or(String::new(), |near| format!("; did you mean '{near}'?"))
 }

@@ -8,7 +8,7 @@ use clap::parser::ValueSource;
 use clap::{ArgAction, ArgMatches, Command};
 use serde_json::Value;
 
-use crate::keyword::nearest;
+use crate::keyword::hint;
 use crate::pipeline::UsageError;
 use crate::pipeline::files::{assigned, in_run, role};
 
@@ -54,7 +54,7 @@ impl Config {
             Some(section) => Err(UsageError::because(format!(
                 "{}: unknown section '{section}'{}",
                 path.display(),
-                similar(section, &names)
+                hint(section, &names)
             ))),
             None => Ok(()),
         }
@@ -131,7 +131,7 @@ pub fn arguments(
             let name = command.get_name();
             return Err(UsageError::because(format!(
                 "{name}: unknown option '{flag}'{}",
-                similar(&flag, &known)
+                hint(&flag, &known)
             )));
         };
         let text = |value: &Value| -> OsString {
@@ -189,8 +189,4 @@ fn named_by(command: &Command, user: &[OsString]) -> Vec<String> {
     let Some(matches) = lenient(command, user) else { return Vec::new() };
     let ids = command.get_arguments().map(|arg| arg.get_id().to_string());
     ids.filter(|id| matches.value_source(id) == Some(ValueSource::CommandLine)).collect()
-}
-
-fn similar(word: &str, known: &[&str]) -> String {
-    nearest(word, known).map_or(String::new(), |near| format!("; did you mean '{near}'?"))
 }
