@@ -53,8 +53,8 @@ pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
         (true, false) => Err("0 to 5 m/s, more than was ever recorded: is it in cm/s?"),
     }
 }
-/// Solid blocks of a smaller p (rad/s) are higher than about 90 m.
-const LEAST_P_RAD_S: f64 = 0.4;
+/// Solid blocks of a smaller p (rad/s) are higher than about 40 m.
+const LEAST_P_RAD_S: f64 = 0.6;
 
 /// Returns whether a solid block would be implausibly tall: its dimensions are probably in cm.
 pub fn is_too_high(structure: &Structure) -> bool {

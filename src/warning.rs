@@ -47,7 +47,7 @@ impl Warning {
             Warning::NotRocking => "it is held, or slides: no result",
             Warning::ImplausibleRecord => "this is not a plausible earthquake record",
             Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
-            Warning::ImplausibleSize => "it is implausibly tall: are its dimensions in cm?",
+            Warning::ImplausibleSize => "it is implausibly tall: are its dimensions in inches or cm?",
             Warning::LowRestitution => "eta is below 0.5: a typing error?",
             Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
@@ -68,7 +68,7 @@ impl Warning {
             }
             Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
             Warning::UnreadableFile => "not imported",
-            Warning::UnusedColumns => "columns that say nothing to rockfrag; a floor needs level and period",
+            Warning::UnusedColumns => "columns that rockfrag does not use",
             Warning::NoPartner => "no partner at right angles: left out",
         }
     }

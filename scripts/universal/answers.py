@@ -14,8 +14,7 @@ import polars as pl
 
 import cases as of
 from calibration import calibrate
-from make import LIMIT, chosen
-from surface import KINDS, Surface, some
+from surface import KINDS, LIMIT, NO_LIMIT, TERMS, Surface
 
 N = 60
 CASES = "kind structure p_rad_s alpha_rad eta pga_m_s2 pgv_m_s im3 im4 im5 mw cluster".split()
@@ -25,43 +24,40 @@ RANGES |= {"im4": (1.001, 30), "limit_state": (0.02, 0.9), "mw": (4.5, 8.0)}
 
 def points(surface):
     rng = np.random.default_rng(11)
-    drawn = {"kind": np.array([KINDS[k % 4] for k in range(N)])}
-    for column, (low, high) in RANGES.items():
-        drawn[column] = np.exp(rng.uniform(np.log(low), np.log(high), N)).round(6)
-    drawn["im3"] = drawn.pop("ratio") / drawn["p_rad_s"]
-    drawn["im5"] = drawn["im4"] / drawn["im3"]
-    drawn["mw"] = np.where(np.arange(N) % 3 == 0, np.nan, drawn["mw"])
-    for event in ("pro", "pex"):
-        one = lambda k: surface.parts(event, drawn["kind"][k], some(drawn, [k]), drawn["limit_state"][k])
-        logit, magnitude, added = np.array([[part[0] for part in one(k)] for k in range(N)]).T
-        drawn |= {f"logit_{event}": logit, "magnitude": magnitude, f"added_{event}": added}
-    return pl.DataFrame(drawn).with_columns(pl.col("mw").fill_nan(-1.0))
+    drawn = {name: np.exp(rng.uniform(*np.log(ends), N)).round(6) for name, ends in RANGES.items()}
+    kind, unknown = [KINDS[k % 4] for k in range(N)], pl.int_range(N) % 3 == 0
+    im3 = pl.col("ratio") / pl.col("p_rad_s")
+    drawn = pl.DataFrame(drawn).with_columns(kind=pl.Series(kind), im3=im3, im5=pl.col("im4") / im3)
+    drawn = drawn.with_columns(mw=pl.when(~unknown).then("mw")).drop("ratio")
+    for event, limit in (("pro", pl.lit(NO_LIMIT)), ("pex", pl.col("limit_state"))):
+        cases = drawn.with_columns(limit=limit)
+        parts = np.concatenate([surface.parts(event, kind[k], cases[k]) for k in range(N)]).T
+        columns = zip((f"logit_{event}", "magnitude", f"added_{event}"), parts)
+        drawn = drawn.with_columns(**{name: pl.Series(values) for name, values in columns})
+    return drawn.with_columns(pl.col("mw").fill_null(-1.0))
 
 
-def calibrations(surface, cases):
-    for event in ("pro", "pex"):
-        counted, happened = chosen(event, cases)
-        kind = cases["kind"][0]
-        parts, prior = surface.parts(event, kind, counted, LIMIT), surface.prior(event, kind, LIMIT)
-        (c, ln_s, m), plain = calibrate(parts, happened, prior)
-        _, clustered = calibrate(parts, happened, prior, counted["cluster"])
-        out = {"kind": kind, "structure": int(cases["structure"][0]), "event": event, "n": len(happened)}
-        out |= {"n_events": int(happened.sum()), "n_clusters": len(np.unique(counted["cluster"]))}
-        out |= {"c": c, "ln_s": ln_s, "m": m}
-        for name, v in (("v", plain), ("clustered", clustered)):
-            out |= {f"{name}_{row}{column}": v[row, column] for row in range(3) for column in range(row, 3)}
-        yield out
+def calibration(surface, event, cases):
+    """The answers of one structure."""
+    kind, cases = cases["kind"][0], of.counted(event, cases, LIMIT)
+    known = [surface.parts(event, kind, cases), cases["happened"].to_numpy()]
+    prior = surface.prior(event, kind)
+    (c, ln_s, m), plain = calibrate(*known, prior)
+    _, clustered = calibrate(*known, prior, cases["cluster"].to_numpy())
+    out = {"kind": kind, "structure": cases["structure"][0], "event": event, "n": len(cases)}
+    out |= {"n_events": cases["happened"].sum(), "n_clusters": cases["cluster"].n_unique()}
+    out |= {"c": c, "ln_s": ln_s, "m": m}
+    for name, v in (("v", plain), ("clustered", clustered)):
+        out |= {f"{name}_{row}{column}": v[row, column] for row in range(3) for column in range(row, 3)}
+    return out
 
 
 path, study, records, folder = sys.argv[1:]
-surface = Surface(path)
+surface = Surface(open(path))
 points(surface).write_csv(f"{folder}/universal_answers.csv")
-parts = []
-for file, suite, number, every in ((study, "csgm", 1, 8), (records, None, 5, 9)):
-    read = of.read([file], 1.0, suite)
-    parts.append(some(read, np.flatnonzero(read["structure"] == number)[::every]))
-joined = pl.concat([pl.DataFrame(some(part, slice(None))) for part in parts])
-edp = pl.col("edp").fill_nan(None).fill_null(-1.0)
-joined.select(*CASES, pl.col("overturned").cast(pl.Int8), edp).write_csv(f"{folder}/calibration_cases.csv")
-answers = pl.DataFrame([row for part in parts for row in calibrations(surface, part)])
-answers.write_csv(f"{folder}/calibration_answers.csv")
+recorded = of.read([records]).filter(pl.col("scale").is_in(of.FITTED) & (pl.col("structure") == 5))
+parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded.gather_every(9)]
+written = pl.concat(parts).select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
+written.write_csv(f"{folder}/calibration_cases.csv")
+answers = [calibration(surface, event, part) for part in parts for event in TERMS]
+pl.DataFrame(answers).write_csv(f"{folder}/calibration_answers.csv")

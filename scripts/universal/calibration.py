@@ -1,10 +1,10 @@
 """logit P = c + s L + m (M - 6.9) + what is added near uplift: c, ln s and m by maximum a posteriori, their
-covariance and tau. L, M - 6.9 and what is added are `parts` of n cases (Surface.parts)."""
+covariance and tau. L, M - 6.9 and what is added are `parts` of n cases, n x 3 (Surface.parts)."""
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 LEAST_CLUSTERS = 10
+WIDE = np.array([0.0, 0.0, 0.0, 5.0, 5.0, 5.0])
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(15)
 
 
@@ -12,20 +12,23 @@ def logistic(z):
     return 1.0 / (1.0 + np.exp(-np.clip(z, -500, 500)))
 
 
+def tangent(b, parts):
+    """Derivatives of the logit by c, ln s and m: n x 3."""
+    return np.stack([np.ones(len(parts)), np.exp(b[1]) * parts[:, 0], parts[:, 1]], axis=1)
+
+
 def apply(b, parts):
-    logit, magnitude, added = parts
-    return b[0] + np.exp(b[1]) * logit + b[2] * magnitude + added
+    return b[0] + np.exp(b[1]) * parts[:, 0] + b[2] * parts[:, 1] + parts[:, 2]
 
 
 def derivatives(b, parts, happened, prior):
     """Returns the negative log posterior, its gradient and Hessian, and the scores of the cases (n x 3)."""
-    logit, magnitude, added = parts
-    slope, away, precision = np.exp(b[1]) * logit, b - prior[:3], 1.0 / np.square(prior[3:6])
-    z = b[0] + slope + b[2] * magnitude + added
-    p, tangent = logistic(z), np.stack([np.ones_like(z), slope, magnitude], axis=1)
+    away, precision = b - prior[:3], 1.0 / np.square(prior[3:6])
+    z, by = apply(b, parts), tangent(b, parts)
+    p = logistic(z)
     loss = (np.logaddexp(0, z) - happened * z).sum() + 0.5 * (precision * away) @ away
-    scores = tangent * (p - happened)[:, None]
-    hessian = tangent.T @ (tangent * (p * (1 - p))[:, None]) + np.diag(precision)
+    scores = by * (p - happened)[:, None]
+    hessian = by.T @ (by * (p * (1 - p))[:, None]) + np.diag(precision)
     hessian[1, 1] += scores[:, 1].sum()
     return loss, scores.sum(axis=0) + precision * away, hessian, scores
 
@@ -41,8 +44,8 @@ def calibrate(parts, happened, prior, clusters=None):
     or more H^-1 (M + P) H^-1, M = G/(G-1) (n-1)/(n-3) times the sum over the G clusters of u u', u the sum
     of the scores of their cases, n in all, P the precision of the prior (without data the covariance is
     that of the prior)."""
-    prior, happened = np.array(prior, dtype=float), happened.astype(float)
-    b = prior[:3].copy()
+    happened = happened.astype(float)
+    b = prior[:3]
     for _ in range(100):
         loss, gradient, hessian, scores = derivatives(b, parts, happened, prior)
         if np.abs(gradient).max() < 1e-9:
@@ -50,7 +53,7 @@ def calibrate(parts, happened, prior, clusters=None):
         values, vectors = np.linalg.eigh(hessian)
         step = -vectors @ (vectors.T @ gradient / np.maximum(np.abs(values), 1e-3))
         size = min(1.0, 2.0 / np.abs(step).max())
-        while derivatives(b + size * step, parts, happened, prior)[0] > loss and size > 1e-9:
+        while derivatives(b + size * step, parts, happened, prior)[0] > loss + 1e-12 * (1 + loss):
             size /= 2
         b = b + size * step
     covariance = np.linalg.inv(hessian)
@@ -66,19 +69,30 @@ def spread(groups, mean):
     expectation-maximisation, where the posterior of a group is normal about its maximum."""
     sd, last = np.array([0.5, 0.15, 0.3]), np.zeros(3)
     while np.abs(sd - last).max() > 0.002:
-        fits = [calibrate(parts, happened, (*mean, *sd)) for parts, happened in groups]
+        fits = [calibrate(*group, np.array([*mean, *sd])) for group in groups]
         sd, last = np.sqrt(np.mean([(b - mean) ** 2 + np.diag(v) for b, v in fits], axis=0)), sd
     return sd
 
 
-def between(logit, happened, clusters):
-    """tau: the standard deviation of the calibrated logit between clusters, by maximum likelihood."""
+def left_out(parts, happened, folds, prior, judged=None):
+    """The logit of the cases of each fold, calibrated to all others; `judged`: parts to apply it to."""
+    judged = parts if judged is None else judged
+    z = np.empty(len(happened))
+    for fold in np.unique(folds):
+        out = folds == fold
+        z[out] = apply(calibrate(parts[~out], happened[~out], prior)[0], judged[out])
+    return z
 
-    def loss(tau):
-        shifted = logit[:, None] + tau * NODES
-        each = -np.logaddexp(0, np.where(happened[:, None], -shifted, shifted))
-        each = cluster_sums(each, clusters) + np.log(WEIGHTS)
-        largest = each.max(axis=1, keepdims=True)
-        return -(largest[:, 0] + np.log(np.exp(each - largest).sum(axis=1))).sum()
 
-    return minimize_scalar(loss, bounds=(0.0, 3.0), method="bounded").x
+def allowed(z, happened, taus):
+    """Whether 95 % limits with each tau allow the count of a group: it lies between the 2.5 and 97.5 %
+    quantiles of its distribution, the sum of cases with a common normal shift of their logit."""
+    p = logistic(z + np.multiply.outer(taus, NODES)[..., None])
+    share = np.eye(1, len(z) + 1) * np.ones((*p.shape[:2], 1))
+    for k in range(len(z)):
+        happens = p[..., k, None]
+        share[..., 1:] = share[..., 1:] * (1 - happens) + share[..., :-1] * happens
+        share[..., 0] *= 1 - p[..., k]
+    within = np.average(share, axis=1, weights=WEIGHTS).cumsum(axis=1)
+    below = within[:, happened.sum() - 1] if happened.any() else 0.0
+    return (below < 0.975) & (within[:, happened.sum()] > 0.025)

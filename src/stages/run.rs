@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fmt::Write;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -31,7 +32,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             } else {
                 "up to date".to_string()
             };
-            eprintln!("{:20} {took}", call.name);
+            let _ = writeln!(std::io::stderr(), "{:20} {took}", call.name);
         }
         made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
         warnings.join(&done.warnings);
@@ -53,7 +54,7 @@ pub fn warn(warnings: &Warnings) {
         more => format!(" ({more} more: rockfrag inspect)"),
     };
     for (place, line) in lines.iter().take(SHOWN).enumerate() {
-        eprintln!("warning: {line}{}", if place + 1 == SHOWN { &more } else { "" });
+        let _ = writeln!(std::io::stderr(), "warning: {line}{}", if place + 1 == SHOWN { &more } else { "" });
     }
 }
 

@@ -1,10 +1,9 @@
 //! Narrow tables as polars frames, and their text, CSV and JSON.
 
-use std::collections::BTreeMap;
-
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, IntoColumn, NamedFrom, PolarsError, Series};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, IntoColumn, NamedFrom};
+use polars::prelude::{PolarsError, Series};
 use serde_json::{Map, Value};
 
 use super::columns::numbers;
@@ -47,15 +46,21 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
 }
 
 /// The rows of each suite and structure, in the order in which these first come.
-pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    let mut places = BTreeMap::new();
-    for (row, group) in rows.enumerate() {
-        let place = *places.entry(group).or_insert(groups.len());
-        groups.resize(groups.len().max(place + 1), Vec::new());
-        groups[place].push(row);
-    }
-    groups
+pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize>>, PolarsError> {
+    let (suites, structures): (Vec<_>, Vec<_>) = rows.map(|group| (group.suite, group.structure)).unzip();
+    let height = structures.len();
+    let keys = vec![
+        Series::new("suite".into(), suites).into_column(),
+        Series::new("structure".into(), structures).into_column(),
+    ];
+    // On this thread: the pool of polars does not know --threads.
+    let frame = DataFrame::new(height, keys)?;
+    let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
+    let rows = |group: GroupsIndicator| match group {
+        GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
+        GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
+    };
+    Ok(groups.get_groups().iter().map(rows).collect())
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {

@@ -139,6 +139,11 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         (&in_50_years, ["a.csv", "probabilities in 50 years"]),
         (&curve("pga_g,AFE", 9.81), ["a.csv", "m/s2"]),
         (&curve("pgv_m_s,AFE", 60.0), ["a.csv", "cm/s"]),
+        (&curve("pga_g,monthly_rate", 1.0), ["a.csv", "monthly_rate"]),
+        (&curve("pga_g,rate per 10 years", 1.0), ["a.csv", "per 10 years"]),
+        (&curve("vertical PGA (g),AFE", 1.0), ["a.csv", "vertical"]),
+        ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "several sites"]),
+        ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["line 4", "contradict"]),
         ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 1"]),
     ] {
         refused(&[("a.csv", text)], "", &named);

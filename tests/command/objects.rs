@@ -85,7 +85,7 @@ fn the_width_for_a_target_meets_it() {
         assert!(near(p, 0.01, 0.01), "{of} {p} at {width}");
     }
     assert!(number(row, "target_width_m") > 0.3);
-    let none = &evaluated(here, &format!("--width 0.2 --height 2.2 --target 1e-9 {HAZARD}"))[0];
+    let none = &evaluated(here, &format!("--width 0.2 --height 2.2 --target 1e-7% {HAZARD}"))[0];
     assert!(none["target_width_m"].is_null());
 }
 
@@ -141,10 +141,20 @@ fn slips_are_named() {
         ("--depth 90", ["depth", "cm"]),
         ("--beam-mass-ratio 2 --depth 1", ["depth", "beam-mass-ratio"]),
         ("--beam-mass-ratio 50", ["beam-mass-ratio", "50"]),
-        ("--target 5", ["--target", "1%"]),
+        ("--target 0.5", ["--target", "percent"]),
+        ("--pga 0.4 --pgv 0.5", ["--pga", "--hazard"]),
     ] {
         let call = format!("evaluate --width 0.8 --height 2.2 {arguments} {HAZARD}");
         fail(folder.path(), &call, 2, &named);
+    }
+    for (list, named) in [
+        ("name,width (m),width (cm),height\na,0.5,50,2\n", "twice"),
+        ("name,width\",height\"\na,20,75\n", "cm"),
+        ("name,width,height,level (m)\na,0.5,2,3\n", "level"),
+        ("name,width,height\n", "rows"),
+    ] {
+        std::fs::write(folder.path().join("list.csv"), list).unwrap();
+        fail(folder.path(), &format!("evaluate --structures list.csv {HAZARD}"), 1, &["list.csv", named]);
     }
 }
 

@@ -28,15 +28,20 @@ pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Vec<Batch>> {
 /// A peak of each row, m/s2 or m/s.
 pub fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let schema = batch.rows.schema();
-    let found = schema.fields().iter().find_map(|field| {
+    let found = schema.fields().iter().filter_map(|field| {
         let (peak, unit) = peak(&Heading::of(field.name()))?;
         (peak == wanted).then(|| (field.name().clone(), unit))
     });
+    let found: Vec<(String, f64)> = found.collect();
     let (column, expected) = match wanted {
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
         Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
     };
-    let Some((name, unit)) = found else {
+    if let [(first, _), (second, _), ..] = &found[..] {
+        let path = batch.path.display();
+        return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
+    }
+    let [(name, unit)] = &found[..] else {
         let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
         return Err(UsageError::because(format!(
             "{}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
@@ -48,7 +53,7 @@ pub fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
         Ok(()) => Ok(value * unit),
         Err(possible) => Err(batch.value_error(row, expected, format!("expected {possible}")).into()),
     };
-    batch.numbers(&name)?.into_iter().enumerate().map(judged).collect()
+    batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
 }
 
 /// The structure of each row.
@@ -84,6 +89,7 @@ fn read_csv(path: &Path, renamed: &[Renamed]) -> anyhow::Result<RecordBatch> {
             "alpha" => "alpha_rad",
             "tp" => "tp_s",
             "tm" => "tm_s",
+            "magnitude" => "mw",
             _ => &heading.text,
         };
         (Field::new(name, array.data_type().clone(), true), array)

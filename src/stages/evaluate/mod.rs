@@ -23,7 +23,7 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueHint};
+use clap::{ArgGroup, Args, ValueHint};
 
 use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
@@ -31,7 +31,7 @@ use super::shared::objects::Object;
 use super::shared::responses;
 use super::shared::spec::{Place, Restitution, Spec};
 use super::shared::structures::StructureArgs;
-use crate::hazard::{Hazard, Motion, Site};
+use crate::hazard::{Hazard, Motion, PeakHazard, Site};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -51,27 +51,27 @@ pub use self::words::size;
 /// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
 /// a site
 #[derive(Debug, Args)]
-#[command(after_help = "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
+#[command(group(ArgGroup::new("site").multiple(true)), after_help = "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
     rockfrag evaluate --structures objects.csv --hazard hazard.csv")]
 pub struct Evaluate {
     /// Peak ground acceleration, g
-    #[arg(long, value_name = "G", conflicts_with_all = ["in", "hazard"],
+    #[arg(long, value_name = "G", conflicts_with_all = ["in", "site"], allow_negative_numbers = true,
           value_parser = number(0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"))]
     pga: Option<f64>,
     /// Peak ground velocity, m/s
-    #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "hazard"],
+    #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "site"], allow_negative_numbers = true,
           value_parser = number(0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
     /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
     /// eta where they vary
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "hazard")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "site")]
     input: Option<PathBuf>,
     /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
-    #[arg(long, value_name = "FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',')]
+    #[arg(long, value_name = "FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',', group = "site")]
     hazard: Vec<PathBuf>,
     /// Years that the ground-motion fields of --hazard stand for
-    #[arg(long, value_name = "YEARS", requires = "hazard", value_parser = number(1.0..=1e9, "years of 1 and more"))]
+    #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
     #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
@@ -80,20 +80,20 @@ pub struct Evaluate {
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Renamed>,
     /// Time of exposure, years
-    #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
+    #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
     /// PGV/PGA of all motions, s [default: by the curves, or that of sites in general]
-    #[arg(long, value_name = "S", requires = "hazard",
+    #[arg(long, value_name = "S", requires = "hazard", group = "site",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
-    #[arg(long, value_name = "P", requires = "hazard")]
+    #[arg(long, value_name = "P", requires = "hazard", group = "site")]
     target: Option<Target>,
     /// Responses to count overturning in, beside the rate
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard", group = "site")]
     responses: Option<PathBuf>,
     /// Continue the hazard curve with its last slope
-    #[arg(long, requires = "hazard")]
+    #[arg(long, requires = "hazard", group = "site")]
     extrapolate: bool,
     /// Also print model, measures and other predictions
     #[arg(long)]
@@ -182,14 +182,15 @@ impl Evaluate {
     /// Reads the hazard and what rates over it need.
     fn site(&self) -> anyhow::Result<Site> {
         let hazard = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
-        if let Hazard::Joint(_) = hazard {
-            if self.ratio.is_some() {
-                return Err(UsageError::because("ratio: the hazard has PGA and PGV of each motion"));
-            }
-            if self.extrapolate || self.responses.is_some() {
-                let option = if self.extrapolate { "extrapolate" } else { "responses" };
-                return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
-            }
+        let has_velocity = matches!(&hazard, Hazard::Curve(PeakHazard { velocity: Some(_), .. }));
+        if self.ratio.is_some() && (has_velocity || matches!(hazard, Hazard::Joint(_))) {
+            return Err(UsageError::because("ratio: the hazard itself gives PGV/PGA"));
+        }
+        if let Hazard::Joint(_) = hazard
+            && (self.extrapolate || self.responses.is_some())
+        {
+            let option = if self.extrapolate { "extrapolate" } else { "responses" };
+            return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
         }
         Ok(Site {
             hazard,

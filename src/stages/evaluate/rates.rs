@@ -106,12 +106,13 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
         format!("Width for {target} {}: {}; {} by the upper limit.\n", in_years(rates), by[0], by[1])
     });
     format!(
-        "{}: {}\n{}{}{widths}By {}.\n{}",
+        "{}: {}\n{}{}{widths}By {}{}.\n{}",
         title(object),
         how_often(rates, site, "95 % limits "),
         aligned(&lines, |_| false),
         about_limits(answer, site),
         model(object),
+        usual_motion(site),
         validity(object)
     )
 }
@@ -162,7 +163,8 @@ fn of_several(
         cells.into_iter().chain(target.map(|_| width())).collect()
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
-    let by = format!("Rates a year, by {}. Below its friction an object slides instead.", model_of_all(all));
+    let (model, usual) = (model_of_all(all), usual_motion(site));
+    let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
     format!(
         "{} overturns most often: {}\n{table}{}{}{}",
         worst.object.structure,
@@ -176,6 +178,21 @@ fn of_several(
 fn in_years(rates: &RatesRow) -> String {
     let years = rates.years.unwrap_or(f64::NAN);
     format!("in {} year{}", plain(years), if years == 1.0 { "" } else { "s" })
+}
+
+/// The motion that codes design for, by the curve: who knows the site sees a wrong unit or column by it.
+fn usual_motion(site: &Site) -> String {
+    let Hazard::Curve(PeakHazard { peak, curve, .. }) = &site.hazard else { return String::new() };
+    let intensity = curve.intensity(1.0 / 475.0);
+    let years = count((1.0 / curve.exceedance(intensity)).round() as usize);
+    format!("; {} {} once in {years} years", peak.to_string().to_uppercase(), with_unit(*peak, intensity))
+}
+
+fn with_unit(peak: Peak, intensity: f64) -> String {
+    match peak {
+        Peak::Pga => format!("{} g", significant(intensity / G_M_S2, 3)),
+        Peak::Pgv => format!("{} m/s", significant(intensity, 3)),
+    }
 }
 
 /// The largest part of the error, what the limits do not contain, and what was extrapolated: a line, or none.
@@ -219,10 +236,7 @@ fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
             let end = match &site.hazard {
                 Hazard::Curve(PeakHazard { peak, curve, .. }) => {
                     let [_, (last, rate)] = curve.ends();
-                    let last = match peak {
-                        Peak::Pga => format!("{} g", significant(last / G_M_S2, 3)),
-                        Peak::Pgv => format!("{} m/s", significant(last, 3)),
-                    };
+                    let last = with_unit(*peak, last);
                     let years = count((1.0 / rate).round() as usize);
                     format!(": the curve ends at {last} (once in {years} years)")
                 }

@@ -1,7 +1,6 @@
 //! Probabilities at each intensity of a table.
 
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use arrow_array::RecordBatch;
@@ -61,9 +60,9 @@ pub fn evaluate(
     for batch in &batches {
         let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
         for structure in &structures {
-            if let Entry::Vacant(vacant) = of_rows.entry(key(structure)) {
+            if !of_rows.contains_key(&key(structure)) {
                 let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
-                vacant.insert(subject(&Object::new(spec), models)?);
+                of_rows.insert(key(structure), subject(&Object::new(spec), models)?);
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);

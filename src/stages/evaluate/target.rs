@@ -2,13 +2,16 @@
 
 use std::str::FromStr;
 
+use argmin::core::{CostFunction, Error, Executor};
+use argmin::solver::brent::BrentRoot;
+
 use super::object::Subject;
 use crate::hazard::{Site, probability_in_years};
 use crate::number::Limited;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::Object;
 
-/// A probability of overturning in the time of exposure: 1% or 0.01.
+/// A probability of overturning in the time of exposure, such as 1%.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target(pub f64);
 
@@ -16,26 +19,58 @@ impl FromStr for Target {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Target, String> {
-        let (number, size) = text.strip_suffix('%').map_or((text, 1.0), |share| (share.trim_end(), 0.01));
-        match number.parse::<f64>().map(|number| size * number) {
-            Ok(target) if target > 0.0 && target < 1.0 => Ok(Target(target)),
-            _ => Err("expected a probability in --years, such as 1% or 0.01".to_string()),
+        match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
+            Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(Target(0.01 * percent)),
+            _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
         }
     }
 }
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
 const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Halvings of the widths that may meet a target, and to the end of the hazard.
-const HALVINGS: [i32; 2] = [12, 8];
+/// Relative accuracy of a width, and largest number of steps.
+const ACCURACY: f64 = 1e-4;
+const MOST_STEPS: u64 = 60;
+/// Halvings of the widths to the end of the hazard.
+const HALVINGS: usize = 8;
+/// Probabilities count as no less.
+const LEAST: f64 = 1e-12;
 
-/// The ends of an interval in which a condition begins to hold, after so many halvings.
-fn halved([before, after]: [f64; 2], halvings: i32, holds: impl Fn(f64) -> bool) -> [f64; 2] {
-    let halve = |[before, after]: [f64; 2], _| {
-        let middle = 0.5 * (before + after);
-        if holds(middle) { [before, middle] } else { [middle, after] }
-    };
-    (0..halvings).fold([before, after], halve)
+/// ln of the probability by its estimate or upper limit over the target, of a width.
+struct Excess<F> {
+    in_years: F,
+    /// Which of estimate, lower and upper limit.
+    which: usize,
+    target: f64,
+}
+
+impl<F: Fn(f64) -> Option<Limited>> Excess<F> {
+    fn of(&self, width: f64) -> Option<f64> {
+        Some(((self.in_years)(width)?[self.which]?.max(LEAST) / self.target).ln())
+    }
+
+    /// The least width between two that meets the target; none if not even the larger does.
+    fn root(self, [least, most]: [f64; 2]) -> Option<f64> {
+        if self.of(most)? > 0.0 {
+            return None;
+        }
+        if self.of(least)? <= 0.0 {
+            return Some(least);
+        }
+        let solver = BrentRoot::new(least, most, ACCURACY);
+        let search = Executor::new(self, solver).timer(false);
+        let search = search.configure(|state| state.param(0.5 * (least + most)).max_iters(MOST_STEPS));
+        search.run().ok()?.state.best_param
+    }
+}
+
+impl<F: Fn(f64) -> Option<Limited>> CostFunction for Excess<F> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, width: &f64) -> Result<f64, Error> {
+        self.of(*width).ok_or_else(|| Error::msg("no rate"))
+    }
 }
 
 /// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
@@ -56,13 +91,13 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     };
     // The hazard of a wide object may end too early for a rate.
     let is_known = |width_m: f64| in_years(width_m, false).is_some_and(|p| p[0].is_some());
-    let most = match is_known(end) {
-        true => end,
-        false => halved([least, end], HALVINGS[1], |width_m| !is_known(width_m))[0],
+    let halve = |(known, unknown): (f64, f64), _| {
+        let middle = 0.5 * (known + unknown);
+        if is_known(middle) { (middle, unknown) } else { (known, middle) }
     };
+    let most = if is_known(end) { end } else { (0..HALVINGS).fold((least, end), halve).0 };
     [0, 2].map(|which| {
-        let p = |width_m: f64| in_years(width_m, which == 2)?[which];
-        let meets = |width_m: f64| p(width_m).is_some_and(|p| p <= target.0);
-        meets(most).then(|| halved([least, most], HALVINGS[0], meets)[1])
+        let in_years = |width_m: f64| in_years(width_m, which == 2);
+        Excess { in_years, which, target: target.0 }.root([least, most])
     })
 }

@@ -15,8 +15,8 @@ pub fn text<R>(
 ) -> String {
     let mut text = match all {
         [] => String::new(),
-        [answer] if answer.object.p_rad_s.is_none() => {
-            format!("{}: {}\n", title(&answer.object), brief(answer))
+        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
+            all.iter().map(|answer| format!("{}: {}\n", title(&answer.object), brief(answer))).collect()
         }
         [answer] => of_one(answer),
         [worst, ..] => of_several(worst),

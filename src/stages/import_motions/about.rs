@@ -31,10 +31,14 @@ impl About {
             return Err(problem("no column 'file' or 'name'".to_string()));
         };
         let magnitude = sheet.column(&["magnitude", "mw", "m"]);
-        let distance = sheet.column(&["distance", "distance_km", "re_km", "re"]);
+        let distance = sheet.column(&["distance", "re"]);
         let earthquake = sheet.column(&["earthquake", "event"]);
         if magnitude.or(distance).or(earthquake).is_none() {
             return Err(problem("expected a column 'magnitude', 'distance' or 'earthquake'".to_string()));
+        }
+        let km = |at: usize| sheet.headings[at].unit.is_none_or(|unit| unit.name == "km");
+        if let Some(at) = distance.filter(|&at| !km(at)) {
+            return Err(problem(format!("column '{}'; expected km", sheet.headings[at].text)));
         }
         let number =
             |row: usize, column: Option<usize>, is_possible: &dyn Fn(f64) -> bool, expected: &str| {

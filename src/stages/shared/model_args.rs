@@ -43,7 +43,7 @@ pub struct ModelArgs {
     pub model: ModelName,
     /// Limit state: a demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
-          value_parser = number_in(1e-6..=10.0, "a demand |theta|max / alpha above 0, such as 0.1"))]
+          value_parser = number_in(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
     pub limit_state: f64,
 }
 

@@ -52,6 +52,27 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
             place()
         );
     }
+    if sheet.lines.is_empty() {
+        anyhow::bail!("{}: no rows; expected one per object", place());
+    }
+    let unclear = |heading: &&Heading| {
+        heading.unit.is_none()
+            && heading.text.contains(['(', '[', '"', '\'', '%'])
+            && meaning(heading) != Column::Unused
+    };
+    if let Some(heading) = sheet.headings.iter().find(unclear) {
+        anyhow::bail!(
+            "{}: heading '{}': expected m, cm or mm in brackets, or no unit",
+            place(),
+            heading.text
+        );
+    }
+    let option = |column: &Column| matches!(column, Column::Option(..)).then(|| column.clone());
+    for (at, column) in columns.iter().enumerate().filter_map(|(at, column)| Some((at, option(column)?))) {
+        if columns[..at].contains(&column) {
+            anyhow::bail!("{}: heading '{}' stands twice", place(), sheet.headings[at].text);
+        }
+    }
     let named = NAMES.iter().find_map(|name| sheet.column(&[name]));
     let name = |row: usize| match named.map_or("", |column| sheet.cell(row, column)) {
         "" => format!("line {}", sheet.lines[row]),
@@ -87,6 +108,8 @@ fn meaning(heading: &Heading) -> Column {
     match option.and_then(|option| option.get_value_names()).map(|names| names[0].as_str()) {
         Some("M") => Column::Option(name.to_string(), Some(Quantity::Length)),
         Some("S") => Column::Option(name.to_string(), Some(Quantity::Time)),
+        Some("RAD") => Column::Option(name.to_string(), Some(Quantity::Angle)),
+        Some("RAD/S") => Column::Option(name.to_string(), Some(Quantity::AngularFrequency)),
         Some(_) => Column::Option(name.to_string(), None),
         None if HELD.iter().any(|start| name.starts_with(start)) => Column::Held,
         None => Column::Unused,
@@ -101,9 +124,11 @@ fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
         let size = match (quantity, unit) {
             _ if cell.is_empty() => continue,
             (Some(quantity), Some(unit)) if unit.quantity == *quantity => unit.si,
-            (Some(quantity), Some(unit)) => {
-                let expected = if *quantity == Quantity::Time { "s" } else { "m, cm or mm" };
-                return Err(format!("{name} is in {}; expected {expected}", unit.name));
+            (Some(Quantity::Length), Some(unit)) => {
+                return Err(format!("{name} is in {}; expected m, cm or mm", unit.name));
+            }
+            (_, Some(unit)) if unit.quantity != Quantity::Counts => {
+                return Err(format!("{name} is in {}; expected another unit, or none", unit.name));
             }
             _ => 1.0,
         };

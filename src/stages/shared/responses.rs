@@ -71,7 +71,7 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
     let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
     let group = |row: usize| Group { suite: suites[row].as_deref(), structure: &names[row] };
-    for rows in frame::groups((0..names.len()).map(group)) {
+    for rows in frame::groups((0..names.len()).map(group))? {
         let group = group(rows[0]);
         let of = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
         let place = match all.iter().position(|cases| cases.group() == group) {

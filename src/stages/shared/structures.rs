@@ -37,8 +37,16 @@ impl StructureArgs {
     /// All structures, each of the weaker direction of an object.
     pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
         let (objects, _) = self.objects(&Place::default())?;
-        let structures: Result<Vec<Structure>, String> =
-            objects.iter().map(|object| object.structure().cloned()).collect();
+        let structure = |object: &Object| match object.floor() {
+            Some(_) => {
+                let name = &object.spec.name;
+                Err(format!(
+                    "{name} stands on a floor: leave out level and period; floor-motions makes its motions"
+                ))
+            }
+            None => object.structure().cloned(),
+        };
+        let structures: Result<Vec<Structure>, String> = objects.iter().map(structure).collect();
         structures.map_err(UsageError::because)
     }
 

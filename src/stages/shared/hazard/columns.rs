@@ -31,7 +31,13 @@ pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
             bail!("no heading '{heading}'; expected one of {}", headings(sheet));
         };
-        *found = Heading::of(column);
+        let renamed = Heading::of(column);
+        if let (Some(old), Some(new)) = (found.unit, renamed.unit)
+            && old.quantity != new.quantity
+        {
+            bail!("--columns {column}={heading}: the heading has a unit of another quantity");
+        }
+        *found = renamed;
     }
     Ok(())
 }
@@ -41,18 +47,38 @@ pub fn headings(sheet: &Sheet) -> String {
     sheet.headings.iter().map(|heading| heading.text.as_str()).collect::<Vec<_>>().join(", ")
 }
 
+/// Whether a heading has one of these words, and no others but those that may stand beside them: a word more
+/// may mean something else (`vertical PGA`, `monthly rate`).
+fn names(heading: &Heading, known: &[&str], beside: &[&str]) -> bool {
+    let is_known = |word: &str| known.contains(&word);
+    let mut words = heading.name.split('_');
+    words.clone().any(is_known) && words.all(|word| is_known(word) || beside.contains(&word))
+}
+
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let words: Vec<&str> = heading.name.split('_').collect();
+    const BESIDE: [&str; 14] = [
+        "peak",
+        "ground",
+        "g",
+        "motion",
+        "horizontal",
+        "mean",
+        "rotd50",
+        "rotd100",
+        "geomean",
+        "rock",
+        "h",
+        "larger",
+        "at",
+        "site",
+    ];
     let unit = heading.unit?;
-    let names = |known: &[&str]| known.iter().any(|name| heading.name == *name || words.contains(name));
     match unit.quantity {
-        Quantity::Acceleration
-            if names(&["pga", "ag", "a_g", "a", "peak_ground_acceleration", "ground_motion"]) =>
-        {
+        Quantity::Acceleration if names(heading, &["pga", "ag", "a", "acceleration", "motion"], &BESIDE) => {
             Some((Peak::Pga, unit.si))
         }
-        Quantity::Velocity if names(&["pgv", "peak_ground_velocity"]) => Some((Peak::Pgv, unit.si)),
+        Quantity::Velocity if names(heading, &["pgv", "velocity"], &BESIDE) => Some((Peak::Pgv, unit.si)),
         _ => None,
     }
 }
@@ -74,26 +100,53 @@ pub enum Frequency {
 const MOST_FREQUENT: f64 = 1000.0;
 
 impl Frequency {
+    /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
     fn of(heading: &Heading, investigation_years: Option<f64>) -> Option<Frequency> {
-        let name = heading.name.as_str();
-        let has = |words: &[&str]| words.iter().any(|word| name.split('_').any(|other| other == *word));
-        let years = || {
-            heading
-                .text
-                .split(|sign: char| !sign.is_ascii_digit() && sign != '.')
-                .find_map(|number| number.parse().ok())
-        };
-        if has(&["occurrence"]) {
+        const RATES: [&str; 6] = ["rate", "frequency", "frequenza", "afe", "afoe", "mafe"];
+        const PERIODS: [&str; 5] = ["return", "ritorno", "tr", "rp", "arp"];
+        const PROBABILITIES: [&str; 3] = ["probability", "poe", "aep"];
+        const BESIDE: [&str; 22] = [
+            "annual",
+            "mean",
+            "of",
+            "occurrence",
+            "exceedance",
+            "exceedence",
+            "per",
+            "a",
+            "in",
+            "year",
+            "years",
+            "yr",
+            "yrs",
+            "period",
+            "recurrence",
+            "average",
+            "t",
+            "r",
+            "tempo",
+            "periodo",
+            "di",
+            "anni",
+        ];
+        let words: Vec<&str> = heading.name.split('_').filter(|word| word.parse::<f64>().is_err()).collect();
+        let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
+        let is_known = |word: &&str| [&RATES[..], &PERIODS, &PROBABILITIES, &BESIDE].concat().contains(word);
+        let mut numbers = heading.text.split(|sign: char| !sign.is_ascii_digit() && sign != '.');
+        let years: Option<f64> = numbers.find_map(|number| number.parse().ok());
+        if !words.iter().all(is_known) {
+            None
+        } else if has(&PROBABILITIES) {
+            let annual = has(&["annual", "aep"]).then_some(1.0);
+            years.or(annual).or(investigation_years).map(Frequency::ProbabilityIn)
+        } else if years.is_some_and(|years| years != 1.0) {
+            None
+        } else if has(&["occurrence"]) {
             Some(Frequency::Occurrence)
-        } else if ["return_period", "ritorno", "t_r"].iter().any(|part| name.contains(part))
-            || has(&["tr", "rp"])
-        {
+        } else if has(&PERIODS) || words.starts_with(&["t", "r"]) {
             Some(Frequency::ReturnPeriod)
-        } else if has(&["probability", "poe", "aep"]) {
-            let annual = || has(&["annual", "aep"]).then_some(1.0);
-            years().or_else(annual).or(investigation_years).map(Frequency::ProbabilityIn)
         } else {
-            has(&["rate", "frequency", "frequenza", "afe", "afoe", "mafe"]).then_some(Frequency::Rate)
+            has(&RATES).then_some(Frequency::Rate)
         }
     }
 

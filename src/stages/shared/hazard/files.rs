@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use super::columns::{Content, Frequency, Intensity, Statistic, content, headings};
 use crate::fragility::Peak;
 use crate::hazard::{HazardCurve, JointHazard, PairOfPeaks};
-use crate::sheet::Sheet;
+use crate::sheet::{Heading, Sheet};
 use crate::units::{CM_PER_M, G_M_S2};
 
 /// A curve, and the file that it is from.
@@ -29,8 +29,12 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
     let file = path.display().to_string();
     let years = note(sheet, "investigation_time=").and_then(|years| years.parse().ok());
     let starts = |start: &str| sheet.headings.iter().any(|heading| heading.text.starts_with(start));
+    one_site(sheet)?;
     if starts("gmv_") {
         return fields(sheet, effective_years).map(Contents::Joint);
+    }
+    if effective_years.is_some() {
+        bail!("--effective-years is for ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV)");
     }
     if starts("poe-") {
         return openquake(sheet, years, file).map(|found| Contents::Curves(vec![found]));
@@ -67,13 +71,7 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
         let mw = columns.iter().find(|(_, content, _)| *content == Content::Magnitude).map(|(at, ..)| *at);
         return joint(sheet, *rate, &intensities, mw).map(Contents::Joint);
     }
-    // Of columns that say the same in several ways the first counts.
-    let mut known = Vec::new();
-    frequencies.retain(|(_, statistic)| {
-        let is_new = !known.contains(statistic);
-        known.push(*statistic);
-        is_new
-    });
+    one_frequency(sheet, &mut frequencies)?;
     if intensities.is_empty() || frequencies.is_empty() {
         let other = if has(|content| *content == Content::OtherSpectral) {
             "; of spectral accelerations only that at 1 s is of use"
@@ -100,6 +98,26 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
         }
     }
     Ok(Contents::Curves(found))
+}
+
+/// Of columns that say the same in several ways the first counts; others are refused.
+fn one_frequency(sheet: &Sheet, columns: &mut Vec<((usize, Frequency), Statistic)>) -> anyhow::Result<()> {
+    const SAME: f64 = 0.1;
+    let all = std::mem::take(columns);
+    for (column, statistic) in all {
+        let Some((first, _)) = columns.iter().find(|(_, known)| *known == statistic) else {
+            columns.push((column, statistic));
+            continue;
+        };
+        for row in 0..sheet.lines.len() {
+            let rates = annual_rate(sheet, row, *first)?.zip(annual_rate(sheet, row, column)?);
+            if rates.is_some_and(|(a, b)| (a - b).abs() > SAME * a.max(b)) {
+                let [first, other] = [first.0, column.0].map(|at| sheet.headings[at].text.as_str());
+                bail!("line {}: '{first}' and '{other}' contradict; keep one", sheet.lines[row]);
+            }
+        }
+    }
+    Ok(())
 }
 
 fn annual_rate(
@@ -166,6 +184,19 @@ fn bins(bins: Vec<PairOfPeaks>) -> anyhow::Result<JointHazard> {
     }
 }
 
+/// Checks that no column of places has two.
+fn one_site(sheet: &Sheet) -> anyhow::Result<()> {
+    const PLACES: [&str; 8] =
+        ["site", "site_id", "custom_site_id", "lon", "lat", "longitude", "latitude", "location"];
+    let is_place = |(_, heading): &(usize, &Heading)| PLACES.contains(&heading.name.as_str());
+    for (at, heading) in sheet.headings.iter().enumerate().filter(is_place) {
+        if (0..sheet.lines.len()).any(|row| sheet.cell(row, at) != sheet.cell(0, at)) {
+            bail!("column '{}': rows of several sites; keep those of one", heading.text);
+        }
+    }
+    Ok(())
+}
+
 /// Ground-motion fields of one site as OpenQuake exports them: PGA in g and PGV in cm/s of each event.
 fn fields(sheet: &Sheet, effective_years: Option<f64>) -> anyhow::Result<JointHazard> {
     let Some(years) = effective_years else {
@@ -178,12 +209,6 @@ fn fields(sheet: &Sheet, effective_years: Option<f64>) -> anyhow::Result<JointHa
     let Some((pga, pgv)) = column("gmv_PGA").zip(column("gmv_PGV")) else {
         bail!("headings {}; expected gmv_PGA and gmv_PGV", headings(sheet));
     };
-    let site = column("site_id").or(column("custom_site_id"));
-    if let Some(site) = site
-        && (0..sheet.lines.len()).any(|row| sheet.cell(row, site) != sheet.cell(0, site))
-    {
-        bail!("ground-motion fields of several sites; keep the rows of one");
-    }
     let bin = |row| {
         Ok(PairOfPeaks {
             pga_m_s2: sheet.number(row, pga)? * G_M_S2,
