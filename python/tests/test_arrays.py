@@ -41,8 +41,8 @@ def test_a_block_is_known_by_its_dimensions():
     [
         ([0.1, np.nan], BLOCK, "sample 1 of the acceleration is NaN"),
         ([[0.1, 0.2]], BLOCK, "2 dimensions"),
-        ([0.1, 0.2], {"width": 50, "height": 2}, "width is 50; expected no more than the height"),
-        ([0.1, 0.2], {"widht": 0.5}, "unknown parameter 'widht'; did you mean 'width'"),
+        ([0.1, 0.2], {"width": 50, "height": 2}, "width is 50; .* the height"),
+        ([0.1, 0.2], {"widht": 0.5}, "'widht'; did you mean 'width'"),
         ([0.1, 0.2], {}, "expected p, alpha and eta, or width and height"),
     ],
 )
