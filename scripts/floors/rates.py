@@ -1,4 +1,4 @@
-"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2_FOLDER COMPONENTS.csv FOLDER [LEFT_OUT]
+"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2_FOLDER COMPONENTS.csv FOLDER [yielding]
 
 Every fourth component scaled to PGA of .1 to 1.6 g, filtered to ten floors; twelve objects; a hazard that falls with the
 power 2.2 of PGA. With the yielding beams of `yielding` too where numba is installed."""

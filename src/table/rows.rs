@@ -63,7 +63,7 @@ pub fn batch<R: Row>(rows: &[R]) -> anyhow::Result<RecordBatch> {
 
 /// Converts rows, or references to them, to a batch.
 pub fn batch_of<R: Row, S: Serialize>(rows: &[S]) -> anyhow::Result<RecordBatch> {
-    let arrays = serde_arrow::to_arrow(&fields::<R>(), &rows)?;
+    let arrays = serde_arrow::to_arrow(&fields::<R>(), rows)?;
     let columns = arrays.into_iter().flat_map(|array| match array.as_struct_opt() {
         Some(limited) => limited.columns().to_vec(),
         None => vec![array],

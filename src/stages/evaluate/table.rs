@@ -1,6 +1,7 @@
 //! Probabilities at each intensity of a table.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use arrow_array::RecordBatch;
@@ -60,9 +61,9 @@ pub fn evaluate(
     for batch in &batches {
         let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
         for structure in &structures {
-            if !of_rows.contains_key(&key(structure)) {
+            if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
                 let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
-                of_rows.insert(key(structure), subject(&Object::new(spec), models)?);
+                entry.insert(subject(&Object::new(spec), models)?);
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
