@@ -95,20 +95,19 @@ def write(k):
     (folder / "joint.csv").write_text("\n".join(lines) + "\n")
 
 
-ROUTES = {
-    "PGA": ("pga.csv", False), "PGA, M": ("pga.csv", True), "PGV": ("pgv.csv", False), "PGV, M": ("pgv.csv", True),
-    "PGA, SA": ("pga.csv,sa.csv", False), "PGA, SA, M": ("pga.csv,sa.csv", True),
-    "PGA, PGV": ("pga.csv,pgv.csv", False), "PGA, PGV, M": ("pga.csv,pgv.csv", True), "joint": ("joint.csv", False),
-}
+ROUTES = [
+    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV", "PGA, PGV, M",
+    "joint",
+]
 
 
 def answers(k, route):
-    files, with_mw = ROUTES[route]
-    paths = ",".join(str(folder / name) for name in files.split(","))
-    mw = ["--magnitude", f"{mean_mw[k]:.2f}"] if with_mw else []
-    rows = json.loads(call("--structures", folder / "objects.csv", "--hazard", paths, *mw, "--format", "json"))
+    given = route.split(", ")
+    paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in "MV")
+    mw = ["--magnitude", f"{mean_mw[k]:.2f}"] if "M" in given else []
+    vs30 = ["--vs30", names[k][3]] if "V" in given else []
+    rows = json.loads(call("--structures", folder / "objects.csv", "--hazard", paths, *mw, *vs30, "--format", "json"))
     return {row["structure"]: row for row in rows}
-
 
 
 def main():

@@ -1,9 +1,11 @@
 """Hazards of PGA, PGV and SA(1.0 s) at sites of ground-motion models: python sites.py FOLDER
 
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA, PGV and
-magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general (src/hazard/velocity.rs), the
-sites `check`, of other sources and models, judge them. Writes FOLDER/sites.npz and prints the lines of both. Needs
-openquake.engine (scripts/check_exports.sh tells how).
+magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general
+(src/hazard/velocity.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
+`judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the levels of the first
+two by Vs30 to tests/reference/fits/site_levels.csv, and prints their lines. Needs openquake.engine
+(scripts/check_exports.sh tells how).
 """
 
 import pathlib
@@ -21,7 +23,8 @@ LN_PGA = np.log(0.02 * G) + 0.1 * np.arange(54)
 LN_PGV = np.log(0.003) + 0.1 * np.arange(77)
 MAGNITUDES = np.arange(4.875, 8.2, 0.25)
 LEVELS_G = np.geomspace(0.01, 4, 40)
-RATES = np.geomspace(2e-2, 1e-6, 30)
+# Geometric mean of the sites, m/s.
+USUAL_VS30 = 440.0
 
 
 def area(rate, least, most, b, farthest, nearest=0.0):
@@ -65,11 +68,29 @@ CHECK = {
     "swarm": [area(0.2, 4.9, 6.0, 1.1, 25)],
     "craton": [area(0.01, 5.0, 7.2, 0.85, 200)],
 }
+
+
+def drawn(uniform):
+    """Sources that are drawn, so that nobody chose them."""
+    log = lambda low, high: np.exp(uniform(np.log(low), np.log(high)))
+    near = lambda: area(log(0.02, 0.15), 5.0, uniform(6.2, 6.6), uniform(0.9, 1.1), uniform(20, 35))
+    wide = lambda: area(log(0.02, 0.2), 5.0, uniform(6.6, 7.1), uniform(0.85, 1.1), uniform(70, 160))
+    far = lambda: fault(1 / uniform(60, 200), uniform(7.0, 7.6), uniform(50, 120), sd=0.2)
+    at = lambda km: fault(1 / uniform(200, 600), uniform(6.5, 7.2), km * uniform(0.7, 1.3), small=uniform(10, 30))
+    return {
+        "near 1": [near()], "near 2": [near()], "5 km and area": [at(5), wide()], "5 km": [at(5)], "15 km": [at(15)],
+        "far": [far(), far()], "far and area": [far(), wide()], "area": [wide()],
+    }
+
+
+JUDGE = drawn(np.random.default_rng(20261123).uniform)
 FIT_MODELS = ["BooreEtAl2014", "BindiEtAl2014Rjb", "AkkarEtAlRjb2014", "ChiouYoungs2014"]
 CHECK_MODELS = ["CampbellBozorgnia2014", "AbrahamsonEtAl2014", "LanzanoEtAl2019_RJB_OMO", "KothaEtAl2020"]
+JUDGE_MODELS = ["CauzziEtAl2014", "DerrasEtAl2014", "KaleEtAl2015Turkey"]
 SETS = {
     "fit": (FIT, FIT_MODELS, [270.0, 400.0, 760.0], 0.74),
     "check": (CHECK, CHECK_MODELS, [230.0, 350.0, 550.0, 900.0], 0.70),
+    "judge": (JUDGE, JUDGE_MODELS, [250.0, 320.0, 500.0, 850.0], 0.733),
 }
 
 
@@ -143,8 +164,9 @@ def all_sites():
                     yield name, geometry, model, vs30, site(model, vs30, sources, rho)
 
 
-def line(joints, mean_mw, peak):
-    """Level at 0.4 g or 0.4 m/s, slope and rise with magnitude of ln(PGV/PGA), its scatter, and the sd between sites."""
+def line(joints, mean_mw, vs30, peak):
+    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about it, and the
+    sd between sites of one magnitude, of one magnitude and Vs30."""
     x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
     at, low, high = (x - np.log(0.4 * G), 0.15 * G, 1.5 * G) if peak == "pga" else (y - np.log(0.4), 0.1, 2.0)
     ratio, axis = y[None, :] - x[:, None], 1 if peak == "pga" else 0
@@ -156,14 +178,26 @@ def line(joints, mean_mw, peak):
         variance = (rates * ratio**2).sum(axis=axis) / total - mean**2
         level = x if peak == "pga" else y
         for i in np.flatnonzero((np.exp(level) > low) & (np.exp(level) < high) & (total > 1e-7)):
-            rows.append([1, at[i], mean_mw[k] - 6.3])
+            rows.append([1, at[i], mean_mw[k] - 6.3, np.log(vs30[k] / USUAL_VS30)])
             means.append(mean[i])
             variances.append(variance[i])
             places.append(k)
-    b = np.linalg.lstsq(np.array(rows), np.array(means), rcond=None)[0]
-    off = np.array(means) - np.array(rows) @ b
-    between = np.std([off[np.array(places) == k].mean() for k in set(places)])
-    return [*b, np.sqrt(np.mean(variances)), between]
+    rows, means, places = (np.array(of_all) for of_all in (rows, means, places))
+    between = []
+    for columns in (rows[:, :3], rows):
+        b = np.linalg.lstsq(columns, means, rcond=None)[0]
+        off = means - columns @ b
+        between.append(np.std([off[places == k].mean() for k in set(places)]))
+    return [*b, np.sqrt(np.mean(variances)), *between]
+
+
+def levels(joints, mean_mw, vs30):
+    """Mean magnitude and mean ln(PGV/PGA) at 0.4 g of the sites of each Vs30."""
+    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
+    at = np.abs(x - np.log(0.4 * G)).argmin()
+    given_pga = joints.sum(axis=1)[:, at]
+    of_site = given_pga @ y / given_pga.sum(axis=1) - x[at]
+    return [(v, mean_mw[vs30 == v].mean(), of_site[vs30 == v].mean()) for v in np.unique(vs30)]
 
 
 if __name__ == "__main__":
@@ -176,7 +210,13 @@ if __name__ == "__main__":
         print(name, geometry, model, vs30, round(float(made["mw"]), 2), flush=True)
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **{k: np.array(v) for k, v in data.items()})
     kinds, joints, mean_mw = np.array(names)[:, 0], np.array(data["joint"]), np.array(data["mw"])
-    for kind in SETS:
+    vs30 = np.array(names)[:, 3].astype(float)
+    chosen = kinds != "judge"
+    for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):
-            found = line(joints[kinds == kind], mean_mw[kinds == kind], peak)
-            print(kind, peak, "level, slope, per magnitude, scatter, sd between sites:", *np.round(found, 2))
+            found = line(joints[among], mean_mw[among], vs30[among], peak)
+            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter, sd between sites, of one Vs30:",
+                  *np.round(found, 2))
+    reference = pathlib.Path(__file__).resolve().parents[2] / "tests/reference/fits/site_levels.csv"
+    rows = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
+    reference.write_text("vs30,mw,ln_ratio\n" + "".join(f"{v:.0f},{m:.3f},{level:.4f}\n" for v, m, level in rows))

@@ -15,6 +15,8 @@ pub struct Motion {
     pub pgv_m_s: Option<f64>,
     /// Moment magnitude.
     pub mw: Option<f64>,
+    /// Vs30 of the site, m/s.
+    pub vs30_m_s: Option<f64>,
 }
 
 /// Probabilities of LS1, LS2 and LS3, and the errors of the logits of the last two.
@@ -29,7 +31,8 @@ impl Motion {
     /// PGA and PGV (m/s2 and m/s); the one that is not known is the median.
     pub fn peaks(&self, model: &Model) -> [f64; 2] {
         let ratio = |peak: Peak, intensity: f64| {
-            Velocity::of_model(model, peak).ratio(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
+            let velocity = Velocity::of_model(model, peak, self.vs30_m_s);
+            velocity.ratio(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
         };
         match (self.pga_m_s2, self.pgv_m_s) {
             (Some(pga), Some(pgv)) => [pga, pgv],
@@ -52,7 +55,7 @@ impl Motion {
             (Some(pga), None) => Some((Peak::Pga, pga)),
             (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
         };
-        let velocity = one.map(|(peak, _)| Velocity::of_model(model, peak));
+        let velocity = one.map(|(peak, _)| Velocity::of_model(model, peak, self.vs30_m_s));
         let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
             let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);

@@ -32,7 +32,7 @@ pub struct PeakHazard {
     pub curve: HazardCurve,
     /// The 16 and 84 % fractiles, if they are given.
     pub fractiles: Option<[HazardCurve; 2]>,
-    /// PGV / PGA by the curve of the other peak, if it is given.
+    /// PGV / PGA, by the curve of the other peak or as the user gives it.
     pub velocity: Option<Velocity>,
 }
 
@@ -57,10 +57,10 @@ pub fn strongest(peak: Peak) -> f64 {
 pub struct Site {
     /// The hazard.
     pub hazard: Hazard,
-    /// PGV / PGA of all motions, s.
-    pub ratio_s: Option<f64>,
     /// Mean magnitude of the motions that matter.
     pub mw: Option<f64>,
+    /// Vs30, m/s.
+    pub vs30_m_s: Option<f64>,
     /// Whether a curve that ends too early is continued.
     pub extrapolate: bool,
     /// Responses to count in, of each suite and structure.
@@ -119,8 +119,7 @@ impl Site {
         unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> SiteRates {
         let (peak, model) = (hazard.peak, &directions[0].1);
-        let of_curves = || hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak));
-        let velocity = self.ratio_s.map_or_else(of_curves, Velocity::given);
+        let velocity = hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak, self.vs30_m_s));
         let (mw, of_magnitude) = magnitude(self.mw);
         let given = |mw: f64, ln: f64| {
             let of_motions = velocity.magnitude(self.mw, mw);

@@ -48,6 +48,11 @@ const SD_OF_MEAN: f64 = 0.2;
 /// deviation of the level between sites of one magnitude.
 const GIVEN_PGA: [f64; 5] = [-2.86, -0.06, 0.58, 0.30, 0.28];
 const GIVEN_PGV: [f64; 5] = [-2.21, 0.25, 0.50, 0.33, 0.23];
+/// At a known Vs30, given PGA and given PGV: the rise of these lines with ln(Vs30 / 440 m/s), and the standard
+/// deviation of the level that is left.
+const AT_VS30: [[f64; 2]; 2] = [[-0.31, 0.23], [-0.20, 0.21]];
+/// Vs30 at which the lines of sites in general hold, m/s.
+const USUAL_VS30_M_S: f64 = 440.0;
 /// Where the lines of sites in general have their level: m/s2 and m/s.
 const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
 /// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
@@ -108,8 +113,9 @@ impl Velocity {
         }
     }
 
-    /// That of the motions that a model stands for: those that it was fitted to, or sites in general.
-    pub fn of_model(model: &Model, given: Peak) -> Velocity {
+    /// That of the motions that a model stands for: those that it was fitted to, or sites in general, of this
+    /// Vs30 (m/s) if it is known.
+    pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> Velocity {
         let [level, slope, sd, per_magnitude, sd_of_level] = match given {
             Peak::Pga => GIVEN_PGA,
             Peak::Pgv => GIVEN_PGV,
@@ -118,8 +124,12 @@ impl Velocity {
             Model::Calibrated { overturning, .. }
                 if overturning.n == 0 && overturning.kind == Kind::Recorded =>
             {
-                let at = LEVEL_AT[usize::from(given == Peak::Pgv)];
-                let ratio = RatioGiven::line(level - slope * at.ln(), slope, sd);
+                let [per_ln_vs30, sd_at_vs30] = AT_VS30[given as usize];
+                let [of_vs30, sd_of_level] = vs30_m_s.map_or([0.0, sd_of_level], |vs30| {
+                    [per_ln_vs30 * (vs30 / USUAL_VS30_M_S).ln(), sd_at_vs30]
+                });
+                let at = LEVEL_AT[given as usize];
+                let ratio = RatioGiven::line(level + of_vs30 - slope * at.ln(), slope, sd);
                 Velocity { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }
             }
             _ => Velocity {

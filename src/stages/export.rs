@@ -66,7 +66,7 @@ impl Stage for Export {
             let (model, mut warnings) = models.model(structure)?;
             warnings.extend(warnings_of(structure));
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let (velocity, median) = (Velocity::of_model(&model, self.im), magnitude(None).0);
+            let (velocity, median) = (Velocity::of_model(&model, self.im, None), magnitude(None).0);
             let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
             let directions = [(structure.clone(), model.clone())];
             let given_peak = GivenPeak { directions: &directions, peak: self.im, ratio, mw };

@@ -110,6 +110,23 @@ fn a_second_curve_tells_pgv_and_narrows_the_limits() {
 }
 
 #[test]
+fn vs30_narrows_pgv_of_a_site() {
+    let pga = openquake("PGA", "mean", 1.0, 1.0);
+    let [usual, soft, both] =
+        ["", "--vs30 250", "--vs30 250 --magnitude 7"].map(|options| answer(&[("pga.csv", &pga)], options));
+    for (wider, narrower) in [(&usual, &soft), (&soft, &both)] {
+        let higher = number(narrower, "overturning_per_year") > number(wider, "overturning_per_year");
+        let width = |row| number(row, "overturning_per_year_high") / number(row, "overturning_per_year_low");
+        assert!(higher && width(narrower) < width(wider), "{wider} {narrower}");
+    }
+    let pgv = openquake("PGV", "mean", 60.0, 1.0);
+    let folder = folder(&[("pga.csv", &*pga), ("pgv.csv", &*pgv)]);
+    for options in ["--hazard pga.csv,pgv.csv --vs30 250", "--hazard pga.csv --vs30 90", "--pga 1 --pgv 1 --vs30 250"] {
+        fail(folder.path(), &format!("evaluate {BLOCK} {options}"), 2, &["vs30"]);
+    }
+}
+
+#[test]
 fn ground_motion_fields_are_motions_with_a_rate() {
     let fields = "#,,\"generated_by='OpenQuake engine 3.26'\"\nevent_id,gmv_PGA,gmv_PGV,site_id\n1,0.5,60,0\n2,0.1,5,0\n3,0.5,60,0\n";
     let row = answer(&[("gmf.csv", fields)], "--effective-years 1000");

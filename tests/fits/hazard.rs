@@ -1,6 +1,6 @@
 //! Annual rates against closed forms.
 
-use rockfrag::fragility::{Event, GivenPeak, Measure, Model, Peak, RatioGiven, fit_curve, p_overturning};
+use rockfrag::fragility::{Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, fit_curve, p_overturning};
 use rockfrag::hazard::{
     Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard, Site,
     Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve,
@@ -8,7 +8,7 @@ use rockfrag::hazard::{
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
 
-use crate::common::{cases, close, equipment};
+use crate::common::{cases, close, equipment, read};
 
 /// H = k0 IM^-k at `n` intensities from 1e-4 to 1e4.
 fn power_law(k0: f64, k: f64, n: usize) -> HazardCurve {
@@ -88,7 +88,7 @@ fn what_is_no_hazard_curve_is_refused() {
 fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
     let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
     (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
-    let peaks = Model::shipped(rockfrag::fragility::Kind::Csgm, &equipment(), 0.1).peaks();
+    let peaks = Model::shipped(Kind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
     (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
 }
@@ -137,8 +137,8 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let hazard = PeakHazard { peak: Peak::Pga, curve: pga, fractiles, velocity: Some(velocity) };
     let site = Site {
         hazard: Hazard::Curve(hazard),
-        ratio_s: None,
         mw: None,
+        vs30_m_s: None,
         extrapolate: false,
         responses: vec![],
     };
@@ -151,6 +151,17 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     assert_eq!(errors.sd_of(Part::Magnitude), None);
     let [value, low, high] = rates.overturning.map(Option::unwrap);
     assert!(((value / low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6 && high > value);
+}
+
+#[test]
+fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
+    let model = Model::shipped(Kind::Recorded, &equipment(), 0.1);
+    for (vs30, mw, ln_ratio) in read::<(f64, f64, f64)>("site_levels.csv") {
+        let velocity = Velocity::of_model(&model, Peak::Pga, Some(vs30));
+        let ours = velocity.ratio(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
+        assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
+        assert!(velocity.unknown().high < Velocity::of_model(&model, Peak::Pga, None).unknown().high);
+    }
 }
 
 /// The curve of PGV that a line of PGV / PGA gives over 1e-3 PGA^-k, which is a power law too.

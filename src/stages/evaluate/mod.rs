@@ -31,7 +31,7 @@ use super::shared::objects::Object;
 use super::shared::responses;
 use super::shared::spec::{Place, Restitution, Spec};
 use super::shared::structures::StructureArgs;
-use crate::hazard::{Hazard, Motion, PeakHazard, Site};
+use crate::hazard::{Hazard, Motion, PeakHazard, Site, Velocity};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -76,6 +76,10 @@ pub struct Evaluate {
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
     #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
     magnitude: Option<f64>,
+    /// Mean shear-wave velocity of the upper 30 m of the site: narrows the peak that is not known
+    #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
+          value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
+    vs30: Option<f64>,
     /// Headings of --hazard or --in that stand for columns
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Renamed>,
@@ -151,8 +155,11 @@ impl Evaluate {
                 "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
             )),
             (_, pga_g, pgv_m_s) => {
+                if pga_g.and(pgv_m_s).and(self.vs30).is_some() {
+                    return Err(UsageError::because("vs30: PGV/PGA is given"));
+                }
                 let pga_m_s2 = pga_g.map(|pga| pga * G_M_S2);
-                Ok(Question::Motion(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude }))
+                Ok(Question::Motion(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 }))
             }
         }
     }
@@ -181,10 +188,15 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self) -> anyhow::Result<Site> {
-        let hazard = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
-        let has_velocity = matches!(&hazard, Hazard::Curve(PeakHazard { velocity: Some(_), .. }));
-        if self.ratio.is_some() && (has_velocity || matches!(hazard, Hazard::Joint(_))) {
-            return Err(UsageError::because("ratio: the hazard itself gives PGV/PGA"));
+        let mut hazard = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
+        match &mut hazard {
+            Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
+                *velocity = self.ratio.map(Velocity::given);
+            }
+            _ if self.ratio.or(self.vs30).is_some() => {
+                return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
+            }
+            _ => {}
         }
         if let Hazard::Joint(_) = hazard
             && (self.extrapolate || self.responses.is_some())
@@ -194,8 +206,8 @@ impl Evaluate {
         }
         Ok(Site {
             hazard,
-            ratio_s: self.ratio,
             mw: self.magnitude,
+            vs30_m_s: self.vs30,
             extrapolate: self.extrapolate,
             responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read)?,
         })

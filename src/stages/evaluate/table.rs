@@ -97,7 +97,8 @@ fn of_batch<'a>(
         let (subject, of_structure) = of_row(row);
         let mut warnings = of_structure.clone();
         warnings.extend(subject.warnings([pga[row], pgv[row]]));
-        let motion = Motion { pga_m_s2: Some(pga[row]), pgv_m_s: Some(pgv[row]), mw: known(mw[row]) };
+        let [pga_m_s2, pgv_m_s] = [pga[row], pgv[row]].map(Some);
+        let motion = Motion { pga_m_s2, pgv_m_s, mw: known(mw[row]), vs30_m_s: None };
         let (tree, budget) = TreeRow::new(&motion, subject);
         (tree, (DoubtsRow::new(&warnings, &budget), warnings))
     };
