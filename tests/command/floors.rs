@@ -81,7 +81,7 @@ fn a_run_with_a_floor_simulates_on_it() {
     assert_eq!(made(&responses).inputs["in"], key_of(&floor).unwrap());
     fail(
         folder.path(),
-        "evaluate --fits out --p 1 --alpha 0.15 --eta 0.92 --pga 0.5 --pgv 0.5 --period 0.8 --level 1",
+        "evaluate --fits out --suite csgm --p 1 --alpha 0.15 --eta 0.92 --pga 0.5 --pgv 0.5 --period 0.8 --level 1",
         2,
         &["out", "floor"],
     );
