@@ -97,7 +97,7 @@ pub struct UnknownKeyword {
 
 impl fmt::Display for UnknownKeyword {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "'{}' is none of {}", self.word, self.known.join(", "))?;
+        write!(f, "'{}' is not one of {}", self.word, self.known.join(", "))?;
         match self.advice {
             Some(advice) => write!(f, "; {advice}"),
             None => f.write_str(&hint(&self.word, &self.known)),

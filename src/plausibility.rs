@@ -12,7 +12,7 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{peak} of {value} {unit} once in {years:.2} years; no place on earth has that: {guess}")]
+#[error("{peak} of {value} {unit} once in {years:.2} years exceeds any known hazard: {guess}")]
 pub struct ImplausibleHazard {
     peak: &'static str,
     value: f64,
@@ -39,18 +39,18 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
         (true, true, _) => "is it in cm/s?",
         (false, true, _) => "is it in m/s2?",
         (.., true) => "are these probabilities in 50 years (heading probability_of_exceedance_in_50_years)?",
-        _ => "another unit, or another column?",
+        _ => "is the unit or the column wrong?",
     };
     Err(ImplausibleHazard { peak, value, unit, years: 1.0 / rate, guess })
 }
 
-/// Why a peak is none of a ground motion: PGA in m/s2, PGV in m/s.
+/// Why a value cannot be a peak of ground motion: PGA in m/s2, PGV in m/s.
 pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
     let strongest = if is_velocity { STRONGEST_PGV_M_S } else { STRONGEST_PGA_G * crate::units::G_M_S2 };
     match (is_velocity, (0.0..=strongest).contains(&value)) {
         (_, true) => Ok(()),
-        (false, false) => Err("0 to 4.5 g, the strongest ever recorded: is it in m/s2?"),
-        (true, false) => Err("0 to 5 m/s, more than was ever recorded: is it in cm/s?"),
+        (false, false) => Err("0 to 4.5 g (the strongest record): is the value in m/s2?"),
+        (true, false) => Err("0 to 5 m/s (above any record): is the value in cm/s?"),
     }
 }
 /// Solid blocks of a smaller p (rad/s) are higher than about 40 m.

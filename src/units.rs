@@ -90,7 +90,7 @@ impl Unit {
     /// Reads a unit of acceleration.
     ///
     /// # Errors
-    /// With the known units, if it is none of them.
+    /// With the known units, if it is not one of them.
     pub fn of_acceleration(text: &str) -> Result<Unit, String> {
         Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
             let known =

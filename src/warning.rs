@@ -1,4 +1,4 @@
-//! What speaks against a result: a warning is a value, worded once.
+//! Warnings about results: a warning is a value, worded once.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::keyword::keywords;
 
 keywords! {
-    /// A warning that changes what one would decide, the weightiest first.
+    /// A warning that could change a decision, the most important first.
     #[derive(PartialOrd, Ord)]
     #[expect(missing_docs, reason = "text() says it")]
     pub enum Warning {
@@ -41,35 +41,33 @@ impl Warning {
     pub fn text(self) -> &'static str {
         match self {
             Warning::UnusualScenario => {
-                "outside of the earthquakes of the paper: magnitude 5.5 to 7.5, distance up to 20 km"
+                "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km"
             }
-            Warning::ImplausibleRow => "this row cannot be right; it has no result",
-            Warning::NotRocking => "it is held, or slides: no result",
+            Warning::ImplausibleRow => "this row is invalid; it has no result",
+            Warning::NotRocking => "the object is anchored or slides: no result",
             Warning::ImplausibleRecord => "this is not a plausible earthquake record",
-            Warning::OtherPeak => "pga_m_s2 is not the peak of the samples: another unit or component?",
-            Warning::ImplausibleSize => "it is implausibly tall: are its dimensions in inches or cm?",
-            Warning::LowRestitution => "eta is below 0.5: a typing error?",
-            Warning::HazardEndsEarly => "the hazard curve ends too early: bounds in place of a value",
+            Warning::OtherPeak => "pga_m_s2 differs from the peak of the samples: unit or component?",
+            Warning::ImplausibleSize => "implausibly tall: are the dimensions in inches or cm?",
+            Warning::LowRestitution => "eta is below 0.5: is this a typing error?",
+            Warning::HazardEndsEarly => "the hazard curve ends too early: the result is a range",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             Warning::HazardStartsLate => {
-                "the hazard curve starts above the intensity that uplifts it: rates are too low"
+                "the hazard curve starts above the uplift intensity: rates are too low"
             }
             Warning::NotFitted => "not among the fitted structures: the universal surface is used",
-            Warning::OtherStructure => "calibrated on responses of another structure, chosen by --name",
-            Warning::Extrapolated => "outside of the motions that the model was fitted to",
-            Warning::UnusualStructure => "outside of the structures that the universal surface was fitted to",
+            Warning::OtherStructure => "calibrated on responses of a different structure (--name)",
+            Warning::Extrapolated => "outside the range of motions that the model was fitted to",
+            Warning::UnusualStructure => "outside the range of structures of the universal surface",
             Warning::PoorFit => "the paper's curve or planes do not fit these responses",
-            Warning::NoEvents => "all responses or none overturned: the estimate rests on other structures",
-            Warning::FewEvents => {
-                "fewer than ten responses with the event, or without: the fitted rate is uncertain"
-            }
+            Warning::NoEvents => "all or no responses overturned: the estimate rests on other structures",
+            Warning::FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
             Warning::FewClusters => {
-                "fewer than ten earthquakes or cells: limits assume the usual differences between them"
+                "fewer than ten earthquakes or cells: limits use a typical spread between them"
             }
-            Warning::ScanEndsEarly => "too few motions overturn it for a median; raise --to",
+            Warning::ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
             Warning::UnreadableFile => "not imported",
-            Warning::UnusedColumns => "columns that rockfrag does not use",
-            Warning::NoPartner => "no partner at right angles: left out",
+            Warning::UnusedColumns => "columns not used by rockfrag",
+            Warning::NoPartner => "no perpendicular component: left out",
         }
     }
 }
@@ -93,7 +91,7 @@ const NAMED: usize = 3;
 pub const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns one line for each warning, the weightiest first, with the first subjects that it is about.
+    /// Returns one line for each warning, the most important first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.join(", ");

@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use crate::error::{in_python, to_python};
 use crate::run::run;
 
-/// A stage that is done: its name, the files that it wrote, what it prints, what speaks against it.
+/// A stage that is done: its name, the files that it wrote, what it prints, its warnings.
 type Made = (String, Vec<PathBuf>, String, Vec<String>);
 
 /// All stages as JSON: names, meanings, options with their meanings and defaults.

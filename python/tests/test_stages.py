@@ -46,7 +46,7 @@ def test_an_unknown_option_names_the_nearest(motions):
         ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "15.*alpha.* is it in degrees"),
         ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
         ({**FRAME, "name": None, "threads": 0}, ValueError, "threads"),
-        ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is no value of an option"),
+        ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is not a valid option value"),
     ],
 )
 def test_a_wrong_option_is_told(motions, options, error, message):

@@ -31,7 +31,7 @@ enum Tool {
         /// Pipeline file
         #[arg(default_value = PIPELINE)]
         pipeline: PathBuf,
-        /// Folder of all files [default: as the pipeline file has it, or out beside it]
+        /// Folder of all files [default: as in the pipeline file, else out beside it]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
         /// Seed of all stages

@@ -36,7 +36,7 @@ pub struct Calibration {
     pub p_rad_s: f64,
     pub alpha_rad: f64,
     pub eta: f64,
-    /// Demand |theta|max / alpha of P_ex; none of P_ro.
+    /// Demand |theta|max / alpha of P_ex; `None` for P_ro.
     pub limit_state: Option<f64>,
     pub c: f64,
     pub ln_s: f64,
@@ -70,7 +70,7 @@ const LIKE: f64 = 1.2;
 grouped!(Calibration);
 
 impl Calibration {
-    /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, none of
+    /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, `None` for
     /// P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
@@ -183,7 +183,7 @@ impl Calibration {
         }
     }
 
-    /// What speaks against it as a whole; nothing where it is that of a kind of motion.
+    /// Warnings about it as a whole; empty where it is that of a kind of motion.
     pub fn warnings(&self) -> Vec<Warning> {
         let rarer = self.n_events.min(self.n - self.n_events);
         let of_events = match (rarer, self.limit_state) {

@@ -71,7 +71,7 @@ pub enum Cluster {
 
 impl Cluster {
     /// Returns that of a motion: its earthquake, else its magnitude and distance (km); NaN where unknown.
-    /// None of a motion that shares nothing.
+    /// `None` for a motion that shares nothing.
     pub fn of(earthquake: Option<&str>, mw: f64, re_km: f64) -> Option<Cluster> {
         match earthquake {
             Some(name) => Some(Cluster::Earthquake(name.to_string())),

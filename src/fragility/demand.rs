@@ -187,7 +187,7 @@ pub struct DemandFit {
     pub model: DemandModel,
     pub im_x: Measure,
     pub im_y: Option<Measure>,
-    /// IM4 from which the fit holds; none of one that holds everywhere.
+    /// IM4 from which the fit holds; `None` for one that holds everywhere.
     pub range_low: Option<f64>,
     /// IM4 below which the fit holds.
     pub range_high: Option<f64>,

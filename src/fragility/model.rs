@@ -36,7 +36,7 @@ impl Model {
         }
     }
 
-    /// The same on a floor; none of the paper's model, which is fitted to the ground.
+    /// The same on a floor; `None` for the paper's model, which is fitted to the ground.
     pub fn on(&self, floor: Option<Floor>) -> Option<Model> {
         match (self.clone(), floor) {
             (Model::Calibrated { overturning, exceeding, .. }, floor) => {
@@ -86,7 +86,7 @@ impl Model {
         }
     }
 
-    /// The floor that it is for; none of the ground.
+    /// The floor that it is for; `None` for the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {
             Model::Calibrated { floor, .. } => *floor,
@@ -115,7 +115,7 @@ impl Model {
         }
     }
 
-    /// Returns what speaks against its prediction at an intensity.
+    /// Returns the warnings about its prediction at an intensity.
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
         let measures = match self {
             Model::Calibrated { floor: Some(floor), .. } => {

@@ -138,7 +138,7 @@ pub struct CurveFit {
     /// Whether the covariance allows for dependence within clusters; else there are too few of them.
     pub is_clustered: bool,
     pub n_clusters: i64,
-    /// Degrees of freedom of limits, clusters - 1; none of normal ones.
+    /// Degrees of freedom of limits, clusters - 1; `None` for normal ones.
     pub degrees: Option<f64>,
     pub n: i64,
     /// Cases in which the event happened.

@@ -64,7 +64,7 @@ impl RatioGiven {
         vec![self.intercept, self.slope, self.knot, self.bend, self.sd_below, self.sd_above]
     }
 
-    /// Of the fields in their order; none of another number of numbers.
+    /// Of the fields in their order; `None` for another number of numbers.
     pub fn of_numbers(numbers: &[f64]) -> Option<RatioGiven> {
         let &[intercept, slope, knot, bend, sd_below, sd_above] = numbers else { return None };
         Some(RatioGiven { intercept, slope, knot, bend, sd_below, sd_above })
@@ -94,7 +94,7 @@ impl RatioGiven {
         self.sd_below == 0.0 && self.sd_above == 0.0
     }
 
-    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), so many standard deviations above its median.
+    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
         (self.mean(intensity.ln()) + deviations * sd).exp()

@@ -8,7 +8,7 @@
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
-//! site      the rates of a structure at a site, with limits and what speaks against them
+//! site      the rates of a structure at a site, with limits and warnings
 //! ```
 
 mod budget;

@@ -110,7 +110,7 @@ impl MotionMeasures {
     }
 }
 
-/// Computes the time (s) at which a share of the total `energy`, the running integral of the squared
+/// Computes the time (s) at which a fraction of the total `energy`, the running integral of the squared
 /// acceleration, is reached. 0 without energy.
 fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) -> f64 {
     let Some(&total) = energy.last().filter(|total| **total > 0.0) else { return 0.0 };

@@ -98,6 +98,11 @@ keywords! {
     }
 }
 
+impl Suite {
+    /// End of the suite of motions of a floor: `record floor`.
+    pub const OF_FLOOR: &str = " floor";
+}
+
 keywords! {
     /// A kind of ground motion that is synthesized from a scenario.
     #[derive(Hash)]

@@ -13,7 +13,7 @@ const CROSSOVER_KM: f64 = 40.0;
 /// Quality factor Q = 180 f^0.45.
 const QUALITY: f64 = 180.0;
 const QUALITY_EXPONENT: f64 = 0.45;
-/// Peak of the window as a share of its duration: Boore's epsilon.
+/// Peak of the window as a fraction of its duration: Boore's epsilon.
 pub const PEAK_SHARE: f64 = 0.2;
 /// Value of the window at its end: Boore's eta.
 const END_VALUE: f64 = 0.05;

@@ -78,7 +78,7 @@ pub struct ImportedMotion {
 }
 
 impl ImportedMotion {
-    /// Joins earthquake, station and component; none if the file has none of them.
+    /// Joins earthquake, station and component; `None` if the file has none of them.
     pub fn name(&self) -> Option<String> {
         let RecordedMotion { event, station, component, .. } = &self.record;
         let parts: Vec<&str> =

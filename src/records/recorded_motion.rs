@@ -21,7 +21,7 @@ pub struct RecordedMotion {
     pub station: Option<String>,
     /// Component, as named in the file.
     pub component: Option<String>,
-    /// Direction of positive acceleration, degrees clockwise from north; none of a vertical component.
+    /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
     pub azimuth_deg: Option<f64>,
     /// Peak acceleration in the header.
     pub header_pga: Option<HeaderPga>,

@@ -14,7 +14,7 @@ const MOST_PADDING: f64 = 8.0;
 const LOBES: f64 = 24.0;
 /// Shape of the Kaiser window: side lobes of about -80 dB.
 const KAISER_BETA: f64 = 8.0;
-/// Corner of the resampling filter as a share of the lower Nyquist frequency.
+/// Corner of the resampling filter as a fraction of the lower Nyquist frequency.
 const CORNER: f64 = 0.9;
 
 keywords! {

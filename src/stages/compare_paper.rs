@@ -18,7 +18,7 @@ use crate::table::frame::{self, Format};
 use crate::table::provenance::Provenance;
 use crate::table::rows;
 
-/// Compare fits of the paper's set-up with the numbers that the paper publishes
+/// Compare fits of the paper's set-up with the published numbers
 #[derive(Debug, Args)]
 pub struct ComparePaper {
     /// Fits of fit-pex

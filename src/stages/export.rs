@@ -1,6 +1,6 @@
 //! export: the fragility of structures for OpenQuake or pelicun.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
@@ -12,6 +12,7 @@ use crate::fragility::{GivenPeak, Peak, Scenarios};
 use crate::hazard::strongest;
 use crate::hazard::{Velocity, magnitude};
 use crate::keyword::keywords;
+use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::stage::Stage;
 use crate::rocking::Structure;
@@ -26,9 +27,9 @@ pub struct Export {
     /// Intensity: pga or pgv
     #[arg(long, value_name = "PEAK", default_value = "pga")]
     im: Peak,
-    /// File to write; for pelicun its name ends in .csv
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "fragility.xml")]
-    out: PathBuf,
+    /// File to write: .xml, for pelicun .csv [default: fragility.xml or fragility.csv]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
+    out: Option<PathBuf>,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -48,13 +49,19 @@ const TOLERANCE: f64 = 4e-6;
 
 impl Stage for Export {
     fn outputs(&self) -> Vec<PathBuf> {
+        let out = self.out.clone().unwrap_or_else(|| Path::new("fragility").with_extension(self.ending()));
         match self.to {
-            Program::OpenQuake => vec![self.out.clone()],
-            Program::Pelicun => ["json", "csv"].map(|ending| self.out.with_extension(ending)).to_vec(),
+            Program::OpenQuake => vec![out],
+            Program::Pelicun => vec![out.with_extension("json"), out],
         }
     }
 
     fn check(&self) -> anyhow::Result<()> {
+        let is_right = |out: &PathBuf| out.extension().is_some_and(|ending| ending == self.ending());
+        if let Some(out) = self.out.as_ref().filter(|out| !is_right(out)) {
+            let (out, ending) = (out.display(), self.ending());
+            return Err(UsageError::because(format!("out is {out}; expected a name that ends in .{ending}")));
+        }
         self.structures.resolve().map(|_| ())
     }
 
@@ -96,6 +103,13 @@ impl Stage for Export {
 }
 
 impl Export {
+    fn ending(&self) -> &'static str {
+        match self.to {
+            Program::OpenQuake => "xml",
+            Program::Pelicun => "csv",
+        }
+    }
+
     /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever
     /// recorded.
     fn function(&self, structure: &Structure, given_peak: &GivenPeak) -> Function {

@@ -34,7 +34,7 @@ pub struct FitPex {
     /// IM4 at which the planes meet: a number, or found (least residual)
     #[arg(long, value_name = "IM4", default_value = "1.3")]
     transition: Transition,
-    /// Raise smaller demands to this one, as a solver of finite tolerance does
+    /// Lower bound on demands, as a solver of finite tolerance imposes
     #[arg(long, value_name = "DEMAND", default_value = "0",
           value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
     demand_floor: f64,

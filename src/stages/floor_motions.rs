@@ -1,5 +1,6 @@
 //! floor-motions: motions of the ground as a floor of a building has them.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
@@ -8,7 +9,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures};
+use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite};
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
@@ -52,6 +53,7 @@ pub struct FloorMotions {
 /// The floor of a motion, as columns.
 #[derive(Serialize, Deserialize)]
 struct FloorRow {
+    suite: String,
     floor_period_s: f64,
     floor_level: f64,
 }
@@ -124,9 +126,14 @@ impl FloorMotions {
             measured.push(plan.measure(&written, dt_s, scratch));
             filtered.push(of_floor);
         }
-        let floors: Vec<FloorRow> = filtered
-            .iter()
-            .map(|_| FloorRow { floor_period_s: self.period, floor_level: self.level })
+        let suites = ground.texts("suite")?;
+        let floors: Vec<FloorRow> = suites
+            .into_iter()
+            .map(|suite| FloorRow {
+                suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::OF_FLOOR,
+                floor_period_s: self.period,
+                floor_level: self.level,
+            })
             .collect();
         let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
         let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
@@ -146,11 +153,12 @@ fn measures_of(schema: &Schema) -> MeasurePlan {
     MeasurePlan { housner: schema.index_of("housner_m").is_ok(), sa_periods_s: periods.collect() }
 }
 
-/// All columns that are neither samples nor measures of them, with unit and meaning.
+/// All columns that are neither the suite nor samples nor measures of them, with unit and meaning.
 fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
     let is_measure = |name: &str| {
         name == ACCELERATION
+            || name == "suite"
             || name == "housner_m"
             || spectral_period_s(name).is_some()
             || measures.index_of(name).is_ok()

@@ -39,7 +39,7 @@ const CHUNK: usize = 8;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
 
-/// Scale motions up until they overturn each structure (incremental dynamic analysis)
+/// Scale motions until they overturn each structure (incremental dynamic analysis)
 #[derive(Debug, Args)]
 pub struct Ida {
     /// Motions to read, as in simulate
@@ -48,7 +48,7 @@ pub struct Ida {
     /// Overturning intensities to write, with NAME.stripes.parquet and NAME.fragility.parquet beside
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ida.parquet")]
     out: PathBuf,
-    /// What to scale: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
+    /// Intensity to scale by: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
     /// Smallest intensity, in the unit of --measure
@@ -141,7 +141,7 @@ struct Case<'a> {
     motion: &'a Motion,
     measures: Measures,
     structure: &'a Structure,
-    /// The measure of the motion as it is.
+    /// The measure of the unscaled motion.
     unscaled: f64,
 }
 
@@ -297,7 +297,7 @@ impl ScaledMeasure {
         }
     }
 
-    /// That of a motion as it is; none where it has none, or the ground does not move.
+    /// That of the unscaled motion; `None` if it has none, or the ground does not move.
     fn unscaled(self, measures: &Measures, structure: &Structure) -> Option<f64> {
         let dimensionless = measures.of_structure(structure);
         let value = match self {

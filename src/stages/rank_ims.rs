@@ -33,8 +33,7 @@ const UNITS: [(&str, Dimension); 4] = [
 /// Sets that are printed of each target.
 const SHOWN: usize = 5;
 
-/// Rank intensity measures, alone, in pairs and triples, by how well they predict cells or earthquakes
-/// left out
+/// Rank intensity measures, singly and in sets, by how well they predict held-out cells or earthquakes
 #[derive(Debug, Args)]
 pub struct RankIms {
     /// Responses to read

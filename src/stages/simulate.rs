@@ -45,7 +45,7 @@ pub struct Simulate {
     #[command(flatten)]
     structures: StructureArgs,
     /// Also write the rotation of these motions over time, to NAME.trace.parquet: by a plain solver, which
-    /// may disagree with the outcome where a structure all but overturns
+    /// may disagree with the outcome when a structure nearly overturns
     #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
     trace: Vec<String>,
     /// Only part i of n (0 to n - 1), into the folder --out

@@ -16,7 +16,7 @@ pub struct DesignMatrix {
     to_given: DMatrix<f64>,
 }
 
-/// Computes the mean and the standard deviation; none of constant values.
+/// Computes the mean and the standard deviation; `None` for constant values.
 pub fn mean_and_sd(values: &[f64]) -> Option<(f64, f64)> {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;

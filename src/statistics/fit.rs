@@ -75,7 +75,7 @@ pub struct Fit {
     pub coefficients: DVector<f64>,
     /// Covariance of the coefficients of independent cases, k x k.
     pub covariance: DMatrix<f64>,
-    /// Cluster-robust covariance, k x k; none of too few clusters.
+    /// Cluster-robust covariance, k x k; `None` for too few clusters.
     pub clustered: Option<DMatrix<f64>>,
     /// Number of clusters; 0 if none were given.
     pub clusters: usize,

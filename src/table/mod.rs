@@ -33,7 +33,7 @@ use arrow_schema::DataType;
 /// A table that cannot be read or written. Rows count from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
-    #[error("{}: no such file; run the stage that makes it first", .0.display())]
+    #[error("{}: no such file", .0.display())]
     Missing(PathBuf),
     #[error("{}: {source}", path.display())]
     Io { path: PathBuf, source: std::io::Error },

@@ -190,7 +190,7 @@ pub fn spectral_column(period_s: f64) -> String {
     format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
 }
 
-/// Returns the period (s) of a column of spectral accelerations; none of other columns.
+/// Returns the period (s) of a column of spectral accelerations; `None` for other columns.
 pub fn spectral_period_s(column: &str) -> Option<f64> {
     column.strip_prefix("sa_")?.strip_suffix("_m_s2")?.replace('p', ".").parse().ok()
 }

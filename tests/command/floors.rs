@@ -19,6 +19,7 @@ fn rows(path: &Path, drop: &[&str]) -> Vec<String> {
 
 const SAMPLES: &[&str] = &["acceleration_m_s2"];
 const MEASURES: &[&str] = &[
+    "suite",
     "acceleration_m_s2",
     "pga_m_s2",
     "pgv_m_s",
@@ -55,7 +56,7 @@ fn a_floor_keeps_what_is_not_measured_and_level_0_is_the_ground() {
     assert_eq!(in_order(&ground), in_order(&here.join("same.parquet")));
     succeed(here, "simulate --in motions.parquet --width 0.6 --height 2 --out a.parquet");
     succeed(here, "simulate --in same.parquet --width 0.6 --height 2 --out b.parquet");
-    assert!(rows(&here.join("a.parquet"), &[]) == rows(&here.join("b.parquet"), &[]));
+    assert!(rows(&here.join("a.parquet"), &["suite"]) == rows(&here.join("b.parquet"), &["suite"]));
 
     succeed(here, "floor-motions --in motions.parquet --period 0.8 --level 1 --threads 1 --out one.parquet");
     for part in 0..3 {
@@ -78,6 +79,12 @@ fn a_run_with_a_floor_simulates_on_it() {
     let [floor, responses] =
         ["floor", "responses"].map(|name| folder.path().join(format!("out/{name}.parquet")));
     assert_eq!(made(&responses).inputs["in"], key_of(&floor).unwrap());
+    fail(
+        folder.path(),
+        "evaluate --fits out --suite csgm --p 1 --alpha 0.15 --eta 0.92 --pga 0.5 --pgv 0.5 --period 0.8 --level 1",
+        2,
+        &["out", "floor"],
+    );
 }
 
 #[test]

@@ -161,7 +161,7 @@ class Probabilities:
     p_f_r_low: Floats
     p_f_r_high: Floats
     p_f: Floats
-    #: What speaks against them.
+    #: Warnings about them.
     warnings: list[str]
 
     def __repr__(self) -> str:
@@ -173,7 +173,8 @@ class Probabilities:
             ends = sorted({f"{known[0].min():.3g}", f"{known[0].max():.3g}"}, key=float)
             return f"{words:<32} {' to '.join(ends)}{limits}"
 
-        return "\n".join([f"Probabilities at {np.size(self.p_nr)} intensities", *starmap(line, LINES)])
+        number = np.size(self.p_nr)
+        return "\n".join(["Probabilities at " + (f"{number} intensities" if number != 1 else "1 intensity"), *starmap(line, LINES)])
 
     def _of(self, name: str) -> Floats:
         return np.asarray(getattr(self, name, np.empty(0)))
@@ -194,7 +195,8 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
         _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
-        evaluated = _bridge.functions["evaluate"](path, **options)
+        with _bridge.errors_without(folder):
+            evaluated = _bridge.functions["evaluate"](path, **options)
         columns = _rockfrag.read_numbers(evaluated._table(), names)
     arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
     return Probabilities(**arrays, warnings=evaluated.warnings)

@@ -10,7 +10,7 @@ import sys
 import tempfile
 import textwrap
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from inspect import Parameter, Signature
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -103,18 +103,24 @@ def call(
         for name, option in files.items():
             if hasattr(words.get(name), "__arrow_c_stream__"):
                 words[name] = written(words[name], Path(scratch, name), option)
-        try:
+        with errors_without(scratch):
             made = _rockfrag.call(
                 stage.command,
                 json.dumps({name: plain(value) for name, value in words.items()}, allow_nan=False),
                 threads,
                 progress,
             )
-        except (_rockfrag.Error, ValueError, FileNotFoundError) as error:
-            # A table has no path.
-            raise type(error)(str(error).replace(f"{scratch}{os.sep}", "")) from None
         failed.pop_all()
     return result(made, folder)
+
+
+@contextlib.contextmanager
+def errors_without(folder: str) -> Iterator[None]:
+    """Errors do not name the temporary folder of a table that was given without a path."""
+    try:
+        yield
+    except (_rockfrag.Error, ValueError, FileNotFoundError) as error:
+        raise type(error)(str(error).replace(f"{folder}{os.sep}", "")) from None
 
 
 def flag(name: str) -> str:
@@ -160,7 +166,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, Iterable):
         return [plain(item) for item in value]
     raise TypeError(
-        f"{value!r} is no value of an option; expected a number, a text, a path, a list or a mapping"
+        f"{value!r} is not a valid option value; expected a number, a string, a path, a list or a mapping"
     )
 
 

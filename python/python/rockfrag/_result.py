@@ -25,7 +25,7 @@ class Result:
     summary : str
         What the command prints.
     warnings : list of str
-        What speaks against it.
+        Warnings about it.
     """
 
     def __init__(

@@ -14,7 +14,7 @@ const REFINED: usize = 20;
 const LEAST_PEAK: f64 = 0.9;
 /// Wavelets of the extracted pulse.
 const WAVELETS: usize = 10;
-/// Largest distance of the other wavelets from the first, as a share of its scale (period times 5/7).
+/// Largest distance of the other wavelets from the first, as a fraction of its scale (period times 5/7).
 const REACH: f64 = 10.0 / 25.0 * 5.0 / 7.0;
 /// Largest time step of the search, s, unless the record is coarser.
 const STEP_S: f64 = 0.02;
@@ -149,7 +149,7 @@ fn energy(velocity: &[f64]) -> f64 {
     velocity.iter().map(|v| v * v).sum()
 }
 
-/// Finds the first sample at which a share of the squared velocity is reached.
+/// Finds the first sample at which a fraction of the squared velocity is reached.
 fn sample_of_share(velocity: &[f64], share: f64) -> usize {
     let target = share * energy(velocity);
     let mut sum = 0.0;

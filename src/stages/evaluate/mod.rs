@@ -48,8 +48,8 @@ pub use self::rates::RatesRow;
 use self::target::Target;
 pub use self::words::size;
 
-/// Predict how probable rocking and overturning are: under a motion, under each of a table, or a year at
-/// a site
+/// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
+/// per year at a site
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("site").multiple(true)), after_help = "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
     rockfrag evaluate --structures objects.csv --hazard hazard.csv")]
@@ -70,23 +70,23 @@ pub struct Evaluate {
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
     #[arg(long, value_name = "FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',', group = "site")]
     hazard: Vec<PathBuf>,
-    /// Years that the ground-motion fields of --hazard stand for
+    /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
     #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
     magnitude: Option<f64>,
-    /// Mean shear-wave velocity of the upper 30 m of the site: narrows the peak that is not known
+    /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
           value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
-    /// Headings of --hazard or --in that stand for columns
+    /// Column names for headings of --hazard or --in
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Renamed>,
-    /// Time of exposure, years
+    /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
-    /// PGV/PGA of all motions, s [default: by the curves, or that of sites in general]
+    /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
     #[arg(long, value_name = "S", requires = "hazard", group = "site",
           value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
@@ -174,6 +174,7 @@ impl Evaluate {
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
+        models.expect_ground()?;
         let site = self.site()?;
         let predict = |object: &Object, subject: &Subject| {
             let rates = site.rates(&subject.directions, &subject.unknowns);

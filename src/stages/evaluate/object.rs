@@ -99,7 +99,7 @@ impl ObjectRow {
     }
 }
 
-/// What speaks against an answer, and the parts of the error of overturning: standard deviations of ln of its
+/// The warnings about an answer, and the parts of the error of overturning: standard deviations of ln of its
 /// annual rate, or of the logit of its probability; none where nothing of a part is unknown.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct DoubtsRow {
@@ -156,7 +156,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// An object that rocks in these directions, on its floor, and what speaks against the models.
+    /// An object that rocks in these directions, on its floor, and the warnings about the models.
     pub fn of(
         object: &Object,
         found: &[Direction],
@@ -173,6 +173,9 @@ impl Subject {
             let problem = || UsageError::because("period: the paper's model is that of the ground");
             on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
         };
+        if object.floor().is_some() {
+            models.expect_ground()?;
+        }
         let models = on(object.floor())?;
         let structures = || found.iter().map(|direction| direction.structure.clone());
         let fewest = found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0);
@@ -198,7 +201,7 @@ impl Subject {
         &self.directions[0]
     }
 
-    /// What speaks against predictions at a motion (m/s2 and m/s).
+    /// Warnings about predictions at a motion (m/s2 and m/s).
     pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
         let warnings = |(structure, model): &(Structure, Model)| {
             let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);

@@ -27,7 +27,7 @@ use crate::table::columns::Batch;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
-/// What is predicted for, and what speaks against it.
+/// What is predicted for, and the warnings about it.
 type Known = (Subject, Vec<Warning>);
 
 /// Reads intensities, and returns them with their probabilities, and what to print.

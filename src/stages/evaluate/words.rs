@@ -1,4 +1,4 @@
-//! An object, its model and what speaks against its answer, in words.
+//! An object, its model and the warnings about its answer, in words.
 
 use super::object::{Answer, ObjectRow};
 use crate::hazard::Part;
@@ -120,7 +120,7 @@ fn brief<R>(answer: &Answer<R>) -> String {
     }
 }
 
-/// A table of a list: of each object its size, these cells and what speaks against them; at its end the responses to
+/// A table of a list: of each object its size, these cells and the warnings; at its end the responses to
 /// which each was fitted, if these are not the same for all.
 pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
     let responses = is_fitted_each(all).then_some("responses");

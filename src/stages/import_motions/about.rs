@@ -1,7 +1,7 @@
 //! What a table says about records: magnitude, distance and earthquake, which few files have.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::pipeline::UsageError;
 use crate::records::RecordedMotion;
@@ -59,11 +59,23 @@ impl About {
         Ok(About(rows.map_err(|error| problem(error.to_string()))?))
     }
 
+    /// Refuses a table that says nothing of any of these files.
+    pub fn expect_any(&self, path: &Path, files: &[PathBuf]) -> anyhow::Result<()> {
+        if files.iter().any(|file| self.of(file).is_some()) {
+            return Ok(());
+        }
+        let problem = format!("{}: no row is about any of the {} files", path.display(), files.len());
+        Err(UsageError::because(problem))
+    }
+
+    fn of(&self, file: &Path) -> Option<&Known> {
+        let names = [file.file_name(), file.file_stem()];
+        names.into_iter().flatten().find_map(|name| self.0.get(name.to_str()?))
+    }
+
     /// Adds to a record what the table says of its file.
     pub fn add(&self, file: &Path, motion: &mut RecordedMotion) {
-        let names = [file.file_name(), file.file_stem()];
-        let found = names.into_iter().flatten().find_map(|name| self.0.get(name.to_str()?));
-        let Some(Known { mw, re_km, earthquake }) = found.cloned() else { return };
+        let Some(Known { mw, re_km, earthquake }) = self.of(file).cloned() else { return };
         motion.mw = mw.or(motion.mw);
         motion.re_km = re_km.or(motion.re_km);
         motion.event = earthquake.or(motion.event.take());

@@ -26,7 +26,7 @@ pub struct Importer {
     names: HashMap<String, usize>,
     reading: ReadOptions,
     processing: Processing,
-    about: About,
+    pub about: About,
     /// Whether vertical components are imported too, and how many were not.
     vertical: bool,
     left_out: AtomicUsize,

@@ -55,8 +55,8 @@ pub struct ImportMotions {
     /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
     column: Option<String>,
-    /// Tolerated difference from the peak in the header, as a share
-    #[arg(long, default_value = "0.05", value_name = "SHARE", value_parser = number(0.0..=1e9, "a share of 0 or more"))]
+    /// Tolerated difference from the peak in the header, as a fraction
+    #[arg(long, default_value = "0.05", value_name = "FRACTION", value_parser = number(0.0..=1e9, "a fraction of 0 or more"))]
     pga_tolerance: f64,
     /// Remove from acceleration: none, mean or linear
     #[arg(long, default_value = "none")]
@@ -71,7 +71,7 @@ pub struct ImportMotions {
     /// RotD50 and RotD100
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     rotate: Option<Direction>,
-    /// Scale by these factors, each to a motion of its own
+    /// Scale by these factors; each gives a separate motion
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
     scale: Option<Steps>,
     /// Scale each motion to this PGA, g
@@ -99,10 +99,10 @@ pub struct ImportMotions {
     /// Import vertical components too
     #[arg(long)]
     vertical: bool,
-    /// Import motions that no earthquake is likely to have made
+    /// Import physically implausible motions
     #[arg(long)]
     accept_implausible: bool,
-    /// Import the others where a file cannot be read
+    /// Skip files that cannot be read
     #[arg(long)]
     keep_going: bool,
 }
@@ -129,6 +129,9 @@ impl Stage for ImportMotions {
         let (reading, given) = (self.reading(), &self.files);
         let importer = Importer::new(given, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
+        if let Some(path) = &self.about {
+            importer.about.expect_any(path, &importer.files)?;
+        }
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut summary) = (HashSet::new(), Summary::default());
         let bar = context.bar(work.len() as u64);

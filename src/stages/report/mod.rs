@@ -23,7 +23,7 @@ use tables::Tables;
 /// Dots per inch of the PNG files.
 const DPI: f32 = 300.0;
 
-/// Write a page with tables and figures of all that a folder holds
+/// Write a page with tables and figures of everything in a folder
 #[derive(Debug, Args)]
 pub struct Report {
     /// Folder of the tables of other commands

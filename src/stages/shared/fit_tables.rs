@@ -1,4 +1,4 @@
-//! What a stage that fits prints, and what speaks against its fits.
+//! What a stage that fits prints, and the warnings about its fits.
 
 use std::path::Path;
 
@@ -75,7 +75,7 @@ pub fn verdict(status: FitStatus) -> String {
     status.as_str().replace('_', " ")
 }
 
-/// What speaks against calibrations, each with its structure and suite.
+/// Warnings about calibrations, each with its structure and suite.
 pub fn warnings(rows: &[Calibration]) -> Warnings {
     let about = |row: &Calibration| match &row.suite {
         Some(suite) => format!("{} ({suite})", row.structure),

@@ -7,6 +7,7 @@ use clap::{Args, ValueHint};
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
+use crate::motion::Suite;
 use crate::number;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number as number_in};
@@ -32,16 +33,16 @@ pub struct ModelArgs {
     /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub fits: Option<PathBuf>,
-    /// Structure of the fits [default: the one with the same p, alpha and eta]
+    /// Which structure of the fits to use [default: the one with the same p, alpha and eta]
     #[arg(long, value_name = "NAME", requires = "fits")]
     pub name: Option<String>,
-    /// Kind of motion: recorded, csgm, pulse or hfc [default: that of the fits, or recorded]
+    /// Kind of motion: recorded, csgm, pulse or hfc [default: the kind of the fits, else recorded]
     #[arg(long, value_name = "KIND")]
     pub suite: Option<Kind>,
     /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
     #[arg(long, default_value = "calibrated")]
     pub model: ModelName,
-    /// Limit state: a demand |theta|max / alpha
+    /// Limit state, as demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
           value_parser = number_in(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
     pub limit_state: f64,
@@ -141,6 +142,17 @@ impl Models {
             }
         }
         structures
+    }
+
+    /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
+    pub fn expect_ground(&self) -> anyhow::Result<()> {
+        match self.overturning.iter().any(|row| is_floor(&row.suite)) {
+            true => Err(UsageError::because(format!(
+                "{}: fits to motions of a floor; expected fits to motions of the ground, with period and level",
+                self.folder()
+            ))),
+            false => Ok(()),
+        }
     }
 
     fn folder(&self) -> String {
@@ -244,7 +256,8 @@ pub fn words_of(model: &Model) -> String {
     let responses = |n: i64| number::counted(n as usize, "response");
     match model {
         Model::Calibrated { overturning, .. } => {
-            let motions = words_of_kind(overturning.kind);
+            let floor = if is_floor(&overturning.suite) { " of a floor" } else { "" };
+            let motions = words_of_kind(overturning.kind).to_string() + floor;
             match overturning.n {
                 0 => format!("rockfrag's universal surface for {motions}"),
                 n => {
@@ -260,6 +273,10 @@ pub fn words_of(model: &Model) -> String {
             format!("rockfrag's fit of the paper's curve and planes to {n} of {name} to {motions}")
         }
     }
+}
+
+fn is_floor(suite: &Option<String>) -> bool {
+    suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
 }
 
 /// A kind of motion, in words.

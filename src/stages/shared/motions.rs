@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use crate::keyword;
-use crate::motion::{IntensityMeasures, MeasureScratch, SyntheticSuite, measures};
+use crate::motion::{IntensityMeasures, MeasureScratch, Suite, SyntheticSuite, measures};
 use crate::records::plausibility;
 use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
 use crate::table::TableError;
@@ -83,10 +83,11 @@ pub fn known(number: f64) -> Option<f64> {
 /// By which share the PGA that a file gives may miss that of the samples.
 const PEAK_TOLERANCE: f64 = 0.1;
 
-/// What speaks against a motion that is not synthetic.
+/// Warnings about a recorded motion of the ground.
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
-    let is_synthetic = |word: &str| keyword::parse::<SyntheticSuite>(word).is_ok();
-    if motion.suite.as_deref().is_some_and(is_synthetic) {
+    let is_other =
+        |word: &str| word.ends_with(Suite::OF_FLOOR) || keyword::parse::<SyntheticSuite>(word).is_ok();
+    if motion.suite.as_deref().is_some_and(is_other) {
         return Warnings::default();
     }
     let (peak, samples) = (record.peak_m_s2(), record.acceleration_m_s2());

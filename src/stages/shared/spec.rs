@@ -35,27 +35,27 @@ const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[group(id = "one", multiple = true)]
 pub struct Shape {
-    /// Width of the base of a block, body or column, m; without --depth the smaller side
+    /// Width of the base of a block, body or column, m; the smaller side unless --depth is given
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"], value_parser = number(1e-4..=200.0, LENGTH))]
     pub width: Option<f64>,
     /// Height of the block, body or column, m
     #[arg(long, value_name = "M", conflicts_with_all = ["p", "alpha"], value_parser = number(1e-3..=200.0, LENGTH))]
     pub height: Option<f64>,
-    /// Depth of the base, m: it may fall that way too
+    /// Depth of the base, m; the object may also fall that way
     #[arg(long, value_name = "M", requires = "width", value_parser = number(1e-4..=200.0, LENGTH))]
     pub depth: Option<f64>,
-    /// Height of the centre of mass above the base, m [default: half of the height]
+    /// Height of the centre of mass above the base, m [default: half the height]
     #[arg(long, value_name = "M", requires = "height", value_parser = number(1e-6..=200.0, LENGTH))]
     pub centre_height: Option<f64>,
     /// Distance of the centre of mass from the middle of the width, m [default: 0]
     #[arg(long, value_name = "M", requires = "width", allow_negative_numbers = true,
           value_parser = number(-100.0..=100.0, "a length up to 100 m: is it in cm or mm?"))]
     pub centre_offset: Option<f64>,
-    /// Moment of inertia about the centre of mass over mass, m2 [default: of a solid block]
+    /// Moment of inertia about the centre of mass, per unit mass, m2 [default: that of a solid block]
     #[arg(long, value_name = "M2", requires = "height",
           value_parser = number(1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?"))]
     pub inertia: Option<f64>,
-    /// Of a frame: mass of the beam over that of all columns
+    /// Frame: mass of the beam over that of all columns
     #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"],
           value_parser = number(0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?"))]
     pub beam_mass_ratio: Option<f64>,
@@ -91,7 +91,7 @@ impl Shape {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
 #[command(next_help_heading = "Object")]
 pub struct Place {
-    /// First period of the building, s [default: it stands on the ground]
+    /// First period of the building, s [default: the object stands on the ground]
     #[arg(long, value_name = "S", value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
     pub period: Option<f64>,
     /// Height of the floor over that of the roof, 0 to 1
@@ -100,10 +100,10 @@ pub struct Place {
     /// Standard deviation of ln(period) [default: 0.25]
     #[arg(long, value_name = "SD", value_parser = number(0.0..=1.0, "a standard deviation of ln(period), 0 to 1: is it in s or percent?"))]
     pub period_sd: Option<f64>,
-    /// Coefficient of friction: where tan(alpha) is above it, the object slides
+    /// Coefficient of friction; if tan(alpha) exceeds it, the object slides
     #[arg(long, value_name = "MU", value_parser = number(0.01..=2.0, "a coefficient of friction from 0.01 to 2"))]
     pub friction: Option<f64>,
-    /// Standard deviation of eta [default: 0 of a number; that of tests if it is computed]
+    /// Standard deviation of eta [default: 0 if eta is given; that of tests if it is computed]
     #[arg(long, value_name = "SD", value_parser = number(0.0..=0.5, "a standard deviation from 0 to 0.5"))]
     pub eta_sd: Option<f64>,
     /// Standard deviation of the height of the centre of mass, m
@@ -216,7 +216,7 @@ impl Spec {
         Spec { place, ..self }
     }
 
-    /// The same with a base so many times as wide: the offset with it, and the inertia as that of a solid
+    /// The same with a base this many times as wide: the offset with it, and the inertia as that of a solid
     /// block.
     pub fn resized(&self, factor: f64) -> Spec {
         let shape = &self.shape;

@@ -19,11 +19,12 @@ use crate::warning::{Warning, Warnings};
 pub struct StructureArgs {
     #[command(flatten)]
     pub one: Shape,
-    /// One of several: name=frame,p=1.0,alpha=0.15,eta=0.92 or name=cabinet,width=0.8,height=2.2
+    /// A structure; may be repeated: name=frame,p=1.0,alpha=0.15,eta=0.92 or
+    /// name=cabinet,width=0.8,height=2.2
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
     pub structure: Vec<Spec>,
-    /// CSV list: a name, and the same in columns (m, cm or mm by the heading); the word paper for the two
-    /// of the paper
+    /// CSV list with a name and these options as columns (m, cm or mm by the heading), or the word paper for
+    /// the paper's two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
     pub structures: Option<PathBuf>,
 }
@@ -85,7 +86,7 @@ impl StructureArgs {
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
 
-/// What speaks against the parameters of a structure.
+/// Warnings about the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
     let size = is_too_high(structure).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()

@@ -88,7 +88,7 @@ pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
 pub enum Frequency {
     /// Annual rate of exceedance.
     Rate,
-    /// Probability of exceedance in so many years.
+    /// Probability of exceedance in this many years.
     ProbabilityIn(f64),
     /// Years between exceedances.
     ReturnPeriod,
