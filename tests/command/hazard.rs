@@ -121,7 +121,9 @@ fn vs30_narrows_pgv_of_a_site() {
     }
     let pgv = openquake("PGV", "mean", 60.0, 1.0);
     let folder = folder(&[("pga.csv", &*pga), ("pgv.csv", &*pgv)]);
-    for options in ["--hazard pga.csv,pgv.csv --vs30 250", "--hazard pga.csv --vs30 90", "--pga 1 --pgv 1 --vs30 250"] {
+    for options in
+        ["--hazard pga.csv,pgv.csv --vs30 250", "--hazard pga.csv --vs30 90", "--pga 1 --pgv 1 --vs30 250"]
+    {
         fail(folder.path(), &format!("evaluate {BLOCK} {options}"), 2, &["vs30"]);
     }
 }

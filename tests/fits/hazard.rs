@@ -1,6 +1,8 @@
 //! Annual rates against closed forms.
 
-use rockfrag::fragility::{Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, fit_curve, p_overturning};
+use rockfrag::fragility::{
+    Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, fit_curve, p_overturning,
+};
 use rockfrag::hazard::{
     Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard, Site,
     Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve,
