@@ -150,6 +150,9 @@ impl Model {
         };
         warnings.sort_unstable();
         warnings.dedup();
+        if warnings.contains(&Warning::NoEvents) {
+            warnings.retain(|warning| *warning != Warning::FewEvents);
+        }
         warnings
     }
 }

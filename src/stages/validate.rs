@@ -17,7 +17,7 @@ use crate::table::provenance::Provenance;
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
-/// Test predictions on responses that they were not fitted to: counts, scores and reliability
+/// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args)]
 pub struct Validate {
     /// Responses to test on

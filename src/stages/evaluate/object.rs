@@ -265,11 +265,14 @@ pub fn answers<R: Predicted>(
     Ok(all)
 }
 
-/// The warnings of all objects, each with the names of these.
+/// The warnings of all objects, each with the names of these, but for those that the text of an answer states.
 pub fn warnings_of_all<R>(all: &[Answer<R>]) -> Warnings {
+    let is_stated =
+        |warning: &Warning| matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
     let warnings = |answer: &Answer<R>| {
         let name = answer.object.structure.clone();
-        answer.warnings.clone().into_iter().map(move |warning| (warning, name.clone()))
+        let others = answer.warnings.clone().into_iter().filter(move |warning| !is_stated(warning));
+        others.map(move |warning| (warning, name.clone()))
     };
     all.iter().flat_map(warnings).collect()
 }
