@@ -4,8 +4,8 @@ Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 g
 magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general
 (src/hazard/velocity.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
 `judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the levels of the first
-two by Vs30 to tests/reference/fits/site_levels.csv, and prints their lines. Needs openquake.engine
-(scripts/check_exports.sh tells how).
+two by Vs30, and the means of all at the rate of once in 2475 years, to tests/reference/fits, and prints their lines.
+Needs openquake.engine (scripts/check_exports.sh tells how).
 """
 
 import pathlib
@@ -200,6 +200,25 @@ def levels(joints, mean_mw, vs30):
     return [(v, mean_mw[vs30 == v].mean(), of_site[vs30 == v].mean()) for v in np.unique(vs30)]
 
 
+def at_rate(curves, rate):
+    """ln of the level of each site that is exceeded at a rate."""
+    return np.array([np.log(inverse(curve[:, 0], curve[:, 1], rate)) for curve in curves])
+
+
+def by_spectrum(data, among):
+    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with magnitude,
+    and the sd between sites, with and without magnitude."""
+    rows, off = [], []
+    for rate in np.geomspace(2e-3, 1e-5, 12):
+        pga, pgv, sa = (at_rate(data[name], rate)[among] for name in ("pga", "pgv", "sa1"))
+        rows.append(np.column_stack([np.ones(len(pga)), pga - sa, data["mw"][among] - 6.3]))
+        off.append(pgv - sa)
+    rows, off = np.array(rows), np.array(off)
+    b = np.linalg.lstsq(rows.reshape(-1, 3), off.ravel(), rcond=None)[0]
+    sds = [(off - rows[..., :n] @ b[:n]).mean(axis=0).std() for n in (3, 2)]
+    return [np.exp(b[0]), *b[1:], *sds]
+
+
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1])
     names, data = [], {"joint": [], "pga": [], "pgv": [], "sa1": [], "mw": []}
@@ -208,8 +227,9 @@ if __name__ == "__main__":
         for key, value in made.items():
             data[key].append(value)
         print(name, geometry, model, vs30, round(float(made["mw"]), 2), flush=True)
-    np.savez_compressed(folder / "sites.npz", names=np.array(names), **{k: np.array(v) for k, v in data.items()})
-    kinds, joints, mean_mw = np.array(names)[:, 0], np.array(data["joint"]), np.array(data["mw"])
+    data = {name: np.array(of_sites) for name, of_sites in data.items()}
+    np.savez_compressed(folder / "sites.npz", names=np.array(names), **data)
+    kinds, joints, mean_mw = np.array(names)[:, 0], data["joint"], data["mw"]
     vs30 = np.array(names)[:, 3].astype(float)
     chosen = kinds != "judge"
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
@@ -217,6 +237,14 @@ if __name__ == "__main__":
             found = line(joints[among], mean_mw[among], vs30[among], peak)
             print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter, sd between sites, of one Vs30:",
                   *np.round(found, 2))
-    reference = pathlib.Path(__file__).resolve().parents[2] / "tests/reference/fits/site_levels.csv"
+        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude, sd between sites with and without it:",
+              *np.round(by_spectrum(data, among), 3))
+    reference = pathlib.Path(__file__).resolve().parents[2] / "tests/reference/fits"
     rows = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
-    reference.write_text("vs30,mw,ln_ratio\n" + "".join(f"{v:.0f},{m:.3f},{level:.4f}\n" for v, m, level in rows))
+    (reference / "site_levels.csv").write_text(
+        "vs30,mw,ln_ratio\n" + "".join(f"{v:.0f},{m:.3f},{level:.4f}\n" for v, m, level in rows))
+    peaks = [at_rate(data[name], 1 / 2475) for name in ("pga", "sa1", "pgv")]
+    means = [[column[kinds == kind].mean() for column in (mean_mw, *peaks)] for kind in SETS]
+    (reference / "site_spectra.csv").write_text(
+        "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s\n"
+        + "".join(f"{m:.3f},{np.exp(a):.4f},{np.exp(s):.4f},{np.exp(v):.5f}\n" for m, a, s, v in means))

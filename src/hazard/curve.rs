@@ -78,9 +78,9 @@ impl HazardCurve {
         HazardCurve { points }
     }
 
-    /// The same rates at intensities times `factor`.
-    pub fn scaled(&self, factor: f64) -> HazardCurve {
-        HazardCurve { points: self.points.iter().map(|&(im, rate)| (im * factor, rate)).collect() }
+    /// The same rates at other intensities, which rise with the intensity and fall with the rate.
+    pub fn map(&self, other: impl Fn(f64, f64) -> f64) -> HazardCurve {
+        HazardCurve { points: self.points.iter().map(|&(im, rate)| (other(im, rate), rate)).collect() }
     }
 
     /// The intensity that is exceeded at an annual rate; beyond the ends of the curve that of the end.

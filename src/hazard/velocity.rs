@@ -58,9 +58,11 @@ const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
 /// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
 const SCATTER: f64 = 0.42;
 /// Standard deviations of the level by two curves: of PGA and PGV, and of PGA and SA(1.0 s).
-const SD_BY_CURVES: [f64; 2] = [0.08, 0.18];
-/// PGV over SA(1.0 s) 1 s / (2 pi) (Newmark & Hall 1982, in FEMA P-58 and HAZUS).
-const NEWMARK_HALL: f64 = 1.0 / 1.65;
+const SD_BY_CURVES: [f64; 2] = [0.08, 0.12];
+/// PGV (m/s) = 0.090 SA(1.0 s)^0.64 PGA^0.36 exp(0.13 (M - 6.3)), accelerations in m/s2 and each exceeded as often
+/// (scripts/reference/sites.py): the factor, the exponent of PGA and the rise with magnitude. Newmark & Hall's (1982)
+/// 0.096 SA(1.0 s), without PGA, scatters twice as much between sites.
+const BY_SPECTRUM: [f64; 3] = [0.090, 0.36, 0.13];
 
 /// Rates a year between which two curves are matched, and at how many.
 const MATCHED: [f64; 2] = [1e-6, 2e-2];
@@ -97,9 +99,10 @@ pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
     (median, Unknown { part: Part::Magnitude, low: median - sd, high: median + sd })
 }
 
-/// The curve of PGV (m/s) for one of the spectral acceleration at 1 s (m/s2).
-pub fn velocity_of_spectrum(sa_1s: &HazardCurve) -> HazardCurve {
-    sa_1s.scaled(NEWMARK_HALL / std::f64::consts::TAU)
+/// The curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
+pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCurve {
+    let [factor, of_pga, _] = BY_SPECTRUM;
+    sa_1s.map(|sa, rate| factor * sa.powf(1.0 - of_pga) * pga.intensity(rate).powf(of_pga))
 }
 
 impl Velocity {
@@ -176,8 +179,9 @@ impl Velocity {
         if remainder > LARGEST_REMAINDER || remainder.is_nan() {
             return Err(MatchError::Unlike(remainder));
         }
-        let sd = SD_BY_CURVES[usize::from(source == VelocitySource::Spectrum)];
-        Ok(Velocity { ratio: line, per_magnitude: 0.0, sd, source })
+        let is_spectrum = source == VelocitySource::Spectrum;
+        let per_magnitude = if is_spectrum { BY_SPECTRUM[2] } else { 0.0 };
+        Ok(Velocity { ratio: line, per_magnitude, sd: SD_BY_CURVES[usize::from(is_spectrum)], source })
     }
 
     /// What is not known of it: ln of a factor.

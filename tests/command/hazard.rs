@@ -92,10 +92,11 @@ fn fractiles_are_a_part_of_the_error() {
 #[test]
 fn a_second_curve_tells_pgv_and_narrows_the_limits() {
     let pga = openquake("PGA", "mean", 1.0, 1.0);
-    // PGV of 0.6 m/s, and SA(1.0 s) of as much by Newmark & Hall, as often as PGA of 1 g.
-    let (pgv, sa) = (openquake("PGV", "mean", 60.0, 1.0), openquake("SA(1.0)", "mean", 0.6341, 1.0));
+    // PGV of 0.6 m/s, and an SA(1.0 s) that stands for it at magnitude 6.35, as often as PGA of 1 g.
+    let sa_1s = (0.6 / 0.090 / f64::exp(0.13 * 0.05) / 9.81_f64.powf(0.36)).powf(1.0 / 0.64) / 9.81;
+    let (pgv, sa) = (openquake("PGV", "mean", 60.0, 1.0), openquake("SA(1.0)", "mean", sa_1s, 1.0));
     let table = table("TR,PGA (g),SA(0.2) (g),SA(1.0) (g)", |a| {
-        format!("{},{a},{},{}", 1.0 / rate(a), 2.0 * a, 0.6341 * a)
+        format!("{},{a},{},{}", 1.0 / rate(a), 2.0 * a, sa_1s * a)
     });
     let one = answer(&[("pga.csv", &pga)], "");
     let velocity = answer(&[("pga.csv", &pga), ("pgv.csv", &pgv)], "");

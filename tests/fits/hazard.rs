@@ -5,7 +5,7 @@ use rockfrag::fragility::{
 };
 use rockfrag::hazard::{
     Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard, Site,
-    Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve,
+    Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve, velocity_of_spectrum,
 };
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
@@ -163,6 +163,15 @@ fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
         let ours = velocity.ratio(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
         assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
         assert!(velocity.unknown().high < Velocity::of_model(&model, Peak::Pga, None).unknown().high);
+    }
+}
+
+#[test]
+fn pgv_of_a_spectrum_is_that_by_ground_motion_models() {
+    for (mw, pga, sa_1s, pgv) in read::<(f64, f64, f64, f64)>("site_spectra.csv") {
+        let curve = |im: f64| HazardCurve::new(vec![(0.5 * im, 1e-3), (2.0 * im, 1e-5)]).unwrap();
+        let ours = velocity_of_spectrum(&curve(pga), &curve(sa_1s)).intensity(1e-4);
+        assert!((ours / pgv).ln().abs() < 0.05, "M {mw}: {ours} m/s for {pgv}");
     }
 }
 

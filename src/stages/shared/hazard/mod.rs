@@ -75,7 +75,7 @@ fn joined(curves: Vec<Found>) -> anyhow::Result<Hazard> {
             (Peak::Pga, pga, Some(Velocity::of_curves(pga, pgv, VelocitySource::Velocity)?))
         }
         (Some(pga), None, Some(spectral)) => {
-            let pgv = velocity_of_spectrum(spectral);
+            let pgv = velocity_of_spectrum(pga, spectral);
             (Peak::Pga, pga, Some(Velocity::of_curves(pga, &pgv, VelocitySource::Spectrum)?))
         }
         (Some(pga), None, None) => (Peak::Pga, pga, None),
