@@ -23,7 +23,7 @@ pub fn maps(maps: &[Map]) -> Figure {
     Figure {
         name: "map".to_string(),
         title: "Overturning over PGA and PGV".to_string(),
-        caption: "Each point is a motion in which the structure rocks. Black lines join motions of equal probability of overturning by the model, calibrated with these responses; coloured lines are those of probability 0.5 of other structures."
+        caption: "Each point is a motion in which the structure rocks. Lines join motions of equal probability of overturning by the model, calibrated with these responses; coloured lines are those of probability 0.5 of other structures."
             .to_string(),
         columns: maps.len().min(2),
         height: 150.0,

@@ -46,7 +46,7 @@ use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::RatesRow;
 use self::target::Target;
-pub use self::words::size;
+pub use self::words::{model_of_all, size};
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site

@@ -124,7 +124,11 @@ fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
             ]
         },
     );
-    let by = format!("All {}, by {}.", words_of_peaks(&worst.row), model_of_all(all));
+    let by = format!(
+        "All {}, by {}.",
+        words_of_peaks(&worst.row),
+        model_of_all(all.iter().map(|answer| &answer.object))
+    );
     let linear = linear(all.iter().map(|answer| &answer.object));
     format!("{first}\n{table}{}", line([Some(by), linear]))
 }

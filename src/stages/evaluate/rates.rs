@@ -163,7 +163,7 @@ fn of_several(
         cells.into_iter().chain(target.map(|_| width())).collect()
     });
     let how_often = how_often(&worst.row, site, "95 % limits ");
-    let (model, usual) = (model_of_all(all), usual_motion(site));
+    let (model, usual) = (model_of_all(all.iter().map(|answer| &answer.object)), usual_motion(site));
     let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
     format!(
         "{} overturns most often: {}\n{table}{}{}{}",

@@ -123,7 +123,7 @@ fn brief<R>(answer: &Answer<R>) -> String {
 /// A table of a list: of each object its size, these cells and the warnings; at its end the responses to
 /// which each was fitted, if these are not the same for all.
 pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
-    let responses = is_fitted_each(all).then_some("responses");
+    let responses = is_fitted_each(all.iter().map(|answer| &answer.object)).then_some("responses");
     let heading =
         ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
     let row = |answer: &Answer<R>| {
@@ -136,15 +136,15 @@ pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>)
     number::aligned(&rows, |_| false)
 }
 
-fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
-    let known = || all.iter().filter(|answer| answer.object.p_rad_s.is_some());
-    known().zip(known().skip(1)).any(|(a, b)| a.object.model != b.object.model)
+fn is_fitted_each<'a>(objects: impl Iterator<Item = &'a ObjectRow> + Clone) -> bool {
+    let mut models = objects.filter(|object| object.p_rad_s.is_some()).map(|object| &object.model);
+    models.next().is_some_and(|first| models.any(|other| other != first))
 }
 
 /// What predicts for all objects, the worst of which is the first.
-pub fn model_of_all<R>(all: &[Answer<R>]) -> &str {
-    let model = all.first().map_or("", |worst| model(&worst.object));
-    match model.contains("surface") && is_fitted_each(all) {
+pub fn model_of_all<'a>(objects: impl Iterator<Item = &'a ObjectRow> + Clone) -> &'a str {
+    let model = objects.clone().next().map_or("", model);
+    match model.contains("surface") && is_fitted_each(objects) {
         true => "rockfrag's universal surface, calibrated where there are responses",
         false => model,
     }

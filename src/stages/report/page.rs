@@ -13,7 +13,7 @@ use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, size};
+use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, model_of_all, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -101,11 +101,7 @@ fn facts(tables: &Tables) -> Vec<String> {
         facts.push(format!(
             "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
         ));
-        let mut models: Vec<&str> =
-            tables.objects.iter().filter_map(|(object, ..)| object.model.as_deref()).collect();
-        models.sort_unstable();
-        models.dedup();
-        facts.push(format!("By {}.", listed(&models, MOST_NAMED)));
+        facts.push(format!("By {}.", model_of_all(tables.objects.iter().map(|(object, ..)| object))));
         let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
         let parts = doubts.words().join(", ");
         facts.push(format!("The 95 % limits hold the errors of {parts}{without}."));
