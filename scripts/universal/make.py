@@ -1,4 +1,4 @@
-"""Makes data/universal.csv: python make.py OUT.csv MOTIONS STUDY RECORDS_RESPONSES RESPONSES..."""
+"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES STUDY STUDY RESPONSES..."""
 
 import sys
 
@@ -15,15 +15,15 @@ from surface import (
 
 MW = {"recorded": (5.0, 7.6)}
 # Sds of c, ln s and m of recorded motions, by coverage and score of few records (judge.py).
-SD = (0.6, 0.25, 0.4)
-# The least coverage of a class of P, by which tau is chosen.
-TAUS, CLASSES, LEAST = np.arange(0.05, 2.0, 0.05), [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.905
+SD = {"pro": (0.6, 0.25, 0.4), "pex": (0.65, 0.28, 0.4)}
+# Classes of P, and the coverage to which tau brings all of them nearest.
+TAUS, CLASSES, COVERAGE = np.arange(0.05, 2.0, 0.05), [0.01, 0.1, 0.3, 0.7, 0.9, 0.99], 0.94
 KNOT = 0.9
 HEAD = """\
 # The universal fragility surface: P_ro and P_ex of any rocking structure, by scripts/universal/make.sh.
 # From {structures} structures, {motions} synthetic motions on rock ({cases} cases), {records} components of
 # {earthquakes} earthquakes, as recorded and twice as strong.
-# logit P = c + s L + m (M - 6.9) + ln(1 - exp(-((IM4 - 1) IM5^k/d)^n)).
+# logit P = c + s L + m (M - 6.9) - (d/((IM4 - 1) IM5^k))^n.
 # L is a sum of coefficients, each times a function: 1, or a product of features, a feature^k is its power.
 # Features: x = ln(ln IM4 + 0.2); r = ln(ratio/p); w = ln IM4 - r in P_ro, w - 0.4 limit in P_ex;
 # eta = (eta - 0.85)/0.1; p = ln(p/2), p in rad/s; limit = ln(limit state/0.2) and end = ln(1.1 - limit state), in
@@ -79,11 +79,11 @@ def held(frame, taus):
             yield np.digitize(p, CLASSES) - 1, allowed(z, happened, taus), width
 
 
-def tau_of(frame):
-    """The least by which limits hold in each class of P."""
-    classes, holds, _ = map(np.array, zip(*held(frame, TAUS)))
-    shares = [holds[classes == k].mean(axis=0) for k in np.unique(classes)]
-    return TAUS[np.argmax(np.min(shares, axis=0) >= LEAST)]
+def tau_of(*frames):
+    """That by which the coverage of all classes of P is nearest to what it should be."""
+    classes, holds, _ = map(np.array, zip(*(group for frame in frames for group in held(frame, TAUS))))
+    shares = np.array([holds[classes == k].mean(axis=0) for k in np.unique(classes)])
+    return TAUS[np.abs(shares - COVERAGE).max(axis=0).argmin()]
 
 
 def of_records_left_out(surface, event, cases, mw=pl.col("mw")):
@@ -106,15 +106,15 @@ def of_cells_left_out(surface, event, kind, cases, prior):
     return pl.concat(judged)
 
 
-def priors(surface, event, kind, cases, whole, mean):
-    """Sds of c, ln s and m between structures, and tau, which needs all responses of a structure, as in
-    `whole`."""
+def priors(surface, event, kind, cases, recorded, studies, mean):
+    """Sds of c, ln s and m between structures, and tau, which needs all responses of a structure."""
     if kind == "recorded":
-        return *SD, tau_of(of_records_left_out(surface, event, whole))
+        return *SD[event], tau_of(of_records_left_out(surface, event, recorded))
     groups = of.counted(event, cases.filter(kind=kind), LIMIT).partition_by("structure")
     sd = spread([(surface.parts(event, kind, group), group["happened"].to_numpy()) for group in groups], mean)
     prior = np.array([*mean, *sd])
-    return *sd, tau_of(of_cells_left_out(surface, event, kind, whole.filter(kind=kind), prior))
+    of_kind = (study.filter(kind=kind) for study in studies)
+    return *sd, tau_of(*(of_cells_left_out(surface, event, kind, study, prior) for study in of_kind))
 
 
 def peak_lines(motions):
@@ -138,9 +138,9 @@ def magnitude_line(motions, low, high):
 
 
 def main():
-    out, motions, study, records_responses, *files = sys.argv[1:]
+    out, motions, records_responses, *studies = sys.argv[1:6]
     recorded = of.read([records_responses]).filter(pl.col("scale").is_in(of.FITTED))
-    cases, study = of.read(files, 0.15), of.read([study])
+    cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
     synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
     of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")
     motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS} | {"recorded": of_records}
@@ -165,8 +165,7 @@ def main():
     surface = Surface(lines)
     for event, kind in found:
         *mean, h = found[event, kind][1]
-        whole = recorded if kind == "recorded" else study
-        prior = (*mean, *priors(surface, event, kind, cases, whole, mean), h)
+        prior = (*mean, *priors(surface, event, kind, cases, recorded, studies, mean), h)
         put(["calibration", kind, event], prior, ".3f")
     with open(out, "w") as file:
         file.write("\n".join(lines) + "\n")

@@ -34,7 +34,7 @@ for list in records blocks; do
 done
 
 surface="$root/data/universal.csv"
-python3 "$here/make.py" "$surface" training.motions.parquet study_101.parquet \
-    records.parquet training_?.parquet
+python3 "$here/make.py" "$surface" training.motions.parquet records.parquet \
+    study_101.parquet study_103.parquet training_?.parquet
 python3 "$here/answers.py" "$surface" study_101.parquet blocks.parquet "$root/tests/reference/fits"
 python3 "$here/judge.py" "$surface" .

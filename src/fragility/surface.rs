@@ -53,7 +53,7 @@ pub struct Predictor {
     pub middle: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
-    /// What the calibrated logit gains: ln(1 - exp(-((IM4 - 1) IM5^k / d)^n)), minus infinity at uplift.
+    /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
     pub added: f64,
 }
 
@@ -200,11 +200,9 @@ struct Uplift {
 }
 
 impl Uplift {
-    /// Computes ln(1 - exp(-((IM4 - 1) IM5^k / d)^n)).
+    /// Computes -(d / ((IM4 - 1) IM5^k))^n.
     fn gain(&self, im4: f64, im5: f64) -> f64 {
-        let ln_power = self.n * ((im4 - 1.0).max(0.0).ln() + self.k * im5.ln() - self.d.ln());
-        // Of a small power the logarithm is that of the power itself.
-        if ln_power < -30.0 { ln_power } else { (-(-ln_power.exp()).exp_m1()).ln() }
+        -(self.d / ((im4 - 1.0).max(0.0) * im5.powf(self.k))).powf(self.n)
     }
 }
 
