@@ -7,6 +7,9 @@ pub const STRONGEST_PGA_G: f64 = 4.5;
 /// PGV, m/s, beyond which nothing was ever recorded.
 pub const STRONGEST_PGV_M_S: f64 = 5.0;
 
+/// Moment magnitudes that were ever recorded, with a margin.
+pub const MAGNITUDES: std::ops::RangeInclusive<f64> = 1.0..=9.9;
+
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 

@@ -30,6 +30,7 @@ keywords! {
         FewEvents = "few_events",
         FewClusters = "few_clusters",
         ScanEndsEarly = "scan_ends_early",
+        ScanStartsLate = "scan_starts_late",
         UnreadableFile = "unreadable_file",
         NoPartner = "no_partner",
         UnusedColumns = "unused_columns",
@@ -65,6 +66,9 @@ impl Warning {
                 "fewer than ten earthquakes or cells: limits use a typical spread between them"
             }
             Warning::ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
+            Warning::ScanStartsLate => {
+                "most motions overturn the structure at the first intensity; lower --from"
+            }
             Warning::UnreadableFile => "not imported",
             Warning::UnusedColumns => "columns not used by rockfrag",
             Warning::NoPartner => "no perpendicular component: left out",

@@ -8,6 +8,7 @@ use rockfrag::pipeline::UsageError;
 use rockfrag::records::plausibility::implausibility;
 use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail};
 use rockfrag::stages::shared::objects::Object;
+use rockfrag::stages::shared::structures::warnings_of;
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::units::G_M_S2;
@@ -77,8 +78,9 @@ pub fn simulate_motion<'py>(
     result.set_item("p", structure.p_rad_s)?;
     result.set_item("alpha", structure.alpha_rad)?;
     result.set_item("eta", structure.eta)?;
-    let implausible = implausibility(&numbers(acceleration), dt_s);
-    result.set_item("warnings", implausible.map(|of| of.to_string()).into_iter().collect::<Vec<_>>())?;
+    let implausible = implausibility(&numbers(acceleration), dt_s).map(|of| of.to_string());
+    let warnings = warnings_of(&structure).into_iter().map(|warning| warning.text().to_string());
+    result.set_item("warnings", implausible.into_iter().chain(warnings).collect::<Vec<_>>())?;
     Ok(result)
 }
 

@@ -403,10 +403,13 @@ fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {
     }
 }
 
-/// Of the structures that half of the motions or more do not overturn, so that there is no median.
+/// Of the structures that half of the motions or more do not overturn, or overturn at the first intensity, so
+/// that there is no median.
 fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
-    let without = fits.iter().filter(|row| row.theta.is_none() && 2 * row.n_safe >= row.n);
-    without.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).collect()
+    let early = fits.iter().filter(|row| row.theta.is_none() && 2 * row.n_safe >= row.n);
+    let late = fits.iter().filter(|row| 2 * row.n_below >= row.n);
+    let late = late.map(|row| (Warning::ScanStartsLate, row.structure.clone()));
+    early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
 }
 
 /// One line per structure: the median of its lowest overturning intensities, with limits; of many, the weakest.

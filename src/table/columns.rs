@@ -14,6 +14,7 @@ use arrow_schema::DataType;
 
 use super::TableError;
 use crate::keyword::{self, Keyword};
+use crate::plausibility::MAGNITUDES;
 use crate::rocking::Structure;
 
 /// Consecutive rows of a table.
@@ -31,6 +32,17 @@ impl Batch {
         match self.rows.column_by_name(name) {
             None => Ok(vec![f64::NAN; self.rows.num_rows()]),
             Some(column) => numbers(column).ok_or_else(|| self.other_type(name, column, "a number")),
+        }
+    }
+
+    /// Returns moment magnitudes; NaN where they are unknown.
+    pub fn magnitudes(&self) -> Result<Vec<f64>, TableError> {
+        let mw = self.numbers("mw")?;
+        match mw.iter().position(|mw| !mw.is_nan() && !MAGNITUDES.contains(mw)) {
+            Some(row) => {
+                Err(self.value_error(row, "mw", format!("{}; expected a moment magnitude", mw[row])))
+            }
+            None => Ok(mw),
         }
     }
 

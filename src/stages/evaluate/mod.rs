@@ -37,6 +37,7 @@ use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::stage::Stage;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use crate::records::plausibility::rarity;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -88,7 +89,7 @@ pub struct Evaluate {
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
     #[arg(long, value_name = "S", requires = "hazard", group = "site",
-          value_parser = number(0.005..=1.0, "PGV/PGA in s, from 0.005 to 1, of PGA in m/s2 and PGV in m/s"))]
+          value_parser = number(0.005..=0.5, "PGV/PGA in s, from 0.005 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", requires = "hazard", group = "site")]
@@ -165,6 +166,8 @@ impl Evaluate {
     }
 
     fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
+        let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
+        context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let predict = |_: &Object, subject: &Subject| {
             let (row, budget) = TreeRow::new(motion, subject);
             Prediction { row, budget, motion: motion.peaks(&subject.weaker().1), warnings: Vec::new() }
@@ -175,7 +178,7 @@ impl Evaluate {
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
         models.expect_ground()?;
-        let site = self.site()?;
+        let site = self.site(context)?;
         let predict = |object: &Object, subject: &Subject| {
             let rates = site.rates(&subject.directions, &subject.unknowns);
             let widths = |target| target::widths(object, models, &site, self.years, target);
@@ -188,8 +191,9 @@ impl Evaluate {
     }
 
     /// Reads the hazard and what rates over it need.
-    fn site(&self) -> anyhow::Result<Site> {
-        let mut hazard = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
+    fn site(&self, context: &Context) -> anyhow::Result<Site> {
+        let (mut hazard, unused) = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
+        context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
                 *velocity = self.ratio.map(Velocity::given);
@@ -210,7 +214,7 @@ impl Evaluate {
             mw: self.magnitude,
             vs30_m_s: self.vs30,
             extrapolate: self.extrapolate,
-            responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read)?,
+            responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read_of_ground)?,
         })
     }
 

@@ -92,7 +92,7 @@ fn of_batch<'a>(
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
-    let mw = batch.numbers("mw")?;
+    let mw = batch.magnitudes()?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
         let mut warnings = of_structure.clone();

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::pipeline::UsageError;
+use crate::plausibility::MAGNITUDES;
 use crate::records::RecordedMotion;
 use crate::sheet::{Sheet, SheetError};
 
@@ -11,15 +12,12 @@ use crate::sheet::{Sheet, SheetError};
 #[derive(Default)]
 pub struct About(HashMap<String, Known>);
 
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 struct Known {
     mw: Option<f64>,
     re_km: Option<f64>,
     earthquake: Option<String>,
 }
-
-/// Magnitudes that were ever recorded.
-const MAGNITUDES: std::ops::RangeInclusive<f64> = 1.0..=9.9;
 
 impl About {
     /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`.
@@ -55,8 +53,14 @@ impl About {
             let earthquake = earthquake.map(cell).filter(|name| !name.is_empty());
             Ok((cell(name), Known { mw, re_km, earthquake }))
         };
-        let rows: Result<_, SheetError> = (0..sheet.lines.len()).map(known).collect();
-        Ok(About(rows.map_err(|error| problem(error.to_string()))?))
+        let mut all = HashMap::new();
+        for row in 0..sheet.lines.len() {
+            let (file, known) = known(row).map_err(|error| problem(error.to_string()))?;
+            if all.insert(file.clone(), known.clone()).is_some_and(|before| before != known) {
+                return Err(problem(format!("line {}: {file} again, with other values", sheet.lines[row])));
+            }
+        }
+        Ok(About(all))
     }
 
     /// Refuses a table that says nothing of any of these files.

@@ -6,7 +6,7 @@ mod columns;
 mod importer;
 mod summary;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
@@ -23,7 +23,7 @@ use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
-use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseSearch};
+use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseSearch, SourceFile};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, HighPass, Scaling};
 use crate::records::{Format, ReadOptions};
@@ -133,7 +133,7 @@ impl Stage for ImportMotions {
             importer.about.expect_any(path, &importer.files)?;
         }
         let (work, mut refused) = importer.work(context)?;
-        let (mut ids, mut summary) = (HashSet::new(), Summary::default());
+        let (mut ids, mut contents, mut summary) = (HashSet::new(), HashMap::new(), Summary::default());
         let bar = context.bar(work.len() as u64);
         pipelined(
             work.chunks(AT_ONCE).map(Ok),
@@ -151,6 +151,11 @@ impl Stage for ImportMotions {
                         }
                     };
                     for motion in &imported {
+                        let SourceFile { path, blake3 } = &motion.source;
+                        let first = contents.entry(blake3.clone()).or_insert_with(|| path.clone());
+                        if first != path {
+                            anyhow::bail!("{path}: the same record as {first}; leave out one");
+                        }
                         if !ids.insert(motion.motion_id.clone()) {
                             let (file, id) = (&motion.source.path, &motion.motion_id);
                             anyhow::bail!("{file}: two motions are called '{id}'; rename the file");

@@ -16,6 +16,7 @@ const NAMED: usize = 10;
 pub struct Summary {
     motions: usize,
     pulses: usize,
+    magnitudes: usize,
     /// How many motions came of each format and unit.
     kinds: BTreeMap<String, usize>,
     /// PGA (g) and PGV (m/s) of each.
@@ -27,6 +28,7 @@ impl Summary {
         for motion in imported {
             self.motions += 1;
             self.pulses += usize::from(motion.pulse.is_some());
+            self.magnitudes += usize::from(motion.record.mw.is_some());
             *self
                 .kinds
                 .entry(format!("{} in {}", motion.record.format, motion.record.unit.name))
@@ -48,10 +50,11 @@ impl Summary {
             n => format!("; {} left out", counted(n, "vertical component")),
         };
         format!(
-            "{} ({}), {} with a pulse{left_out}\nPGA {} g, PGV {} m/s\n",
+            "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
             counted(self.motions, "motion"),
             listed(&kinds, NAMED),
             count(self.pulses),
+            count(self.magnitudes),
             range(0),
             range(1)
         )

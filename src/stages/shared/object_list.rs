@@ -21,6 +21,8 @@ enum Column {
 
 /// Headings of names, the best first.
 const NAMES: [&str; 6] = ["name", "equipment", "object", "item", "tag", "description"];
+/// Names of rows that are no objects.
+const TOTALS: [&str; 6] = ["total", "totals", "sum", "subtotal", "mean", "average"];
 /// Other headings of numbers.
 const SYNONYMS: [(&str, &str); 9] = [
     ("qty", "count"),
@@ -88,6 +90,10 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
         let held = columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
         let held = held.filter_map(|(at, _)| held_by(&sheet.headings[at].text, sheet.cell(row, at))).next();
         match spec(&sheet, &columns, row) {
+            Ok(_) if TOTALS.contains(&names[row].to_lowercase().as_str()) => {
+                let refused = Some(Reason::implausible("a row of totals, not an object"));
+                Spec { name, refused, ..Spec::from(Shape::default()) }
+            }
             Ok(spec) => Spec { name, refused: held, ..spec },
             Err(problem) => {
                 Spec { name, refused: Some(Reason::implausible(problem)), ..Spec::from(Shape::default()) }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::keyword::Keyword;
+use crate::motion::Suite;
 use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
 use crate::table::columns::Batch;
@@ -35,6 +36,19 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
     read_with(path, None)
 }
 
+/// The same of motions of the ground.
+pub fn read_of_ground(path: &Path) -> anyhow::Result<Vec<Cases>> {
+    let all = read(path)?;
+    let is_floor = |cases: &Cases| cases.suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR));
+    match all.iter().any(is_floor) {
+        true => {
+            Err(TableError::table(path, "responses to motions of a floor; expected those of the ground")
+                .into())
+        }
+        false => Ok(all),
+    }
+}
+
 /// The same with candidate measures.
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
@@ -62,8 +76,7 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
     let outcomes = batch.required_words::<Outcome>("outcome")?;
     let edp = demands(batch, &outcomes)?;
     let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
-    let (mw, re_km, earthquakes) =
-        (batch.numbers("mw")?, batch.numbers("re_km")?, batch.texts("earthquake")?);
+    let (mw, re_km, earthquakes) = (batch.magnitudes()?, batch.numbers("re_km")?, batch.texts("earthquake")?);
     let measure = |measure: &Measure| match measure {
         Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
         other => batch.numbers(other.as_str()),

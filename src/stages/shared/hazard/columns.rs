@@ -57,22 +57,8 @@ fn names(heading: &Heading, known: &[&str], beside: &[&str]) -> bool {
 
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    const BESIDE: [&str; 14] = [
-        "peak",
-        "ground",
-        "g",
-        "motion",
-        "horizontal",
-        "mean",
-        "rotd50",
-        "rotd100",
-        "geomean",
-        "rock",
-        "h",
-        "larger",
-        "at",
-        "site",
-    ];
+    const BESIDE: [&str; 11] =
+        ["peak", "ground", "g", "motion", "horizontal", "mean", "rotd50", "geomean", "h", "at", "site"];
     let unit = heading.unit?;
     match unit.quantity {
         Quantity::Acceleration if names(heading, &["pga", "ag", "a", "acceleration", "motion"], &BESIDE) => {

@@ -1,5 +1,6 @@
 //! What a file of a hazard holds: curves or joint rates in columns, and what OpenQuake exports.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
@@ -20,7 +21,8 @@ pub struct Found {
 
 /// What a file holds.
 pub enum Contents {
-    Curves(Vec<Found>),
+    /// Curves, and the headings of columns that say nothing of them.
+    Curves(Vec<Found>, Vec<String>),
     Joint(JointHazard),
 }
 
@@ -37,7 +39,7 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
         bail!("--effective-years is for ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV)");
     }
     if starts("poe-") {
-        return openquake(sheet, years, file).map(|found| Contents::Curves(vec![found]));
+        return openquake(sheet, years, file).map(|found| Contents::Curves(vec![found], Vec::new()));
     }
     let columns: Vec<(usize, Content, Statistic)> = sheet
         .headings
@@ -97,7 +99,12 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
             found.push(Found { intensity, statistic, curve: curve(points)?, file: file.clone() });
         }
     }
-    Ok(Contents::Curves(found))
+    let is_unused = |&&(at, content, _): &&(usize, Content, Statistic)| {
+        matches!(content, Content::Unknown | Content::Magnitude) && sheet.number(0, at).is_ok()
+    };
+    let unused = columns.iter().filter(is_unused).map(|&(at, ..)| &sheet.headings[at]);
+    let unused = unused.filter(|heading| !PLACES.contains(&heading.name.as_str()));
+    Ok(Contents::Curves(found, unused.map(|heading| heading.text.clone()).collect()))
 }
 
 /// Of columns that say the same in several ways the first counts; others are refused.
@@ -141,7 +148,7 @@ fn annual_rate(
 fn curve(mut points: Vec<(f64, Option<f64>)>) -> anyhow::Result<HazardCurve> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let known = points.into_iter().filter_map(|(intensity, rate)| Some((intensity, rate?)));
-    Ok(HazardCurve::new(known.filter(|(intensity, rate)| *intensity > 0.0 && *rate > 0.0).collect())?)
+    Ok(HazardCurve::new(known.filter(|(intensity, rate)| *intensity != 0.0 && *rate > 0.0).collect())?)
 }
 
 /// Bins of PGA and PGV with rates of occurrence, and their magnitudes.
@@ -166,7 +173,15 @@ fn joint(
             mw: mw.map(|mw| magnitude(sheet, row, mw)).transpose()?,
         })
     };
-    bins((0..sheet.lines.len()).map(bin).collect::<anyhow::Result<Vec<_>>>()?)
+    let bins = bins((0..sheet.lines.len()).map(bin).collect::<anyhow::Result<Vec<_>>>()?)?;
+    let mut known = BTreeMap::new();
+    for (bin, line) in bins.bins.iter().zip(&sheet.lines) {
+        let same = [bin.pga_m_s2, bin.pgv_m_s, bin.mw.unwrap_or(0.0)].map(f64::to_bits);
+        if let Some(first) = known.insert(same, line) {
+            bail!("lines {first} and {line}: the same PGA, PGV and magnitude; expected one row of each bin");
+        }
+    }
+    Ok(bins)
 }
 
 fn magnitude(sheet: &Sheet, row: usize, column: usize) -> anyhow::Result<f64> {
@@ -184,10 +199,12 @@ fn bins(bins: Vec<PairOfPeaks>) -> anyhow::Result<JointHazard> {
     }
 }
 
+/// Headings of the place of a site.
+const PLACES: [&str; 8] =
+    ["site", "site_id", "custom_site_id", "lon", "lat", "longitude", "latitude", "location"];
+
 /// Checks that no column of places has two.
 fn one_site(sheet: &Sheet) -> anyhow::Result<()> {
-    const PLACES: [&str; 8] =
-        ["site", "site_id", "custom_site_id", "lon", "lat", "longitude", "latitude", "location"];
     let is_place = |(_, heading): &(usize, &Heading)| PLACES.contains(&heading.name.as_str());
     for (at, heading) in sheet.headings.iter().enumerate().filter(is_place) {
         if (0..sheet.lines.len()).any(|row| sheet.cell(row, at) != sheet.cell(0, at)) {

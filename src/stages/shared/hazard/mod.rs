@@ -19,9 +19,14 @@ use crate::sheet::Sheet;
 use crate::units::G_M_S2;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
-/// ground-motion fields stand for.
-pub fn read(paths: &[PathBuf], renamed: &[Renamed], effective_years: Option<f64>) -> anyhow::Result<Hazard> {
+/// ground-motion fields stand for. Also returns the headings of columns that are not used.
+pub fn read(
+    paths: &[PathBuf],
+    renamed: &[Renamed],
+    effective_years: Option<f64>,
+) -> anyhow::Result<(Hazard, Vec<String>)> {
     let (mut curves, mut joint, mut unused) = (Vec::new(), Vec::new(), renamed.to_vec());
+    let mut unused_headings = Vec::new();
     for path in paths {
         let mut contents = || {
             let mut sheet = Sheet::parse(&std::fs::read(path)?)?;
@@ -35,7 +40,10 @@ pub fn read(paths: &[PathBuf], renamed: &[Renamed], effective_years: Option<f64>
             contents(&sheet, path, effective_years)
         };
         match contents().with_context(|| path.display().to_string())? {
-            Contents::Curves(found) => curves.extend(found),
+            Contents::Curves(found, unused) => {
+                curves.extend(found);
+                unused_headings.extend(unused);
+            }
             Contents::Joint(hazard) => joint.push(hazard),
         }
     }
@@ -45,10 +53,10 @@ pub fn read(paths: &[PathBuf], renamed: &[Renamed], effective_years: Option<f64>
     match (joint.pop(), paths) {
         (Some(joint), [path]) => {
             judge_joint(&joint).with_context(|| path.display().to_string())?;
-            Ok(Hazard::Joint(joint))
+            Ok((Hazard::Joint(joint), unused_headings))
         }
         (Some(_), _) => bail!("a hazard of PGA and PGV together among others; expected it alone"),
-        (None, _) => joined(curves),
+        (None, _) => Ok((joined(curves)?, unused_headings)),
     }
 }
 
