@@ -165,6 +165,12 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "several sites"]),
         ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["line 4", "contradict"]),
         ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 1"]),
+        ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", ["a.csv", "above 0"]),
+        (&curve("PGA rock (g),AFE", 1.0), ["a.csv", "PGA rock (g)"]),
+        (
+            "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.5,0.6,0.002\n",
+            ["lines 2 and 3", "same"],
+        ),
     ] {
         refused(&[("a.csv", text)], "", &named);
     }

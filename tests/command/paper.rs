@@ -150,6 +150,11 @@ fn every_file_has_its_schema() {
     assert_eq!(of_record.texts("earthquake").unwrap(), [Some("A".into())]);
     std::fs::write(folder.join("about.csv"), "file,magnitude\nrecord.csv,73\n").unwrap();
     fail(folder, "import-motions record.csv --out other.parquet --about about.csv", 2, &["about.csv", "73"]);
+    std::fs::write(folder.join("about.csv"), "file,magnitude\nrecord.csv,7.3\nrecord.csv,5\n").unwrap();
+    fail(folder, "import-motions record.csv --out other.parquet --about about.csv", 2, &["line 3", "again"]);
+    std::fs::copy(folder.join("record.csv"), folder.join("copy.csv")).unwrap();
+    let both = "import-motions record.csv copy.csv --out other.parquet --accept-implausible";
+    fail(folder, both, 1, &["same record"]);
     let mut files: Vec<_> =
         folder.join("out").read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|ending| ending == "parquet"));
