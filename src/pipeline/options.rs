@@ -87,7 +87,8 @@ pub fn in_one_line(refused: &clap::Error) -> String {
         }
         _ => {
             let text = refused.to_string();
-            text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string()
+            let message = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
+            message.split_whitespace().collect::<Vec<_>>().join(" ")
         }
     }
 }

@@ -29,7 +29,7 @@ pub struct FitPex {
     out: PathBuf,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
-          value_parser = number(1e-6..=10.0, "a demand |theta|max / alpha above 0, such as 0.1"))]
+          value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
     limit_state: Vec<f64>,
     /// IM4 at which the planes meet: a number, or found (least residual)
     #[arg(long, value_name = "IM4", default_value = "1.3")]
