@@ -41,9 +41,7 @@ pub struct FitPro {
 
 impl Stage for FitPro {
     fn outputs(&self) -> Vec<PathBuf> {
-        let calibration = self.calibrates().then(|| part(&self.out, "calibration"));
-        let others = [part(&self.out, "parameters"), self.out.clone()];
-        calibration.into_iter().chain(others).collect()
+        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.clone()]
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -60,36 +58,24 @@ impl Stage for FitPro {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &groups {
             fits.extend(fit_curves(cases, &options));
-            if self.calibrates() {
+            // The surface gives the probability of overturning, not that of rocking.
+            if self.event == Event::Overturning {
                 calibrations.push(Calibration::fit(cases, None));
             }
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let curves = curves_text(&fits, self.confidence, &self.out)?;
-        let summary = match self.calibrates() {
-            true => {
-                format!(
-                    "{}\n{curves}",
-                    calibrations_text(&calibrations, ["rock", "overturn"], &part(&self.out, "calibration"))?
-                )
-            }
-            false => curves,
-        };
-        context.warn(warnings(&calibrations));
-        if self.calibrates() {
-            context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
+        let calibration = part(&self.out, "calibration");
+        let mut summary = curves_text(&fits, self.confidence, &self.out)?;
+        if !calibrations.is_empty() {
+            let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration)?;
+            summary = format!("{calibrated}\n{summary}");
         }
+        context.warn(warnings(&calibrations));
+        context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
         Ok(summary)
-    }
-}
-
-impl FitPro {
-    /// The surface gives the probability of overturning, not that of rocking.
-    fn calibrates(&self) -> bool {
-        self.event == Event::Overturning
     }
 }
 
