@@ -1,6 +1,6 @@
 """Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after site_rates.py
 
-Six cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give rates by a
+Seven cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give rates by a
 quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln, stand beside those of
 the limits of evaluate.
 """
@@ -46,6 +46,12 @@ def matched(pga, pgv, scatter):
     return least_squares(lambda b: np.log(of(b) / rates), [-2.9, 0.0]).x
 
 
+def expected_magnitude():
+    """Intercept and slope of magnitude on ln(PGV / PGA)."""
+    lines = (line.split(",") for line in open(R.root / "data/universal.csv"))
+    return next([float(cell) for cell in line[2:4]] for line in lines if line[:2] == ["magnitude", "recorded"])
+
+
 def surface(truth):
     """Logits less c by ln loss, ln PGA and ln PGV; below uplift they fall off."""
     logits = np.where(np.isfinite(truth.logits), truth.logits - truth.c, -60.0)
@@ -58,12 +64,14 @@ def rates(k, truth, line, scatter, draws):
     x = np.linspace(np.log(9.81 * truth.tan_alpha) + 1e-3, np.log(min(curve[-1, 0], np.exp(R.ln_pga[-1]) * (1 - 1e-9))), 60)
     h = exceeds(curve, x)
     ln_pga, weight = np.append(0.5 * (x[1:] + x[:-1]), x[-1]), np.append(-np.diff(h), h[-1])
-    of, result = surface(truth), []
+    of, result, (intercept, slope) = surface(truth), [], expected_magnitude()
     for c, ln_s, m, mw, level, loss in draws:
         ln_pgv = ln_pga[:, None] + line(ln_pga, mw)[:, None] + level + scatter * Z
         ln_pgv = np.clip(ln_pgv, R.ln_pgv[0], np.log(4.9))
         loss = np.clip(loss, R.LN_LOSS[0], R.LN_LOSS[-1])
         z = of(np.stack(np.broadcast_arrays(loss, ln_pga[:, None], ln_pgv), -1))
+        # By two curves PGV / PGA tells an unknown magnitude.
+        mw = intercept + slope * (ln_pgv - ln_pga[:, None]) if np.isnan(mw) else mw
         of_mw = (truth.m + m) * (np.clip(mw, *R.RANGE) - R.MIDDLE)
         result.append(weight @ (expit(truth.c + c + np.exp(ln_s) * z + of_mw) @ WEIGHT))
     return np.array(result)
@@ -76,13 +84,18 @@ def case(k, name, route, random):
     if route.endswith("M"):
         mw, sd_mw = R.mean_mw[k], constants("SD_OF_MEAN")
     line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (mw - constants("MIDDLE"))
-    if "," in R.ROUTES[route][0]:
-        pgv = thinned(R.data["pgv"][k]).copy()
+    if "PGV" in route or "SA" in route:
+        pga, pgv, per_mw = thinned(R.data["pga"][k]), thinned(R.data["pgv"][k]), 0.0
         if "SA" in route:
-            pgv = thinned(R.data["sa1"][k]) * [1 / (2 * np.pi * 1.65), 1]
+            factor, of_pga, per_mw = constants("BY_SPECTRUM")
+            pgv = thinned(R.data["sa1"][k]).copy()
+            as_often = np.exp(np.interp(-np.log(pgv[:, 1]), -np.log(pga[:, 1]), np.log(pga[:, 0])))
+            pgv[:, 0] = factor * pgv[:, 0] ** (1 - of_pga) * as_often**of_pga
         scatter, sd_level = constants("SCATTER"), constants("SD_BY_CURVES")["SA" in route]
-        a, b = matched(thinned(R.data["pga"][k]), pgv, scatter)
-        line = lambda ln_pga, mw: a + b * (ln_pga - AT)
+        a, b = matched(pga, pgv, scatter)
+        of_mw = lambda mw: per_mw * (np.where(np.isnan(mw), constants("MAGNITUDE")[0], mw) - constants("MIDDLE"))
+        line = lambda ln_pga, mw: a + b * (ln_pga - AT) + of_mw(mw)
+        mw, sd_mw = (mw, sd_mw) if route.endswith("M") else (np.nan, 0.0)
     sds = np.array([*truth.sds, sd_mw, sd_level, R.SD_OF_LOSS])
     draws = random.normal(size=(DRAWS, 6)) * sds + [0, 0, 0, mw, 0, 0]
     drawn = np.log(rates(k, truth, line, scatter, draws))
@@ -102,5 +115,5 @@ if __name__ == "__main__":
     generator = np.random.default_rng(7)
     (R.folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in R.OBJECTS.items()))
     for site, thing, way in [(14, "cabinet", "PGA"), (50, "shelf", "PGA"), (20, "rack", "PGA, M"),
-                             (30, "cabinet", "PGA, SA"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M")]:
+                             (30, "cabinet", "PGA, SA"), (40, "rack", "PGA, SA, M"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M")]:
         case(site, thing, way, generator)
