@@ -14,7 +14,7 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::variance;
+use crate::statistics::{independent_errors, variance};
 use crate::warning::Warning;
 
 /// Over which magnitudes and distances a probability is meant.
@@ -172,6 +172,13 @@ impl Calibration {
         let half_width = Z_95 * variance(&self.covariance, &by_parameters).sqrt().hypot(between);
         let z = self.calibrated(motion);
         Probability::with_limits(half_width, |shift| logistic(z + shift))
+    }
+
+    /// It with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
+    pub(super) fn ends(&self) -> impl Iterator<Item = [Calibration; 2]> {
+        let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
+        let with = |b: Vec<f64>| Calibration { c: b[0], ln_s: b[1], m: b[2], ..self.clone() };
+        errors.into_iter().map(move |ends| ends.map(with))
     }
 
     /// How PGA and PGV go together in the motions that it stands for.

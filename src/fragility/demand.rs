@@ -17,7 +17,7 @@ use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::statistics::distributions::t_quantile;
 use crate::statistics::{FitStatus, Limits, LinearFit};
-use crate::statistics::{normal, tested_least_squares, variance};
+use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
 /// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
@@ -224,6 +224,11 @@ pub struct DemandFit {
 
 grouped!(DemandFit);
 
+/// How many standard errors the limits of a confidence are away.
+fn quantile(confidence: f64, degrees: f64) -> f64 {
+    t_quantile(0.5 * (1.0 + confidence), degrees)
+}
+
 impl DemandFit {
     /// Fits the sample of these measures.
     fn new(
@@ -299,9 +304,20 @@ impl DemandFit {
         let ln_median = ln_median_demand(&self.coefficients, &ims);
         let of_median = variance(&self.covariance, &design_row(&ims));
         let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
-        let half_width = t_quantile(0.5 * (1.0 + confidence), degrees) * (of_median + of_beta).sqrt();
+        let half_width = quantile(confidence, degrees) * (of_median + of_beta).sqrt();
         let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
         Some(Probability::with_limits(half_width, p_at))
+    }
+
+    /// It with each independent error of its coefficients, and that of beta, at the limits of confidence.
+    pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [DemandFit; 2]> {
+        let away = quantile(confidence, self.degrees.unwrap_or(f64::INFINITY));
+        let errors = independent_errors(&self.coefficients, &self.covariance, away);
+        let with = |coefficients: Vec<f64>| DemandFit { coefficients, ..self.clone() };
+        let of_beta = away / (2.0 * self.residual_degrees()).sqrt();
+        let with_beta = [-of_beta, of_beta]
+            .map(|off| DemandFit { beta: self.beta.map(|beta| beta * off.exp()), ..self.clone() });
+        errors.into_iter().map(move |ends| ends.map(with)).chain([with_beta])
     }
 
     /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).
@@ -312,7 +328,7 @@ impl DemandFit {
     /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         let (Some(beta), Some(degrees)) = (self.beta, self.degrees) else { return Vec::new() };
-        let quantile = t_quantile(0.5 * (1.0 + confidence), degrees);
+        let quantile = quantile(confidence, degrees);
         let row = |parameter: Parameter, value: f64, standard_error: f64| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),

@@ -86,6 +86,42 @@ impl Model {
         }
     }
 
+    /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of both
+    /// calibrations of the surface have the same causes.
+    pub fn ends(&self) -> Vec<[Model; 2]> {
+        let (demand, overturning, limit_state, peaks) = match self {
+            Model::Calibrated { overturning, exceeding, floor } => {
+                let joined = |([low, high], [low_ex, high_ex]): ([Calibration; 2], [Calibration; 2])| {
+                    [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Calibrated {
+                        overturning,
+                        exceeding,
+                        floor: *floor,
+                    })
+                };
+                return overturning.ends().zip(exceeding.ends()).map(joined).collect();
+            }
+            Model::Paper { demand, overturning, limit_state, peaks } => {
+                (demand, overturning, *limit_state, *peaks)
+            }
+        };
+        let with = |demand: Vec<DemandFit>, overturning: CurveFit| Model::Paper {
+            demand,
+            overturning,
+            limit_state,
+            peaks,
+        };
+        let of_plane = |at: usize, plane: DemandFit| {
+            let mut planes = demand.clone();
+            planes[at] = plane;
+            with(planes, overturning.clone())
+        };
+        let curves = overturning.ends(CONFIDENCE).map(|ends| ends.map(|curve| with(demand.clone(), curve)));
+        let planes = demand.iter().enumerate().flat_map(|(at, plane)| {
+            plane.ends(CONFIDENCE).map(move |ends| ends.map(|plane| of_plane(at, plane)))
+        });
+        curves.chain(planes).collect()
+    }
+
     /// The floor that it is for; `None` for the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {

@@ -14,7 +14,7 @@ use crate::motion::IntensityMeasures;
 use crate::statistics::distributions::t_quantile;
 use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{Estimate, FitStatus};
-use crate::statistics::{normal, predict, tested_probit, variance};
+use crate::statistics::{independent_errors, normal, predict, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
 /// (Eq. 20; Eq. 24 with the hybrid measure).
@@ -180,6 +180,13 @@ impl CurveFit {
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
         let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
         Some(Probability::with_limits(self.quantile(confidence) * error, p_at))
+    }
+
+    /// It with each independent error of its coefficients at the limits of confidence.
+    pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [CurveFit; 2]> {
+        let errors = independent_errors(&self.coefficients, &self.covariance, self.quantile(confidence));
+        let with = |coefficients: Vec<f64>| CurveFit { coefficients, ..self.clone() };
+        errors.into_iter().map(move |ends| ends.map(with))
     }
 
     /// Returns whether the measures are within those of the cases.

@@ -40,16 +40,23 @@ impl Part {
     }
 }
 
-/// Something that is not known exactly, by its 16 and 84 % quantiles inside what is possible. Its median is in
-/// the result itself.
+/// Something that is not known exactly, by its 2.5 and 97.5 % quantiles inside what is possible; the hazard by
+/// its 16 and 84 % fractiles, as agencies give them. Its median is in the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown<T> {
     /// Whose it is.
     pub part: Part,
-    /// 16 % quantile.
+    /// Lower quantile.
     pub low: T,
-    /// 84 % quantile.
+    /// Upper quantile.
     pub high: T,
+}
+
+impl<T> Unknown<T> {
+    /// How many standard deviations the quantiles are from the median.
+    fn deviations(&self) -> f64 {
+        if self.part == Part::Hazard { 1.0 } else { Z_95 }
+    }
 }
 
 /// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part: downwards
@@ -122,11 +129,12 @@ impl Budgets {
         self.overturning.add(part, overturning);
     }
 
-    /// Adds what an unknown causes: how far the results fall and rise between its quantiles.
+    /// Adds what an unknown causes: how far the results fall and rise between its quantiles, as standard
+    /// deviations.
     pub fn vary<T>(&mut self, unknown: &Unknown<T>, results: impl Fn(&T) -> [f64; 2]) {
         let [low, high] = [results(&unknown.low), results(&unknown.high)];
         let sds = |k: usize| {
-            let off = [low[k] - self.values[k], high[k] - self.values[k]];
+            let off = [low[k], high[k]].map(|end| (end - self.values[k]) / unknown.deviations());
             [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]
         };
         self.add(unknown.part, [sds(0), sds(1)]);

@@ -5,13 +5,11 @@ use super::joint::{JointHazard, PairOfPeaks};
 use crate::fragility::{GivenPeak, Model, Probability, Scenarios, limit_states_at};
 use crate::rocking::Structure;
 
-/// A mean annual rate with 95 % limits, which are those of the model alone.
+/// A mean annual rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Rate {
     pub value: f64,
-    pub low: f64,
-    pub high: f64,
     /// What motions stronger than the last of the curve contribute to the value, by the probability at it.
     pub of_last: f64,
     /// What they could add to it.
@@ -21,23 +19,27 @@ pub struct Rate {
 /// Annual rates of LS1 to LS3; NaN where the model has no probability.
 pub type Rates = [Rate; 3];
 
-/// Integrates the probabilities given one peak over its hazard curve. Limits are those of the probabilities
-/// at all intensities at once.
+/// Integrates the probabilities given one peak over its hazard curve.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
-    let states = |intensity| terms(given_peak.limit_states(intensity, Scenarios::Many));
+    let values = |states: [Probability; 3]| states.map(|state| state.value);
+    let states = |intensity| values(given_peak.limit_states(intensity, Scenarios::Many));
     let sums = curve.mean_annual_rates(&given_peak.jumps(), given_peak.widest_panel(), states);
     let [_, (last, rate_beyond)] = curve.ends();
-    let at_last = given_peak.limit_states(last, Scenarios::Many);
-    rates(sums, at_last.map(|state| [state.value, (1.0 - state.value).max(0.0)].map(|p| p * rate_beyond)))
+    let at_last = states(last);
+    [0, 1, 2].map(|k| Rate {
+        value: sums[k],
+        of_last: at_last[k] * rate_beyond,
+        beyond: (1.0 - at_last[k]).max(0.0) * rate_beyond,
+    })
 }
 
 /// Sums the probabilities of an object in its directions over the bins of a joint hazard.
 pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, joint: &JointHazard) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        terms(limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many))
+        limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many).map(|state| state.value)
     };
-    rates(joint.mean_annual_rates(states), [[0.0; 2]; 3])
+    joint.mean_annual_rates(states).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
 }
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
@@ -60,23 +62,4 @@ pub fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
         sum >= half
     };
     parts.iter().find(is_half).map_or(last, |part| part.0)
-}
-
-/// Value and limits of each state in turn, as the quadratures take them.
-fn terms(states: [Probability; 3]) -> [f64; 9] {
-    let [rocking, failure, overturning] = states.map(|state| [state.value, state.low, state.high]);
-    let mut terms = [0.0; 9];
-    let all = [rocking, failure, overturning].into_iter().flatten();
-    terms.iter_mut().zip(all).for_each(|(term, value)| *term = value);
-    terms
-}
-
-fn rates(sums: [f64; 9], ends: [[f64; 2]; 3]) -> Rates {
-    [0, 1, 2].map(|k| Rate {
-        value: sums[3 * k],
-        low: sums[3 * k + 1],
-        high: sums[3 * k + 2],
-        of_last: ends[k][0],
-        beyond: ends[k][1],
-    })
 }

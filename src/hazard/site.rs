@@ -7,7 +7,7 @@ use super::curve::HazardCurve;
 use super::joint::JointHazard;
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 use super::velocity::{Velocity, VelocitySource, magnitude};
-use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak, Z_95};
+use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::{Outcome, Structure};
@@ -101,8 +101,7 @@ impl Site {
                 let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, joint);
                 let value = rates(directions);
                 let mut budgets = Budgets::about(ln_rates(&value));
-                budgets.add(Part::Fit, sds_of_fit(&value));
-                for unknown in unknowns {
+                for unknown in parameters(directions).iter().chain(unknowns) {
                     budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
                 }
                 let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
@@ -136,13 +135,12 @@ impl Site {
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
         let mut budgets = Budgets::about(ln_rates(&rates));
-        budgets.add(Part::Fit, sds_of_fit(&rates));
         let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
         if model.depends_on_magnitude() && middle.mw.is_some() {
             budgets.vary(&of_magnitude, |mw| of(&given(*mw, 0.0), &curve));
         }
         budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
-        for unknown in unknowns {
+        for unknown in parameters(directions).iter().chain(unknowns) {
             budgets.vary(unknown, |directions| of(&GivenPeak { directions, ..middle }, &curve));
         }
         if let Some([low, high]) = &hazard.fractiles {
@@ -223,10 +221,13 @@ fn ln_rates(rates: &Rates) -> [f64; 2] {
     [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
 }
 
-/// Their standard deviations by the model's limits, downwards and upwards.
-fn sds_of_fit(rates: &Rates) -> [[f64; 2]; 2] {
-    [rates[1], rates[2]].map(|rate| {
-        let [value, low, high] = [rate.value, rate.low, rate.high].map(|rate| rate.max(LEAST).ln());
-        [(value - low) / Z_95, (high - value) / Z_95]
-    })
+/// What is not known of the models: the same error moves both directions.
+fn parameters(directions: &[(Structure, Model)]) -> Vec<Unknown<Vec<(Structure, Model)>>> {
+    let ends: Vec<Vec<[Model; 2]>> = directions.iter().map(|(_, model)| model.ends()).collect();
+    let at = |error: usize, end: usize| {
+        let models = directions.iter().zip(&ends);
+        models.map(|((structure, _), ends)| (structure.clone(), ends[error][end].clone())).collect()
+    };
+    let fewest = ends.iter().map(Vec::len).min().unwrap_or(0);
+    (0..fewest).map(|error| Unknown { part: Part::Fit, low: at(error, 0), high: at(error, 1) }).collect()
 }

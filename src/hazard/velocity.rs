@@ -3,7 +3,7 @@
 
 use super::budget::{Part, Unknown};
 use super::curve::HazardCurve;
-use crate::fragility::{Kind, Model, Peak, RatioGiven};
+use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
 use crate::keyword::keywords;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
@@ -96,7 +96,7 @@ pub enum MatchError {
 /// is not known of it.
 pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
     let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
-    (median, Unknown { part: Part::Magnitude, low: median - sd, high: median + sd })
+    (median, Unknown { part: Part::Magnitude, low: median - Z_95 * sd, high: median + Z_95 * sd })
 }
 
 /// The curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
@@ -186,7 +186,7 @@ impl Velocity {
 
     /// What is not known of it: ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
-        Unknown { part: Part::Velocity, low: -self.sd, high: self.sd }
+        Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
     /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is known

@@ -126,6 +126,18 @@ pub fn predict(coefficients: &[f64], x: &[&[f64]]) -> Vec<f64> {
     z
 }
 
+/// Coefficients with each of k independent errors at both ends, this many standard deviations away: along the
+/// columns of L, where L L' = C is their covariance (k x k, by row). None where C has no such L.
+pub fn independent_errors(coefficients: &[f64], covariance: &[f64], deviations: f64) -> Vec<[Vec<f64>; 2]> {
+    let k = coefficients.len();
+    let square = (covariance.len() == k * k).then(|| DMatrix::from_row_slice(k, k, covariance));
+    let Some(factor) = square.and_then(DMatrix::cholesky) else { return Vec::new() };
+    let at = |error: usize, away: f64| {
+        coefficients.iter().zip(factor.l().column(error).iter()).map(|(b, l)| b + away * l).collect()
+    };
+    (0..k).map(|error| [-deviations, deviations].map(|away| at(error, away))).collect()
+}
+
 /// Computes the dot product.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

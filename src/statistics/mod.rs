@@ -27,6 +27,6 @@ pub mod numerics;
 pub mod scores;
 
 pub use binary::{LEAST_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
-pub use fit::{Estimate, Fit, FitStatus, Limits, predict, variance};
+pub use fit::{Estimate, Fit, FitStatus, Limits, independent_errors, predict, variance};
 pub use folds::Folds;
 pub use linear::{LinearFit, least_squares, tested_least_squares};

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::spec::{Place, Reason, Restitution, Shape, Spec};
+use crate::fragility::Z_95;
 use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
 use crate::rocking::{Body, Structure};
@@ -20,7 +21,7 @@ pub struct Object {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
     pub structure: Structure,
-    /// What is not known of it: the structure at the 16 and 84 % quantiles.
+    /// What is not known of it: the structure at the 2.5 and 97.5 % quantiles.
     pub unknowns: Vec<Unknown<Structure>>,
 }
 
@@ -53,18 +54,18 @@ impl Object {
         (level > 0.0).then_some(Floor { period_s, level })
     }
 
-    /// The floor with the period of the building at its 16 and 84 % quantiles.
+    /// The floor with the period of the building at its 2.5 and 97.5 % quantiles.
     pub fn unknown_floor(&self) -> Option<Unknown<Floor>> {
         let (floor, sd) = (self.floor()?, self.spec.place.period_sd.unwrap_or(SD_OF_PERIOD));
         let with = |ln: f64| Floor { period_s: floor.period_s * ln.exp(), ..floor };
-        Some(Unknown { part: Part::Floor, low: with(-sd), high: with(sd) })
+        Some(Unknown { part: Part::Floor, low: with(-Z_95 * sd), high: with(Z_95 * sd) })
     }
 }
 
-/// The 16, 50 and 84 % quantiles of |x| of a normal x: an offset to either side is as bad.
+/// The 2.5, 50 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as bad.
 fn folded(mean: f64, sd: f64) -> [f64; 3] {
     let within = |x: f64| normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd);
-    [normal::cdf(-1.0), 0.5, normal::cdf(1.0)].map(|share| match sd > 0.0 {
+    [0.025, 0.5, 0.975].map(|share| match sd > 0.0 {
         true => numerics::first(0.0, mean.abs() + 5.0 * sd, |x| within(x) > share),
         false => mean.abs(),
     })
@@ -155,10 +156,11 @@ impl Spec {
     fn known(&self, structure: Structure) -> Direction {
         let with = |eta: f64| Structure { eta: eta.clamp(0.01, 1.0), ..structure.clone() };
         let limits = match (self.place.eta_sd, self.eta()) {
-            (Some(sd), _) => Some([-sd, sd].map(|off| with(structure.eta + off))),
+            (Some(sd), _) => Some([-Z_95, Z_95].map(|off| with(structure.eta + off * sd))),
             (None, Some(_)) => None,
             (None, None) => {
-                Some([SD_OF_LOSS, -SD_OF_LOSS].map(|ln| with(1.0 - (1.0 - structure.eta) * ln.exp())))
+                let loss = |off: f64| (1.0 - structure.eta) * (off * SD_OF_LOSS).exp();
+                Some([Z_95, -Z_95].map(|off| with(1.0 - loss(off))))
             }
         };
         let unknown = limits.map(|[low, high]| Unknown { part: Part::Eta, low, high });
@@ -205,12 +207,12 @@ impl Spec {
             let text = format!("squat: it slides unless its friction is above {tan:.2}");
             return Err(Reason::not_rocking(text));
         }
-        let of_height = centre_height_sd.map(|sd| [at(centre - sd, middle), at(centre + sd, middle)]);
+        let of_height = centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, middle)));
         let of_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
         for [low, high] in [of_height, of_offset].into_iter().flatten() {
-            if let (Ok(low), Ok(high)) = (structure(low), structure(high)) {
-                direction.unknowns.push(Unknown { part: Part::Object, low, high });
-            }
+            // A body that is squat is no danger.
+            let [low, high] = [low, high].map(|body| structure(body).unwrap_or(direction.structure.clone()));
+            direction.unknowns.push(Unknown { part: Part::Object, low, high });
         }
         Ok(direction)
     }
