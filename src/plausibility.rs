@@ -1,5 +1,6 @@
 //! What structures and ground motions can be: ranges within which a number given by a user can be right.
 
+use crate::number::{period, significant};
 use crate::rocking::Structure;
 
 /// PGA, g, beyond which nothing was ever recorded.
@@ -15,7 +16,7 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{peak} of {value} {unit} once in {years:.2} years exceeds any known hazard: {guess}")]
+#[error("{peak} of {} {unit} once in {} years exceeds any known hazard: {guess}", significant(*.value, 3), period(*.years))]
 pub struct ImplausibleHazard {
     peak: &'static str,
     value: f64,

@@ -13,15 +13,15 @@ pub struct HazardCurve {
     points: Vec<(f64, f64)>,
 }
 
-/// Why points make no hazard curve. `point` counts from 0.
+/// Why points make no hazard curve. `point` counts from 0, in messages from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum HazardError {
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),
-    #[error("point {point}: intensity {im}, rate {rate}; expected both above 0")]
+    #[error("point {}: intensity {im}, rate {rate}; expected both above 0", .point + 1)]
     NotPositive { point: usize, im: f64, rate: f64 },
-    #[error("point {point}: expected a larger intensity than before, and no larger rate")]
+    #[error("point {}, by intensity: expected a larger intensity than before, and no larger rate", .point + 1)]
     Unordered { point: usize },
     #[error(
         "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more often than strong motions come; check that the two columns are not exchanged"

@@ -91,13 +91,16 @@ impl Frequency {
         const RATES: [&str; 6] = ["rate", "frequency", "frequenza", "afe", "afoe", "mafe"];
         const PERIODS: [&str; 5] = ["return", "ritorno", "tr", "rp", "arp"];
         const PROBABILITIES: [&str; 3] = ["probability", "poe", "aep"];
-        const BESIDE: [&str; 22] = [
+        const BESIDE: [&str; 25] = [
             "annual",
+            "annua",
+            "media",
             "mean",
             "of",
             "occurrence",
             "exceedance",
             "exceedence",
+            "eccedenza",
             "per",
             "a",
             "in",

@@ -94,7 +94,10 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
                 (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => statistic,
                 _ => continue,
             };
-            let point = |row| Ok((sheet.number(row, at)? * unit, annual_rate(sheet, row, rate)?));
+            let point = |row| match sheet.number(row, at)? {
+                0.0.. => Ok((sheet.number(row, at)? * unit, annual_rate(sheet, row, rate)?)),
+                _ => Err(sheet.refusal(row, at, "an intensity of 0 or more").into()),
+            };
             let points = (0..sheet.lines.len()).map(point).collect::<anyhow::Result<_>>()?;
             found.push(Found { intensity, statistic, curve: curve(points)?, file: file.clone() });
         }
