@@ -73,8 +73,9 @@ impl Sheet {
         let model = rows.iter().rev().take(400).max_by_key(numbers);
         let model = model.map_or(StringRecord::new(), |(_, row)| row.clone());
         let is_data = |(_, row): &Row| {
-            let mut pairs = model.iter().zip(row).filter(|(like, cell)| is_number(like) && !cell.is_empty());
-            pairs.clone().next().is_some() && pairs.all(|(_, cell)| is_number(cell))
+            let pairs = model.iter().zip(row).filter(|(like, cell)| is_number(like) && !cell.is_empty());
+            let (numbers, words): (Vec<_>, Vec<_>) = pairs.partition(|(_, cell)| is_number(cell));
+            numbers.len() > words.len()
         };
         let is_heading = |(at, row): &&Row| match is_comment(lines[at - 1]) || separator == ' ' {
             true => row.len() == model.len(),

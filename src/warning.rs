@@ -47,9 +47,11 @@ impl Warning {
             Warning::ImplausibleRow => "this row is invalid; it has no result",
             Warning::NotRocking => "the object is anchored or slides: no result",
             Warning::ImplausibleRecord => "this is not a plausible earthquake record",
-            Warning::OtherPeak => "pga_m_s2 differs from the peak of the samples: unit or component?",
+            Warning::OtherPeak => {
+                "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?"
+            }
             Warning::ImplausibleSize => "implausibly tall: are the dimensions in inches or cm?",
-            Warning::LowRestitution => "eta is below 0.5: is this a typing error?",
+            Warning::LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
             Warning::HazardEndsEarly => "the hazard curve ends too early: the result is a range",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             Warning::HazardStartsLate => {

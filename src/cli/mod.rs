@@ -141,7 +141,11 @@ pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call,
     let known = lenient(command, user);
     let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
     let section = match &config {
-        Some(path) => Config::read(path)?.section(command, user)?,
+        Some(path) => {
+            let config = Config::read(path)?;
+            config.check(&stage_commands(), path)?;
+            config.section(command, user)?
+        }
         None => Vec::new(),
     };
     parsed(command, [section, user.to_vec()].concat())
@@ -182,6 +186,18 @@ pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyho
     };
     let calls = commands.iter().filter(|command| config.has(command.get_name())).map(call);
     let calls = calls.collect::<anyhow::Result<Vec<Call>>>()?;
+    let mut written = HashMap::new();
+    for (call, file) in
+        calls.iter().flat_map(|call| call.stage.outputs().into_iter().map(move |file| (call, file)))
+    {
+        if let Some(first) = written.insert(file.clone(), &call.name) {
+            let (pipeline, file) = (pipeline.display(), file.display());
+            return Err(UsageError::because(format!(
+                "{pipeline}: {first} and {} both write {file}",
+                call.name
+            )));
+        }
+    }
     match calls.is_empty() {
         true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
         false => Ok(calls),

@@ -62,9 +62,9 @@ pub enum Implausibility {
     Fast { frequency_hz: f64 },
     #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", digits(.pga_g))]
     WeakPga { pga_g: f64 },
-    #[error("PGA {} g; few records exceed 2 g: is it in m/s2, and called g?", digits(.pga_g))]
+    #[error("PGA {} g; few records exceed 2 g: is it in m/s2?", digits(.pga_g))]
     RarePga { pga_g: f64 },
-    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in m/s2, and called g?", digits(.pgv_m_s))]
+    #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in another unit?", digits(.pgv_m_s))]
     RarePgv { pgv_m_s: f64 },
 }
 

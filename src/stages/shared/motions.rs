@@ -80,7 +80,7 @@ pub fn known(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
 }
 
-/// By which share the PGA that a file gives may miss that of the samples.
+/// By which share the peaks that a file gives may miss those of the samples.
 const PEAK_TOLERANCE: f64 = 0.1;
 
 /// Warnings about a recorded motion of the ground.
@@ -90,9 +90,11 @@ pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     if motion.suite.as_deref().is_some_and(is_other) {
         return Warnings::default();
     }
-    let (peak, samples) = (record.peak_m_s2(), record.acceleration_m_s2());
-    let is_other = known(motion.pga_m_s2).is_some_and(|pga| (pga - peak).abs() > PEAK_TOLERANCE * peak);
-    let implausible = plausibility::implausibility(samples, record.dt_s())
+    let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
+    let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
+    let is_other = |given: f64, peak: f64| (given - peak).abs() > PEAK_TOLERANCE * peak;
+    let is_other = is_other(motion.pga_m_s2, record.peak_m_s2()) || is_other(motion.pgv_m_s, pgv_m_s);
+    let implausible = plausibility::implausibility(samples, dt_s)
         .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
     let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));
     implausible.into_iter().chain(other_peak).collect()

@@ -87,8 +87,8 @@ fn joined(curves: Vec<Found>) -> anyhow::Result<Hazard> {
             (Peak::Pga, pga, Some(Velocity::of_curves(pga, &pgv, VelocitySource::Spectrum)?))
         }
         (Some(pga), None, None) => (Peak::Pga, pga, None),
-        (None, Some(pgv), _) => (Peak::Pgv, pgv, None),
-        (None, None, Some(_)) => bail!("SA(1.0 s) alone; expected the curve of PGA too"),
+        (None, _, Some(_)) => bail!("SA(1.0 s) without PGA; expected the curve of PGA too"),
+        (None, Some(pgv), None) => (Peak::Pgv, pgv, None),
         (None, None, None) => bail!("fractiles alone; expected the mean curve too"),
     };
     let fractile = |statistic: Statistic| of(Intensity::Peak(peak), statistic).cloned();
