@@ -77,16 +77,6 @@ pub struct ImportedMotion {
     pub pulse: Option<FittedPulse>,
 }
 
-impl ImportedMotion {
-    /// Joins earthquake, station and component; `None` if the file has none of them.
-    pub fn name(&self) -> Option<String> {
-        let RecordedMotion { event, station, component, .. } = &self.record;
-        let parts: Vec<&str> =
-            [event, station, component].into_iter().flatten().map(String::as_str).collect();
-        (!parts.is_empty()).then(|| parts.join(", "))
-    }
-}
-
 keywords! {
     /// Whether to search for pulses.
     pub enum PulseSearch {

@@ -356,8 +356,11 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
             held <= MOST_SAMPLES
         };
         let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
-        let scaled: Vec<Vec<f64>> =
-            block.iter().map(|point| cases[point.case].scaled(point.intensity)).collect();
+        let scaled = |point: &ScanPoint| {
+            let Case { motion, unscaled, .. } = cases[point.case];
+            motion.acceleration_m_s2.iter().map(|sample| point.intensity / unscaled * sample).collect()
+        };
+        let scaled: Vec<Vec<f64>> = block.iter().map(scaled).collect();
         let problems = block.iter().zip(&scaled).map(|(point, samples)| {
             let Case { path, motion, structure, .. } = cases[point.case];
             let record = Record::new(samples, motion.dt_s);
@@ -370,12 +373,6 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
         rest = later;
     }
     Ok(responses)
-}
-
-impl Case<'_> {
-    fn scaled(&self, intensity: f64) -> Vec<f64> {
-        self.motion.acceleration_m_s2.iter().map(|sample| intensity / self.unscaled * sample).collect()
-    }
 }
 
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {

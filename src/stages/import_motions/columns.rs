@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::pulse::largest_velocity;
 use crate::motion::{MotionMeasures, Suite};
+use crate::records::RecordedMotion;
 use crate::records::processing::ImportedMotion;
 use crate::records::pulses::Verdict;
 use crate::table::{motions, rows};
@@ -58,15 +59,17 @@ pub fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<Recor
 }
 
 fn source(motion: &ImportedMotion) -> SourceRow {
+    let RecordedMotion { event, station, component, .. } = &motion.record;
+    let names: Vec<&str> = [event, station, component].into_iter().flatten().map(String::as_str).collect();
     SourceRow {
         motion_id: motion.motion_id.clone(),
         suite: motion.suite,
-        name: motion.name(),
-        earthquake: motion.record.event.clone(),
+        name: (!names.is_empty()).then(|| names.join(", ")),
+        earthquake: event.clone(),
         mw: motion.record.mw,
         re_km: motion.record.re_km,
-        station: motion.record.station.clone(),
-        component: motion.record.component.clone(),
+        station: station.clone(),
+        component: component.clone(),
         azimuth_deg: motion.record.azimuth_deg,
         source_file: motion.source.path.clone(),
         source_blake3: motion.source.blake3.clone(),
@@ -75,10 +78,11 @@ fn source(motion: &ImportedMotion) -> SourceRow {
     }
 }
 
-fn pulse(&ImportedMotion { ref measured, rotd, indicator, pulse: fitted, .. }: &ImportedMotion) -> PulseRow {
+fn pulse(motion: &ImportedMotion) -> PulseRow {
+    let (rotd, indicator, fitted) = (motion.rotd, motion.indicator, motion.pulse);
     let pulse = fitted.map(|fitted| fitted.pulse);
     PulseRow {
-        housner_m: measured.housner_m,
+        housner_m: motion.measured.housner_m,
         rotd50_pga_m_s2: rotd.map(|rotd| rotd.pga50_m_s2),
         rotd100_pga_m_s2: rotd.map(|rotd| rotd.pga100_m_s2),
         rotd50_pgv_m_s: rotd.map(|rotd| rotd.pgv50_m_s),
