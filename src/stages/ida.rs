@@ -357,7 +357,7 @@ impl Case<'_> {
 
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
     let problem = format!("motion '{}': {problem}", motion.motion_id);
-    TableError::Value { path: path.to_path_buf(), row: motion.row, column: ACCELERATION, problem }
+    TableError::value(path, motion.row, ACCELERATION, problem)
 }
 
 /// The lognormal distribution of the capacities of each suite and structure.

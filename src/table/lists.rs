@@ -72,8 +72,8 @@ impl Lists {
             return Err(TableError::parquet(&self.path, format!("column '{}' ends early", self.column)));
         }
         let list = |(row, list): (u64, Option<Vec<f64>>)| {
-            let (path, problem) = (self.path.to_path_buf(), "null; expected a list of numbers".to_string());
-            list.ok_or(TableError::Value { path, row, column: self.column, problem })
+            let problem = "null; expected a list of numbers";
+            list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem))
         };
         (first_row..).zip(lists).map(list).collect()
     }
