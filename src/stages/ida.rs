@@ -27,7 +27,7 @@ use crate::rocking::{
 };
 use crate::statistics::FitStatus;
 use crate::table::TableError;
-use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
+use crate::table::motions::{self, ACCELERATION, Motion, Part};
 use crate::table::responses::{self, ResponseRow};
 use crate::table::{frame, rows};
 use crate::units::G_M_S2;
@@ -172,7 +172,7 @@ impl Stage for Ida {
         let structures = self.structures.resolve()?;
         context.warn(warnings_of_all(&structures));
         let scan = Scan::new(self.from, self.to, self.steps);
-        let motions = Motions::open(&self.input, None)?;
+        let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
         let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
@@ -183,9 +183,11 @@ impl Stage for Ida {
             pool.with(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
         };
         pipelined(
-            batches(motions.parts(), rayon::current_num_threads()),
+            batches(motions::parts(&motions), rayon::current_num_threads()),
             |parts| {
-                let read = |part: Part| motions.read(part, CHUNK)?.collect::<Result<Vec<_>, TableError>>();
+                let read = |part: Part| {
+                    motions::read_part(&motions, part, CHUNK)?.collect::<Result<Vec<_>, TableError>>()
+                };
                 let chunks = parts.into_iter().map(read).collect::<Result<Vec<_>, TableError>>()?;
                 chunks.concat().into_par_iter().map(analyse).collect::<anyhow::Result<Vec<Analysed>>>()
             },
