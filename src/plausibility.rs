@@ -55,3 +55,18 @@ pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
         (true, false) => Err("0 to 5 m/s (above any record): is the value in cm/s?"),
     }
 }
+
+/// PGV/PGA of ground motions, s: 0.005 for a sine of 30 Hz; the synthetic pulses of large magnitudes reach 1.7.
+const PGV_PGA_S: std::ops::RangeInclusive<f64> = 0.005..=3.0;
+
+/// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.
+pub fn judge_peaks(pga_m_s2: f64, pgv_m_s: f64) -> Result<(), String> {
+    let ratio_s = pgv_m_s / pga_m_s2;
+    match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
+        true => Ok(()),
+        false => Err(format!(
+            "PGV/PGA is {} s; expected 0.005 to 3 s, of PGA in g and PGV in m/s: a wrong unit?",
+            significant(ratio_s, 3)
+        )),
+    }
+}

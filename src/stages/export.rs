@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
-use super::shared::structures::{StructureArgs, warnings_of};
+use super::shared::structures::StructureArgs;
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
 use crate::fragility::{GivenPeak, Peak, Scenarios};
@@ -66,12 +66,12 @@ impl Stage for Export {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
         let models = self.model.read()?;
         let (mut functions, mut description) = (Vec::new(), String::new());
         for structure in &structures {
-            let (model, mut warnings) = models.model(structure)?;
-            warnings.extend(warnings_of(structure));
+            let (model, warnings) = models.model(structure)?;
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let (velocity, median) = (Velocity::of_model(&model, self.im, None), magnitude(None).0);
             let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
-use super::shared::structures::{StructureArgs, warnings_of_all};
+use super::shared::structures::StructureArgs;
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
@@ -169,8 +169,8 @@ impl Stage for Ida {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
-        context.warn(warnings_of_all(&structures));
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));

@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
-use super::shared::structures::{StructureArgs, warnings_of_all};
+use super::shared::structures::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
 use crate::pipeline::context::Context;
@@ -64,8 +64,8 @@ impl Stage for Simulate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
-        context.warn(warnings_of_all(&structures));
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
         let motions = motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
