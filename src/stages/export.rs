@@ -6,8 +6,8 @@ use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::structures::StructureArgs;
-use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
-use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
+use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
+use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
 use crate::fragility::{GivenPeak, Peak, Scenarios};
 use crate::hazard::strongest;
 use crate::hazard::{Velocity, magnitude};
@@ -82,7 +82,7 @@ impl Stage for Export {
         }
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
-            id: format!("{OWN_ID}{}", plain_id(&structures[0].name)),
+            id: own_id(&structures[0].name),
             description,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
         };
@@ -134,7 +134,7 @@ impl Export {
             most
         };
         Function {
-            id: format!("{OWN_ID}{}_{}", plain_id(&structure.name), self.im),
+            id: format!("{}_{}", own_id(&structure.name), self.im),
             peak: self.im,
             probabilities: levels.iter().map(held).collect(),
             range_of_data: [uplift, end],

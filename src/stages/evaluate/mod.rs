@@ -238,9 +238,7 @@ impl Evaluate {
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
-        let is_held = |object: &Object| {
-            matches!(object.directions, Err(Reason::NotRocking(_)))
-        };
+        let is_held = |object: &Object| matches!(object.directions, Err(Reason::NotRocking(_)));
         match objects.first().map_or(Ok(()), |object| object.structure().map(|_| ())) {
             Err(reason) if !objects.iter().any(|object| object.directions.is_ok() || is_held(object)) => {
                 match &self.structures.structures {

@@ -12,7 +12,7 @@ use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
-use crate::table::motions::{Motion, Motions};
+use crate::table::motions::{self, Motion};
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
@@ -176,10 +176,11 @@ impl Tables {
     /// The motions of a row group in the middle of the file.
     pub fn motions(&self) -> Result<Vec<Motion>, TableError> {
         let Some(path) = self.place("motions") else { return Ok(Vec::new()) };
-        let motions = Motions::open(&path, None)?;
-        let middle = (motions.rows() / MOTIONS_IN_GROUP / 2) as usize;
-        let part = motions.parts().nth(middle).or_else(|| motions.parts().next());
-        let some = part.map(|part| motions.read(part?, MOTIONS_IN_GROUP as usize)?.next().transpose());
+        let table = motions::open(&path, None)?;
+        let middle = (table.rows() / MOTIONS_IN_GROUP / 2) as usize;
+        let part = motions::parts(&table).nth(middle).or_else(|| motions::parts(&table).next());
+        let at_once = MOTIONS_IN_GROUP as usize;
+        let some = part.map(|part| motions::read_part(&table, part?, at_once)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
     }
 }

@@ -9,7 +9,7 @@ use super::objects::Object;
 use super::spec::{Place, Restitution, Shape, Spec};
 use crate::paper;
 use crate::pipeline::UsageError;
-use crate::plausibility::is_too_high;
+use crate::plausibility::LEAST_P_RAD_S;
 use crate::rocking::Structure;
 use crate::warning::{Warning, Warnings};
 
@@ -95,6 +95,6 @@ const LOW_ETA: f64 = 0.5;
 
 /// Warnings about the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
-    let size = is_too_high(structure).then_some(Warning::ImplausibleSize);
+    let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
 }
