@@ -184,7 +184,6 @@ fn legend(text: &mut String, figure: &Figure, left: f64) -> f64 {
                 path(text, &[-4.5, 4.5].map(|up| [middle[0], middle[1] + up]), colour, 0.8, Dash::Solid);
                 dots(text, &[middle], 1.8, colour, 1.0);
             }
-            Marks::Bars(_) => rectangle(text, [middle[0] - 4.0, middle[1] - 3.0], [8.0, 6.0], colour),
         }
         label(text, [x + MARK + 3.0, y], LETTERS, "", Ink::Text, &layer.label);
         x += long + BETWEEN;
@@ -287,12 +286,6 @@ fn marks(text: &mut String, layer: &Layer, has_rows: bool, place: impl Fn([f64; 
                 dots(text, &[place([e.x, e.y])], radius, colour, 1.0);
             }
         }
-        Marks::Bars(bars) => {
-            for &[from, to, value] in bars {
-                let ([x0, y0], [x1, y1]) = (place([from, 0.0]), place([to, value]));
-                rectangle(text, [x0, y1], [x1 - x0 - 0.5, y0 - y1], colour);
-            }
-        }
     }
 }
 
@@ -342,14 +335,6 @@ fn path(text: &mut String, places: &[[f64; 2]], colour: &str, width: f64, dash: 
     let _ = writeln!(
         text,
         "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"{dash}/>"
-    );
-}
-
-fn rectangle(text: &mut String, [x, y]: [f64; 2], size: [f64; 2], colour: &str) {
-    let ([x, y], [width, height]) = ([x, y].map(round), size.map(|side| round(side.max(0.0))));
-    let _ = writeln!(
-        text,
-        "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{colour}\" fill-opacity=\"0.6\"/>"
     );
 }
 

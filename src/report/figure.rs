@@ -68,8 +68,6 @@ pub enum Marks {
     },
     /// Values with limits of y, or of x where y is an axis of names.
     Estimates(Vec<Estimate>),
-    /// Bars from 0: first x, last x, height.
-    Bars(Vec<[f64; 3]>),
 }
 
 /// A value with its limits.
@@ -158,8 +156,7 @@ impl Figure {
 }
 
 impl Marks {
-    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. `low` and `high` of a bar
-    /// are its ends.
+    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number.
     pub fn numbers(&self) -> Vec<[f64; 5]> {
         const NONE: f64 = f64::NAN;
         match self {
@@ -169,7 +166,6 @@ impl Marks {
                 points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()
             }
             Marks::Estimates(estimates) => estimates.iter().map(|e| [e.x, e.y, e.low, e.high, e.n]).collect(),
-            Marks::Bars(bars) => bars.iter().map(|&[x0, x1, y]| [0.5 * (x0 + x1), y, x0, x1, NONE]).collect(),
         }
     }
 }
