@@ -132,6 +132,20 @@ impl Layer {
 }
 
 impl Figure {
+    /// Makes a figure of panels, at most `columns` in a row and `height` points high.
+    pub fn new(
+        name: &str,
+        title: &str,
+        caption: impl Into<String>,
+        columns: usize,
+        height: f64,
+        panels: Vec<Panel>,
+    ) -> Figure {
+        let columns = columns.min(panels.len());
+        let [name, title] = [name, title].map(str::to_string);
+        Figure { name, title, caption: caption.into(), columns, height, panels }
+    }
+
     /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
     /// empty.
     pub fn csv(&self) -> Result<String, csv::Error> {
@@ -152,6 +166,12 @@ impl Figure {
         }
         let bytes = writer.into_inner().map_err(|error| error.into_error())?;
         Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+}
+
+impl Panel {
+    pub fn new(title: &str, x: Axis, y: Axis, layers: Vec<Layer>) -> Panel {
+        Panel { title: title.to_string(), x, y, layers, notes: Vec::new() }
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::studies;
+use super::figures::common::label_of_scaled;
 use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
@@ -224,7 +224,7 @@ fn overturned(groups: &[Cases]) -> String {
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
-        Some(fit) => format!("median of the lowest overturning {}", studies::words(fit.measure)),
+        Some(fit) => format!("median of the lowest overturning {}", label_of_scaled(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
