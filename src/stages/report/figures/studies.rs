@@ -42,21 +42,16 @@ pub fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Figure {
 }
 
 fn annual(name: &str, title: &str, label: &str, rates: Vec<(String, Limited)>) -> Figure {
-    let numbers = |limited: Limited| limited.map(|rate| rate.unwrap_or(f64::NAN));
-    let rows: Vec<_> = rates.into_iter().map(|(name, limited)| (name, numbers(limited))).collect();
-    let panel = (!rows.is_empty()).then(|| in_rows("", Axis::log(label), Ink::Data(1), rows));
+    let panel = (!rates.is_empty()).then(|| in_rows("", Axis::log(label), Ink::Data(1), rates));
     let caption = "Annual rates with the 95 % limits of the model.";
     Figure::new(name, title, caption, 1, 0.0, panel.into_iter().collect())
 }
 
 /// Values with their limits, each in a row of its name.
-fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, [f64; 3])>) -> Panel {
-    let estimate = |(row, (_, [x, low, high])): (usize, &(String, [f64; 3]))| Estimate {
-        x: *x,
-        y: row as f64,
-        low: *low,
-        high: *high,
-        n: f64::NAN,
+fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, Limited)>) -> Panel {
+    let estimate = |(row, (_, limited)): (usize, &(String, Limited))| {
+        let [x, low, high] = limited.map(|number| number.unwrap_or(f64::NAN));
+        Estimate { x, y: row as f64, low, high, n: f64::NAN }
     };
     let estimates = Layer::estimates("", ink, rows.iter().enumerate().map(estimate).collect());
     Panel::new(title, x, Axis::names(rows.into_iter().map(|(name, _)| name)), vec![estimates])
@@ -149,7 +144,7 @@ pub fn ranking(sets: &[RankedSet]) -> Figure {
         let planes = if set.form == Form::Biplanar { ", two planes" } else { "" };
         let name = format!("{}{planes}", set.measures.to_uppercase().replace(':', ", "));
         let (x, error) = set.loss.zip(set.loss_error)?;
-        Some((name, [x, x - Z_95 * error, x + Z_95 * error]))
+        Some((name, [x, x - Z_95 * error, x + Z_95 * error].map(Some)))
     };
     let title = |set: &RankedSet| {
         let target = if set.target == Target::Demand { "demand" } else { "overturning" };
