@@ -1,7 +1,5 @@
 //! Units as people write them, and physical constants.
 
-use std::fmt;
-
 /// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;
 
@@ -98,11 +96,5 @@ impl Unit {
             let known = known.collect::<Vec<_>>().join(", ");
             format!("expected a unit of acceleration: {known}")
         })
-    }
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self.name)
     }
 }
