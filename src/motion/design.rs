@@ -54,37 +54,27 @@ impl Grid {
 
     /// Samples a cell in the unit cube. Returns `samples` points.
     pub fn quantiles_of_cell(&self, cell: usize) -> Vec<[f64; DIMENSIONS]> {
-        match self.design {
-            Design::Lhs => self.latin_hypercube(cell),
-            Design::Random => (0..self.samples).map(|sample| self.uniform(cell, sample)).collect(),
+        let uniform = (0..self.samples).map(|sample| {
+            let mut random = stream(self.seed, Purpose::Sample, self.scenario_id(cell, sample));
+            // The quantile of 0 is infinite.
+            std::array::from_fn(|_| random.random::<f64>().max(f64::EPSILON))
+        });
+        if self.design == Design::Random {
+            return uniform.collect();
         }
-    }
-
-    fn latin_hypercube(&self, cell: usize) -> Vec<[f64; DIMENSIONS]> {
         let strata: [Vec<u32>; DIMENSIONS] = std::array::from_fn(|dimension| {
             let mut strata: Vec<u32> = (0..self.samples as u32).collect();
             let row = (cell * DIMENSIONS + dimension) as u64;
             strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
             strata
         });
-        let point = |sample| {
-            let within = self.uniform(cell, sample);
+        let point = |(sample, within): (usize, [f64; DIMENSIONS])| {
             std::array::from_fn(|d| (f64::from(strata[d][sample]) + within[d]) / self.samples as f64)
         };
-        (0..self.samples).map(point).collect()
-    }
-
-    fn uniform(&self, cell: usize, sample: usize) -> [f64; DIMENSIONS] {
-        let mut random = stream(self.seed, Purpose::Sample, self.scenario_id(cell, sample));
-        std::array::from_fn(|_| open_unit(random.random::<f64>()))
+        uniform.enumerate().map(point).collect()
     }
 
     fn scenario_id(&self, cell: usize, sample: usize) -> u64 {
         (cell * self.samples + sample) as u64
     }
-}
-
-/// Moves a uniform number in [0, 1) away from 0, whose quantile is infinite.
-fn open_unit(u: f64) -> f64 {
-    u.max(f64::EPSILON)
 }

@@ -1,6 +1,5 @@
 //! Fourier transforms of real series of even length.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 pub use realfft::num_complex::Complex64;
@@ -39,22 +38,6 @@ impl Transform {
         debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
         let scale = 1.0 / samples.len() as f64;
         samples.iter_mut().for_each(|sample| *sample *= scale);
-    }
-}
-
-/// A cache of values that depend on the length of a series.
-pub struct ByLength<T>(HashMap<usize, Arc<T>>);
-
-impl<T> Default for ByLength<T> {
-    fn default() -> ByLength<T> {
-        ByLength(HashMap::new())
-    }
-}
-
-impl<T> ByLength<T> {
-    /// Returns the value for a length; makes it if it is new.
-    pub fn get(&mut self, length: usize, make: impl FnOnce() -> T) -> Arc<T> {
-        self.0.entry(length).or_insert_with(|| Arc::new(make())).clone()
     }
 }
 

@@ -1,8 +1,9 @@
 //! Intensity measures of a ground acceleration (m/s2).
 
+use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
+use super::fourier::{Complex64, Transform, even_smooth_at_least};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
@@ -59,7 +60,8 @@ pub struct Measured {
 /// Transforms and buffers, reused for each motion.
 #[derive(Default)]
 pub struct MeasureScratch {
-    transforms: ByLength<Transform>,
+    /// By length of series.
+    transforms: HashMap<usize, Transform>,
     spectrum: Vec<Complex64>,
     scratch: Vec<Complex64>,
 }
@@ -156,7 +158,7 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
 pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
-    let transform = scratch.transforms.get(length, || Transform::new(length));
+    let transform = scratch.transforms.entry(length).or_insert_with(|| Transform::new(length));
     let mut samples = acceleration.to_vec();
     samples.resize(length, 0.0);
     transform.forward(&mut samples, &mut scratch.spectrum, &mut scratch.scratch);

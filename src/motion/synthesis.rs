@@ -1,11 +1,12 @@
 //! The synthetic motions of one scenario on one time axis (section 2.1).
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
 
 use super::combine::{Difference, Epoch, combine};
-use super::fourier::{ByLength, Complex64, Transform, even_smooth_at_least};
+use super::fourier::{Complex64, Transform, even_smooth_at_least};
 use super::measures::velocity;
 use super::pulse::Pulse;
 use super::scenario::{Scenario, SyntheticSuite};
@@ -76,7 +77,8 @@ pub struct Synthesizer {
     /// Whether to compute the high frequencies, and the combined motion.
     high_frequency: bool,
     combined: bool,
-    transforms: ByLength<Transform>,
+    /// By length of motion.
+    transforms: HashMap<usize, Arc<Transform>>,
     earthquake: Option<Earthquake>,
     scratch: Vec<Complex64>,
 }
@@ -90,7 +92,7 @@ struct Earthquake {
     /// Window at the samples after its onset.
     weights: Vec<f64>,
     /// Fourier amplitudes (m/s) by length of motion.
-    amplitudes: ByLength<Vec<f64>>,
+    amplitudes: HashMap<usize, Vec<f64>>,
 }
 
 impl Earthquake {
@@ -99,14 +101,14 @@ impl Earthquake {
         let window = Window::new(source.duration_s());
         let samples = (window.duration_s / dt_s).floor() as usize;
         let weights = (1..=samples).map(|k| window.value(k as f64 * dt_s)).collect();
-        Earthquake { mw, re_km, source, window, weights, amplitudes: ByLength::default() }
+        Earthquake { mw, re_km, source, window, weights, amplitudes: HashMap::new() }
     }
 
-    fn amplitudes(&mut self, model: &MotionModel, samples: usize) -> Arc<Vec<f64>> {
+    fn amplitudes(&mut self, model: &MotionModel, samples: usize) -> &[f64] {
         let step_hz = 1.0 / (samples as f64 * model.dt_s);
         let amplitude =
             |k: usize| model.stochastic.fourier_amplitude_cm_s(&self.source, k as f64 * step_hz) / CM_PER_M;
-        self.amplitudes.get(samples, || (0..=samples / 2).map(amplitude).collect())
+        self.amplitudes.entry(samples).or_insert_with(|| (0..=samples / 2).map(amplitude).collect())
     }
 }
 
@@ -125,7 +127,7 @@ impl Synthesizer {
             high_frequency: suites.contains(&SyntheticSuite::Hfc) || model.epoch != Epoch::EnvelopePeak,
             combined: suites.contains(&SyntheticSuite::Csgm),
             model,
-            transforms: ByLength::default(),
+            transforms: HashMap::new(),
             earthquake: None,
             scratch: Vec::new(),
         }
@@ -140,13 +142,14 @@ impl Synthesizer {
         };
         let pulse = Pulse::of(scenario);
         let timeline = self.timeline(&earthquake.window, &pulse);
-        let transform = self.transforms.get(timeline.samples, || Transform::new(timeline.samples));
+        let transform = self.transforms.entry(timeline.samples);
+        let transform = transform.or_insert_with(|| Arc::new(Transform::new(timeline.samples))).clone();
         let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
             let mut noise = self.windowed_noise(scenario, &earthquake.weights, &timeline);
             transform.forward(&mut noise, &mut spectrum, &mut self.scratch);
-            shape_noise(&mut spectrum, &earthquake.amplitudes(&self.model, timeline.samples), made.dt_s);
+            shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, timeline.samples), made.dt_s);
             if self.high_frequency {
                 transform.inverse(&mut spectrum.clone(), &mut noise, &mut self.scratch);
                 made.high_frequency = noise;

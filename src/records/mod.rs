@@ -20,5 +20,5 @@ mod recorded_motion;
 pub mod rotation;
 pub mod signal;
 
-pub use formats::{Format, RecordFileError, read_records};
-pub use recorded_motion::{HeaderPga, ReadOptions, RecordedMotion};
+pub use formats::{RecordFileError, read_records};
+pub use recorded_motion::{Format, HeaderPga, ReadOptions, RecordedMotion};

@@ -5,17 +5,10 @@ use std::collections::HashMap;
 use super::RecordedMotion;
 use super::rotation::HorizontalPair;
 
-/// The pairs among components; `T` identifies a component.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Pairs<T> {
-    /// In the order of their first components.
-    pub pairs: Vec<[T; 2]>,
-    /// Components that are vertical, of unknown origin, or without a partner.
-    pub left_out: Vec<T>,
-}
-
-/// Pairs each component with the first free earlier one of its event, station and time step at right angles.
-pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> Pairs<T> {
+/// Pairs each component with the first free earlier one of its event, station and time step at right angles;
+/// `T` identifies a component. Returns the pairs in the order of their first components, and the components
+/// left out: vertical, of unknown origin, or without a partner.
+pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> (Vec<[T; 2]>, Vec<T>) {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();
     for (place, (motion, _)) in components.iter().enumerate() {
@@ -31,5 +24,5 @@ pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> Pairs<T> {
     let mut left: Vec<Option<T>> = components.into_iter().map(|(_, component)| Some(component)).collect();
     let both = |[first, second]: [usize; 2]| Some([left[first].take()?, left[second].take()?]);
     let pairs = found.into_iter().filter_map(both).collect();
-    Pairs { pairs, left_out: left.into_iter().flatten().collect() }
+    (pairs, left.into_iter().flatten().collect())
 }

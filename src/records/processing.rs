@@ -4,7 +4,7 @@ use super::RecordedMotion;
 use super::plausibility::{self, Implausibility};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
-use super::signal::{Baseline, HighPass, Scaling, resample, resampled_length};
+use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite, measures};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -77,16 +77,6 @@ pub struct ImportedMotion {
     pub pulse: Option<FittedPulse>,
 }
 
-impl ImportedMotion {
-    /// Joins earthquake, station and component; `None` if the file has none of them.
-    pub fn name(&self) -> Option<String> {
-        let RecordedMotion { event, station, component, .. } = &self.record;
-        let parts: Vec<&str> =
-            [event, station, component].into_iter().flatten().map(String::as_str).collect();
-        (!parts.is_empty()).then(|| parts.join(", "))
-    }
-}
-
 keywords! {
     /// Whether to search for pulses.
     pub enum PulseSearch {
@@ -97,22 +87,13 @@ keywords! {
     }
 }
 
-/// Treatment of implausible motions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Implausible {
-    /// They are errors.
-    Refuse,
-    /// They are imported with a warning.
-    Accept,
-}
-
 /// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Processing {
     /// Baseline that is removed.
     pub baseline: Baseline,
-    /// High-pass filter.
-    pub high_pass: Option<HighPass>,
+    /// Corner of a high-pass filter, Hz.
+    pub high_pass_hz: Option<f64>,
     /// Another time step, s.
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
@@ -123,8 +104,8 @@ pub struct Processing {
     pub pulses: PulseSearch,
     /// Whether to add motions without their pulses.
     pub residual: bool,
-    /// What happens to implausible motions.
-    pub implausible: Implausible,
+    /// Whether implausible motions are imported, with a warning, or are errors.
+    pub accept_implausible: bool,
     /// The measures of the result.
     pub plan: MeasurePlan,
 }
@@ -154,16 +135,16 @@ impl Processing {
     ) -> Result<(NamedRecord, Option<Implausibility>), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
-        let nyquist_hz = 0.5 / motion.dt_s;
-        if let Some(HighPass { corner_hz }) = self.high_pass.filter(|filter| filter.corner_hz >= nyquist_hz) {
-            return Err(ProcessingError::Corner { corner_hz, nyquist_hz });
-        }
-        if let Some(high_pass) = self.high_pass {
-            high_pass.apply(&mut motion.acceleration_m_s2, motion.dt_s);
+        if let Some(corner_hz) = self.high_pass_hz {
+            let nyquist_hz = 0.5 / motion.dt_s;
+            if corner_hz >= nyquist_hz {
+                return Err(ProcessingError::Corner { corner_hz, nyquist_hz });
+            }
+            high_pass(&mut motion.acceleration_m_s2, motion.dt_s, corner_hz);
         }
         let warning = plausibility::implausibility(&motion.acceleration_m_s2, motion.dt_s);
         if let Some(warning) = warning.filter(Implausibility::is_impossible)
-            && self.implausible == Implausible::Refuse
+            && !self.accept_implausible
         {
             return Err(ProcessingError::Implausible(warning));
         }
@@ -244,7 +225,7 @@ impl Processing {
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured.measures;
             let pga_g = pga_m_s2 / G_M_S2;
             let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
-            if scale != 1.0 && is_too_strong && self.implausible == Implausible::Refuse {
+            if scale != 1.0 && is_too_strong && !self.accept_implausible {
                 return Err(ProcessingError::Scaled { scale, pga_g, pgv_m_s });
             }
             let residual = scaled.pulse.filter(|_| self.residual).map(|pulse| self.residual(&scaled, pulse));

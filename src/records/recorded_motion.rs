@@ -1,8 +1,10 @@
 //! A record as in its file, and options for reading files.
 
-use super::formats::Format;
-use crate::keyword::Keyword;
+use crate::keyword::{Keyword, keywords};
 use crate::units::Unit;
+
+/// Words for a vertical component, in capitals.
+const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "DWN"];
 
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,12 +50,7 @@ impl RecordedMotion {
             unit,
         }
     }
-}
 
-/// Words for a vertical component, in capitals.
-const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "DWN"];
-
-impl RecordedMotion {
     /// Whether the component of a network's file is vertical, by its name or, as in HNZ, the last letter of
     /// its channel code. Columns of CSV are what the user has chosen.
     pub fn is_vertical(&self) -> bool {
@@ -72,6 +69,22 @@ pub struct HeaderPga {
     pub m_s2: f64,
     /// Half a unit of its last digit, m/s2.
     pub rounding_m_s2: f64,
+}
+
+keywords! {
+    /// A text format, in order of detection.
+    pub enum Format {
+        /// COSMOS V1 and V2.
+        Cosmos = "cosmos",
+        /// K-NET and KiK-net.
+        Knet = "knet",
+        /// Engineering Strong Motion database.
+        Esm = "esm",
+        /// PEER's AT2.
+        PeerAt2 = "at2",
+        /// Columns of a table.
+        Csv = "csv",
+    }
 }
 
 /// Options for reading files.

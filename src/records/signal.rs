@@ -51,38 +51,28 @@ impl Baseline {
     }
 }
 
-/// A zero-phase Butterworth high-pass of order 4, forward and backward, applied to the Fourier coefficients:
-/// the gain is 1 / (1 + (fc/f)^8). The record is padded with zeros on both sides by 1.5 n / fc (Boore 2005,
-/// "On pads and filters"), and keeps its length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HighPass {
-    /// Corner frequency fc, Hz; the gain there is one half.
-    pub corner_hz: f64,
-}
-
-impl HighPass {
-    /// Filters an acceleration at steps of `dt_s` in place.
-    pub fn apply(&self, samples: &mut [f64], dt_s: f64) {
-        let record = samples.len();
-        // Ringing time of the filter (Boore 2005).
-        let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (self.corner_hz * dt_s);
-        let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
-        let length = even_smooth_at_least(record + 2 * pad);
-        let transform = Transform::new(length);
-        let mut padded = vec![0.0; length];
-        padded[pad..pad + record].copy_from_slice(samples);
-        let (mut spectrum, mut scratch) = (Vec::new(), Vec::new());
-        transform.forward(&mut padded, &mut spectrum, &mut scratch);
-        for (k, coefficient) in spectrum.iter_mut().enumerate() {
-            *coefficient *= self.gain(k as f64 / (length as f64 * dt_s));
-        }
-        transform.inverse(&mut spectrum, &mut padded, &mut scratch);
-        samples.copy_from_slice(&padded[pad..pad + record]);
+/// Filters an acceleration at steps of `dt_s` in place by a zero-phase Butterworth high-pass of order 4,
+/// forward and backward, applied to the Fourier coefficients: the gain is 1 / (1 + (fc/f)^8), one half at the
+/// corner fc (Hz). The record is padded with zeros on both sides by 1.5 n / fc (Boore 2005, "On pads and
+/// filters"), and keeps its length.
+pub fn high_pass(samples: &mut [f64], dt_s: f64, corner_hz: f64) {
+    let record = samples.len();
+    // Ringing time of the filter (Boore 2005).
+    let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (corner_hz * dt_s);
+    let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
+    let length = even_smooth_at_least(record + 2 * pad);
+    let transform = Transform::new(length);
+    let mut padded = vec![0.0; length];
+    padded[pad..pad + record].copy_from_slice(samples);
+    let (mut spectrum, mut scratch) = (Vec::new(), Vec::new());
+    transform.forward(&mut padded, &mut spectrum, &mut scratch);
+    for (k, coefficient) in spectrum.iter_mut().enumerate() {
+        // No gain at 0 Hz, where fc/f is infinite.
+        let f = k as f64 / (length as f64 * dt_s);
+        *coefficient *= 1.0 / (1.0 + (corner_hz / f).powi(2 * HIGH_PASS_ORDER));
     }
-
-    fn gain(&self, f: f64) -> f64 {
-        if f > 0.0 { 1.0 / (1.0 + (self.corner_hz / f).powi(2 * HIGH_PASS_ORDER)) } else { 0.0 }
-    }
+    transform.inverse(&mut spectrum, &mut padded, &mut scratch);
+    samples.copy_from_slice(&padded[pad..pad + record]);
 }
 
 /// Computes the number of samples of a resampled record.

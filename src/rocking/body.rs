@@ -16,14 +16,6 @@ pub struct Body {
     pub inertia_m2: f64,
 }
 
-/// What turns about one edge.
-struct Side {
-    /// From the edge to the centre of mass, m.
-    radius_m: f64,
-    /// Angle of that line from the vertical, rad.
-    alpha_rad: f64,
-}
-
 impl Body {
     /// Moment of inertia over mass of a solid rectangle, m2: (w^2 + h^2)/12.
     pub fn solid_inertia_m2(width_m: f64, height_m: f64) -> f64 {
@@ -36,25 +28,23 @@ impl Body {
         Body { width_m, centre_height_m: 0.5 * height_m, centre_offset_m: 0.0, inertia_m2 }
     }
 
-    /// The sides: the weaker, to which the centre of mass is nearer, and the other.
-    fn sides(&self) -> [Side; 2] {
+    /// The lines from either edge to the centre of mass, of the weaker side, to which it is nearer, first:
+    /// length R (m) and angle alpha from the vertical (rad).
+    fn sides(&self) -> [(f64, f64); 2] {
         [-1.0, 1.0].map(|sign| {
             let distance = 0.5 * self.width_m + sign * self.centre_offset_m.abs();
-            Side {
-                radius_m: distance.hypot(self.centre_height_m),
-                alpha_rad: (distance / self.centre_height_m).atan(),
-            }
+            (distance.hypot(self.centre_height_m), (distance / self.centre_height_m).atan())
         })
     }
 
     /// Slenderness of the weaker side, rad: atan((b - e)/h).
     pub fn alpha_rad(&self) -> f64 {
-        self.sides()[0].alpha_rad
+        self.sides()[0].1
     }
 
     /// Frequency parameter of the weaker side, rad/s: sqrt(g R/(I/m + R^2)).
     pub fn p_rad_s(&self) -> f64 {
-        let radius_m = self.sides()[0].radius_m;
+        let radius_m = self.sides()[0].0;
         (G_M_S2 * radius_m / (self.inertia_m2 + radius_m * radius_m)).sqrt()
     }
 
@@ -62,11 +52,10 @@ impl Body {
     /// conservation of angular momentum about the new one,
     /// (I/m + R_i R_j cos(alpha_i + alpha_j))/(I/m + R_j^2). Not above 0 where an impact stops the body.
     pub fn eta(&self) -> f64 {
-        let [weak, strong] = self.sides();
-        let common =
-            self.inertia_m2 + weak.radius_m * strong.radius_m * (weak.alpha_rad + strong.alpha_rad).cos();
-        let about = |side: &Side| self.inertia_m2 + side.radius_m * side.radius_m;
-        common / (about(&weak) * about(&strong)).sqrt()
+        let [(weak_r, weak_alpha), (strong_r, strong_alpha)] = self.sides();
+        let common = self.inertia_m2 + weak_r * strong_r * (weak_alpha + strong_alpha).cos();
+        let about = |radius: f64| self.inertia_m2 + radius * radius;
+        common / (about(weak_r) * about(strong_r)).sqrt()
     }
 
     /// The structure that rocks as it does: of its weaker side, with its own restitution or `eta`.

@@ -29,8 +29,10 @@ const ROUNDING: f64 = 1.0 + 1e-12;
 /// rocks, and halved further where the outcome changes or a peak may graze the tipping point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
-    levels: Vec<f64>,
-    ratio: f64,
+    /// Intensities at which every case is simulated, ascending.
+    pub levels: Vec<f64>,
+    /// Ratio of neighbouring levels.
+    pub ratio: f64,
 }
 
 /// The response at one intensity.
@@ -61,21 +63,6 @@ impl Scan {
         }
     }
 
-    /// Returns the lowest intensity.
-    pub fn lowest(&self) -> f64 {
-        self.levels[0]
-    }
-
-    /// Returns the highest intensity.
-    pub fn highest(&self) -> f64 {
-        self.levels[self.levels.len() - 1]
-    }
-
-    /// Returns the ratio of neighbouring levels.
-    pub fn ratio(&self) -> f64 {
-        self.ratio
-    }
-
     /// Returns the resolution: the ratio of neighbouring intensities simulated wherever a case rocks.
     /// Narrower overturning ranges may be missed; narrower safe windows do not count.
     pub fn finest_ratio(&self) -> f64 {
@@ -84,11 +71,6 @@ impl Scan {
 
     fn ratio_after(&self, halvings: i32) -> f64 {
         self.ratio.powf(0.5_f64.powi(halvings))
-    }
-
-    /// Returns the intensities at which every case is simulated, ascending.
-    pub fn levels(&self) -> &[f64] {
-        &self.levels
     }
 
     /// Simulates all cases at as many intensities as needed, in rounds. `respond` simulates the points of a

@@ -123,7 +123,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
         }
         for lane in each(events.rested) {
             if !self.leave_rest(lane) {
-                self.finish(lane, Tail::Settles { peak: 0.0 });
+                self.finish(lane, Tail::Settles(0.0));
             }
         }
     }

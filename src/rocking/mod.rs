@@ -14,7 +14,6 @@
 //! polynomial   roots of one lane's polynomial, by Bernstein coefficients
 //! response     outcome, demand (Eq. 7), and free rocking after the record in closed form
 //! batch        many structures and records; a lane that is done takes the next
-//! trace        one response over time: rotation, velocity, events
 //! incremental  one motion at rising intensity: where a structure overturns, and where it is safe again
 //! ```
 
@@ -30,7 +29,6 @@ mod roots;
 mod step;
 mod structure;
 mod taylor;
-mod trace;
 mod uplift;
 mod vector;
 
@@ -39,7 +37,6 @@ pub use body::Body;
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
 pub use lanes::Problem;
 pub use record::{Record, RecordError};
-pub use reference::trace;
+pub use reference::{SolverEvent, TracePoint, trace, with_tail};
 pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};
-pub use trace::{SolverEvent, TracePoint, with_tail};

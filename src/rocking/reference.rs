@@ -9,8 +9,8 @@ use super::record::Record;
 use super::response::{Response, Tail, free_rocking};
 use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
-use super::trace::{SolverEvent, TracePoint};
 use super::uplift::Uplift;
+use crate::keyword::keywords;
 use crate::statistics::numerics::first;
 use crate::units::G_PER_M_S2;
 
@@ -58,6 +58,33 @@ fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f6
     let k4 = acceleration(h, theta + h * velocity + 0.5 * h * h * k2);
     let theta = theta + h * velocity + h * h / 6.0 * (k1 + k2 + k3);
     Rocking { side, theta, velocity: velocity + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4) }
+}
+
+keywords! {
+    /// An event of a rocking structure in the solver.
+    pub enum SolverEvent {
+        /// The structure leaves its base.
+        Uplift = "uplift",
+        /// It strikes its base and continues on the other side.
+        Impact = "impact",
+        /// It comes to rest.
+        Rest = "rest",
+        /// Its rotation reaches pi/2.
+        Overturn = "overturn",
+    }
+}
+
+/// A point of a traced response: a sample of the record, or an event between two samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracePoint {
+    /// Time from the start of the record, s.
+    pub time_s: f64,
+    /// Rotation theta, rad.
+    pub theta_rad: f64,
+    /// Angular velocity, rad/s; after an impact, if there is one.
+    pub theta_dot_rad_s: f64,
+    /// Event; none at a sample of the record.
+    pub solver_event: Option<SolverEvent>,
 }
 
 /// Simulates a structure, initially at rest, through a record and the free rocking after it. Calls `observe`
@@ -120,9 +147,15 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
 }
 
 /// Simulates as [`solve`] and returns the rotation at each sample and event. The record ends with its last
-/// sample; [`with_tail`](super::with_tail) appends quiet time for free rocking.
+/// sample; [`with_tail`] appends quiet time for free rocking.
 pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoint>) {
     let mut points = Vec::new();
     let response = solve(structure, record, |point| points.push(point));
     (response, points)
+}
+
+/// Appends `tail_s` seconds of zeros to a record, for free rocking. Returns the samples, m/s2.
+pub fn with_tail(record: &Record, tail_s: f64) -> Vec<f64> {
+    let quiet = (tail_s / record.dt_s()).ceil() as usize;
+    [record.acceleration_m_s2(), &vec![0.0; quiet]].concat()
 }

@@ -37,7 +37,7 @@ impl Response {
     pub(super) fn of_rocking(tail: Tail, peak: f64, alpha: f64, impacts: u32) -> Response {
         let (outcome, peak) = match tail {
             Tail::Overturns => (Outcome::Overturning, FRAC_PI_2),
-            Tail::Settles { peak: later } => (Outcome::SafeRocking, peak.max(later)),
+            Tail::Settles(later) => (Outcome::SafeRocking, peak.max(later)),
         };
         Response { outcome, edp: peak / alpha, impacts }
     }
@@ -47,10 +47,8 @@ impl Response {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tail {
     Overturns,
-    /// It comes to rest; `peak` is the largest later rotation, rad.
-    Settles {
-        peak: f64,
-    },
+    /// It comes to rest, after this largest rotation, rad.
+    Settles(f64),
 }
 
 /// Finds the end of free rocking by energy, for a structure of slenderness `alpha` (rad) and restitution
@@ -65,20 +63,14 @@ pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Tail {
     // Energy above rest: cos(alpha - r) - cos(alpha), without cancellation.
     let potential = 2.0 * (alpha - 0.5 * rotation).sin() * (0.5 * rotation).sin();
     let energy = kinetic + potential;
-    let escapes = energy > barrier(alpha);
+    let escapes = |energy: f64| energy > barrier(alpha);
     // Beyond the tipping point it overturns, unless it moves back with enough energy to pass that point.
-    if rotation > alpha && (velocity >= 0.0 || !escapes) {
+    if rotation > alpha && (velocity >= 0.0 || !escapes(energy)) {
         return Tail::Overturns;
     }
-    if velocity >= 0.0 {
-        return if escapes { Tail::Overturns } else { Tail::Settles { peak: peak(energy, alpha) } };
-    }
-    // It returns to its base; the energy after the impact decides.
-    let energy_after_impact = eta * eta * energy;
-    if energy_after_impact > barrier(alpha) {
-        return Tail::Overturns;
-    }
-    Tail::Settles { peak: peak(energy_after_impact, alpha) }
+    // If it moves back to its base, the energy after the impact decides.
+    let energy = if velocity >= 0.0 { energy } else { eta * eta * energy };
+    if escapes(energy) { Tail::Overturns } else { Tail::Settles(peak(energy, alpha)) }
 }
 
 /// Computes the energy from rest to the tipping point: 1 - cos(alpha).

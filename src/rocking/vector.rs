@@ -98,18 +98,14 @@ impl<S: Simd> Vector<S> {
 
     #[inline(always)]
     pub fn lt(self, other: Vector<S>) -> Mask<S> {
-        Mask {
-            simd: self.simd,
-            registers: in_each!(k: self.simd.less_than_f64s(self.registers[k], other.registers[k])),
-        }
+        let (simd, a, b) = (self.simd, self.registers, other.registers);
+        Mask { simd, registers: in_each!(k: simd.less_than_f64s(a[k], b[k])) }
     }
 
     #[inline(always)]
     pub fn le(self, other: Vector<S>) -> Mask<S> {
-        Mask {
-            simd: self.simd,
-            registers: in_each!(k: self.simd.less_than_or_equal_f64s(self.registers[k], other.registers[k])),
-        }
+        let (simd, a, b) = (self.simd, self.registers, other.registers);
+        Mask { simd, registers: in_each!(k: simd.less_than_or_equal_f64s(a[k], b[k])) }
     }
 }
 

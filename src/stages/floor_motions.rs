@@ -76,7 +76,10 @@ impl Stage for FloorMotions {
                 TableError::table(&self.input, "motions of a floor; expected those of the ground").into()
             );
         }
-        let plan = measures_of(table.schema());
+        let schema = table.schema();
+        let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
+        let housner = schema.index_of("housner_m").is_ok();
+        let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
         let schema = self.filter(&none, &[], &plan, &mut MeasureScratch::default())?.schema();
@@ -126,15 +129,12 @@ impl FloorMotions {
             measured.push(plan.measure(&written, dt_s, scratch));
             filtered.push(of_floor);
         }
-        let suites = ground.texts("suite")?;
-        let floors: Vec<FloorRow> = suites
-            .into_iter()
-            .map(|suite| FloorRow {
-                suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::OF_FLOOR,
-                floor_period_s: self.period,
-                floor_level: self.level,
-            })
-            .collect();
+        let floor_row = |suite: Option<Cow<str>>| FloorRow {
+            suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::OF_FLOOR,
+            floor_period_s: self.period,
+            floor_level: self.level,
+        };
+        let floors: Vec<FloorRow> = ground.texts("suite")?.into_iter().map(floor_row).collect();
         let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
         let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
         if plan.housner {
@@ -145,12 +145,6 @@ impl FloorMotions {
         let sa: Vec<&[f64]> = measured.iter().map(|of| of.sa_m_s2.as_slice()).collect();
         batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
     }
-}
-
-/// The measures of a motions file besides those of every motion.
-fn measures_of(schema: &Schema) -> MeasurePlan {
-    let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
-    MeasurePlan { housner: schema.index_of("housner_m").is_ok(), sa_periods_s: periods.collect() }
 }
 
 /// All columns that are neither the suite nor samples nor measures of them, with unit and meaning.
@@ -166,11 +160,7 @@ fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let kept: Vec<usize> =
         (0..schema.fields().len()).filter(|&at| !is_measure(schema.field(at).name())).collect();
     let rows = rows.project(&kept)?;
-    let fields = rows
-        .schema()
-        .fields()
-        .iter()
-        .map(|field| dictionary::with_meaning(field.as_ref().clone()))
-        .collect::<Vec<_>>();
-    Ok(rows.with_schema(Schema::new(fields).into())?)
+    let schema = rows.schema();
+    let fields = schema.fields().iter().map(|field| dictionary::with_meaning(field.as_ref().clone()));
+    Ok(rows.with_schema(Schema::new(fields.collect::<Vec<_>>()).into())?)
 }

@@ -14,7 +14,7 @@ use super::shared::structures::StructureArgs;
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
-use crate::number::{THREE_DIGITS, counted, fixed, significant};
+use crate::number::{Limited, THREE_DIGITS, counted, fixed, significant};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
@@ -22,8 +22,7 @@ use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{
-    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
-    simulate_all,
+    CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
 };
 use crate::statistics::FitStatus;
 use crate::table::TableError;
@@ -116,12 +115,8 @@ pub struct CapacityFitRow {
     pub n: i64,
     pub n_safe: i64,
     pub n_below: i64,
-    pub theta: Option<f64>,
-    pub theta_low: Option<f64>,
-    pub theta_high: Option<f64>,
-    pub beta: Option<f64>,
-    pub beta_low: Option<f64>,
-    pub beta_high: Option<f64>,
+    pub theta: Limited,
+    pub beta: Limited,
     pub status: FitStatus,
 }
 
@@ -201,7 +196,8 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let fits = fits(&capacities, &scan)?;
+        let groups = frame::groups(capacities.iter().map(CapacityRow::group))?;
+        let fits: Vec<_> = groups.iter().map(|rows| self.fit(&capacities, rows)).collect();
         context.warn(ends_early(&fits));
         let summary = summary(&fits, &self.out);
         context.finish(stripes, &summary)?;
@@ -241,47 +237,74 @@ impl Ida {
             }
         }
         let scans = scan.run(cases.len(), |points| respond(&cases, points))?;
-        let (mut responses, mut measured, mut stripes) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut responses, mut measured) = (Vec::new(), Vec::new());
+        let (mut stripes, mut capacities) = (Vec::new(), Vec::new());
         for (case, scanned) in cases.iter().zip(&scans) {
+            let capacity = scan.capacity(scanned);
+            capacities.push(CapacityRow {
+                motion_id: case.motion.motion_id.clone(),
+                suite: case.motion.suite.clone(),
+                earthquake: case.motion.earthquake.clone(),
+                structure: case.structure.name.clone(),
+                measure: self.measure,
+                unscaled: case.unscaled,
+                capacity: capacity.status,
+                safe_below: capacity.safe_below,
+                overturning_intensity: capacity.overturning,
+                safe_up_to: capacity.safe_up_to,
+            });
             let shares = scan.overturning_shares(scanned).into_iter().map(Some).chain([None]);
             let is_level = |at: &&ScanResponse| {
-                scan.levels().binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok()
+                scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok()
             };
             for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
                 let scale = at.intensity / case.unscaled;
                 let measures = case.measures.scaled(scale);
                 responses.push(measures.response_row(case.motion, case.structure, at.response));
                 measured.push(measures.of_structure(case.structure));
-                stripes.push(StripeRow {
-                    measure: self.measure,
-                    intensity: at.intensity,
-                    scale,
-                    overturning_above,
-                });
+                let (measure, intensity) = (self.measure, at.intensity);
+                stripes.push(StripeRow { measure, intensity, scale, overturning_above });
             }
         }
-        let capacities =
-            cases.iter().zip(&scans).map(|(case, scanned)| self.capacity(case, &scan.capacity(scanned)));
         Ok(Analysed {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             stripes: stripes_of(&responses, &measured, &stripes)?,
-            capacities: capacities.collect(),
+            capacities,
             warnings: warned,
         })
     }
 
-    fn capacity(&self, case: &Case, capacity: &Capacity) -> CapacityRow {
-        CapacityRow {
-            motion_id: case.motion.motion_id.clone(),
-            suite: case.motion.suite.clone(),
-            earthquake: case.motion.earthquake.clone(),
-            structure: case.structure.name.clone(),
-            measure: self.measure,
-            unscaled: case.unscaled,
-            capacity: capacity.status,
-            safe_below: capacity.safe_below,
-            overturning_intensity: capacity.overturning,
-            safe_up_to: capacity.safe_up_to,
+    /// The lognormal distribution of the capacities of a suite and structure, which are these rows.
+    fn fit(&self, capacities: &[CapacityRow], rows: &[usize]) -> CapacityFitRow {
+        let rows: Vec<&CapacityRow> = rows.iter().map(|&row| &capacities[row]).collect();
+        let known = |row: &&CapacityRow| match (row.capacity, row.overturning_intensity) {
+            (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
+            (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
+            _ => KnownCapacity::Above(self.to),
+        };
+        // Motions of one earthquake are one cluster, those of an unknown one each its own.
+        let mut numbers: HashMap<&str, u32> = HashMap::new();
+        let clusters = rows.iter().map(|row| {
+            let name = row.earthquake.as_deref().unwrap_or(&row.motion_id);
+            let next = numbers.len() as u32;
+            *numbers.entry(name).or_insert(next)
+        });
+        let clusters: Vec<u32> = clusters.collect();
+        let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
+        let of = |limited: fn(&CapacityFit) -> [f64; 3]| {
+            fit.as_ref().map_or([None; 3], |fit| limited(fit).map(Some))
+        };
+        let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
+        CapacityFitRow {
+            suite: rows[0].suite.clone(),
+            structure: rows[0].structure.clone(),
+            measure: rows[0].measure,
+            n: rows.len() as i64,
+            n_safe: count(CapacityStatus::Safe),
+            n_below: count(CapacityStatus::Below),
+            theta: of(|fit| [fit.theta, fit.theta_low, fit.theta_high]),
+            beta: of(|fit| [fit.beta, fit.beta_low, fit.beta_high]),
+            status: fit.err().unwrap_or(FitStatus::Ok),
         }
     }
 }
@@ -335,8 +358,11 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
             held <= MOST_SAMPLES
         };
         let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
-        let scaled: Vec<Vec<f64>> =
-            block.iter().map(|point| cases[point.case].scaled(point.intensity)).collect();
+        let scaled = |point: &ScanPoint| {
+            let Case { motion, unscaled, .. } = cases[point.case];
+            motion.acceleration_m_s2.iter().map(|sample| point.intensity / unscaled * sample).collect()
+        };
+        let scaled: Vec<Vec<f64>> = block.iter().map(scaled).collect();
         let problems = block.iter().zip(&scaled).map(|(point, samples)| {
             let Case { path, motion, structure, .. } = cases[point.case];
             let record = Record::new(samples, motion.dt_s);
@@ -351,64 +377,15 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
     Ok(responses)
 }
 
-impl Case<'_> {
-    fn scaled(&self, intensity: f64) -> Vec<f64> {
-        self.motion.acceleration_m_s2.iter().map(|sample| intensity / self.unscaled * sample).collect()
-    }
-}
-
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
     let problem = format!("motion '{}': {problem}", motion.motion_id);
     TableError::value(path, motion.row, ACCELERATION, problem)
 }
 
-/// The lognormal distribution of the capacities of each suite and structure.
-fn fits(capacities: &[CapacityRow], scan: &Scan) -> anyhow::Result<Vec<CapacityFitRow>> {
-    let of = |rows: Vec<usize>| {
-        let rows: Vec<&CapacityRow> = rows.into_iter().map(|row| &capacities[row]).collect();
-        fit(&rows, scan)
-    };
-    Ok(frame::groups(capacities.iter().map(CapacityRow::group))?.into_iter().map(of).collect())
-}
-
-fn fit<'a>(rows: &[&'a CapacityRow], scan: &Scan) -> CapacityFitRow {
-    let known = |row: &&CapacityRow| match (row.capacity, row.overturning_intensity) {
-        (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
-        (CapacityStatus::Below, _) => KnownCapacity::Below(scan.lowest()),
-        _ => KnownCapacity::Above(scan.highest()),
-    };
-    // Motions of one earthquake are one cluster, those of an unknown one each its own.
-    let mut numbers: HashMap<&str, u32> = HashMap::new();
-    let cluster = |row: &&'a CapacityRow| {
-        let name = row.earthquake.as_deref().unwrap_or(&row.motion_id);
-        let next = numbers.len() as u32;
-        *numbers.entry(name).or_insert(next)
-    };
-    let clusters: Vec<u32> = rows.iter().map(cluster).collect();
-    let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
-    let of = |value: fn(&CapacityFit) -> f64| fit.as_ref().ok().map(value);
-    let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
-    CapacityFitRow {
-        suite: rows[0].suite.clone(),
-        structure: rows[0].structure.clone(),
-        measure: rows[0].measure,
-        n: rows.len() as i64,
-        n_safe: count(CapacityStatus::Safe),
-        n_below: count(CapacityStatus::Below),
-        theta: of(|fit| fit.theta),
-        theta_low: of(|fit| fit.theta_low),
-        theta_high: of(|fit| fit.theta_high),
-        beta: of(|fit| fit.beta),
-        beta_low: of(|fit| fit.beta_low),
-        beta_high: of(|fit| fit.beta_high),
-        status: fit.err().unwrap_or(FitStatus::Ok),
-    }
-}
-
 /// Of the structures that half of the motions or more do not overturn, or overturn at the first intensity, so
 /// that there is no median.
 fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
-    let early = fits.iter().filter(|row| row.theta.is_none() && 2 * row.n_safe >= row.n);
+    let early = fits.iter().filter(|row| row.theta[0].is_none() && 2 * row.n_safe >= row.n);
     let late = fits.iter().filter(|row| 2 * row.n_below >= row.n);
     let late = late.map(|row| (Warning::ScanStartsLate, row.structure.clone()));
     early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
@@ -418,16 +395,17 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {
-        fits.sort_by(|a, b| a.theta.unwrap_or(f64::INFINITY).total_cmp(&b.theta.unwrap_or(f64::INFINITY)));
+        let theta = |row: &CapacityFitRow| row.theta[0].unwrap_or(f64::INFINITY);
+        fits.sort_by(|a, b| theta(a).total_cmp(&theta(b)));
     }
     let line = |row: &&CapacityFitRow| {
         let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({suite})"));
         let name = format!("{}{suite}", row.structure);
         let (name_of_measure, unit) = row.measure.words();
-        match (row.theta, row.beta) {
+        match (row.theta[0], row.beta[0]) {
             (Some(theta), Some(beta)) => {
                 let median = significant(theta, 3);
-                let limits = THREE_DIGITS.limits([row.theta, row.theta_low, row.theta_high], "95 % limits ");
+                let limits = THREE_DIGITS.limits(row.theta, "95 % limits ");
                 let beta = fixed(beta, 2);
                 format!(
                     "{name}: median of the lowest {name_of_measure} that overturns it {median}{unit} {limits}, dispersion {beta}\n"

@@ -31,7 +31,7 @@ const UNITS: [(&str, Dimension); 4] = [
     ("_s", Dimension::Duration),
 ];
 /// Sets that are printed of each target.
-const SHOWN: usize = 5;
+const SHOWN: i64 = 5;
 
 /// Rank intensity measures, singly and in sets, by how well they predict held-out cells or earthquakes
 #[derive(Debug, Args)]
@@ -102,13 +102,8 @@ impl Stage for RankIms {
 
 /// The first sets of each suite, structure and target.
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
-    let frame = frame::of_batch(&rows::batch(sets)?)?;
-    let is_shown = frame
-        .column("rank")?
-        .i64()?
-        .iter()
-        .map(|rank| rank.is_some_and(|rank| rank <= SHOWN as i64))
-        .collect();
+    let shown: Vec<&RankedSet> = sets.iter().filter(|set| set.rank <= SHOWN).collect();
+    let frame = frame::of_batch(&rows::batch_of::<RankedSet, _>(&shown)?)?;
     let columns = [
         "suite",
         "structure",
@@ -123,9 +118,7 @@ fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
         "status",
     ];
     let order = SortMultipleOptions::default().with_maintain_order(true);
-    let shown =
-        frame.filter(&is_shown)?.select(columns)?.sort(["suite", "structure", "target", "rank"], order)?;
-    Ok(frame::text(&shown))
+    Ok(frame::text(&frame.select(columns)?.sort(["suite", "structure", "target", "rank"], order)?))
 }
 
 /// A line on the measures that some cases lack.

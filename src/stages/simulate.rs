@@ -1,6 +1,5 @@
 //! simulate: every structure through every motion.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
@@ -69,8 +68,8 @@ impl Stage for Simulate {
         let motions = motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
-        let (mut ids, mut overturned, mut traces) =
-            (DistinctIds::default(), Overturned::default(), Vec::new());
+        let (mut ids, mut traces) = (DistinctIds::default(), Vec::new());
+        let mut overturning = vec![Overturning::default(); structures.len()];
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
@@ -87,7 +86,13 @@ impl Stage for Simulate {
             |responded| {
                 for some in responded.into_iter().flatten() {
                     ids.add(&self.input, some.motion_ids)?;
-                    overturned.extend(some.overturned);
+                    for (structure, motion) in some.overturned {
+                        let (count, named) = &mut overturning[structure];
+                        *count += 1;
+                        if *count <= NAMED {
+                            named.push(motion);
+                        }
+                    }
                     context.warn(some.warnings);
                     traces.extend(some.traces);
                     writer.append(&some.rows)?;
@@ -95,14 +100,12 @@ impl Stage for Simulate {
                 Ok(())
             },
         )?;
-        let summary = overturned.text(&structures, motions.rows(), &self.out);
+        let summary = summary(&structures, &overturning, motions.rows(), &self.out);
         if let Some(id) =
             self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id))
         {
-            anyhow::bail!(
-                "{}: no motion '{id}' to trace; expected one of its motion_id",
-                self.input.display()
-            );
+            let file = self.input.display();
+            anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id");
         }
         if !self.trace.is_empty() {
             context.write(&part(&self.out, "trace"), &traces, &summary)?;
@@ -112,13 +115,17 @@ impl Stage for Simulate {
     }
 }
 
+/// The motions that overturn a structure: how many, and the first of them.
+type Overturning = (usize, Vec<String>);
+
 /// What came of some motions.
 struct Responded {
     motion_ids: Vec<String>,
     rows: RecordBatch,
     traces: Vec<TraceRow>,
     warnings: Warnings,
-    overturned: Overturned,
+    /// Indices of structures, and motions that overturn them.
+    overturned: Vec<(usize, String)>,
 }
 
 /// Runs all structures on some motions, while these are at hand.
@@ -134,12 +141,12 @@ fn respond(
     let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
     let mut responses = simulate_all(&problems).into_iter();
     let (mut rows, mut measured) = (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
-    let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Overturned::default());
+    let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Vec::new());
     for (motion, record) in motions.iter().zip(&records) {
         let measures = Measures::new(motion, record, scratch);
-        for (structure, response) in structures.iter().zip(&mut responses) {
+        for (index, (structure, response)) in structures.iter().zip(&mut responses).enumerate() {
             if response.outcome == Outcome::Overturning {
-                overturned.add(structure, motion);
+                overturned.push((index, motion.motion_id.clone()));
             }
             rows.push(measures.response_row(motion, structure, response));
             measured.push(measures.of_structure(structure));
@@ -149,9 +156,8 @@ fn respond(
         }
         warned.extend(warnings(motion, record));
     }
-    let motion_ids = motions.iter().map(|motion| motion.motion_id.clone()).collect();
     Ok(Responded {
-        motion_ids,
+        motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
         rows: responses::batch(&rows, &measured)?,
         traces,
         warnings: warned,
@@ -179,44 +185,20 @@ fn trace_rows(motion: &Motion, record: &Record, structures: &[Structure]) -> any
     Ok(structures.iter().flat_map(of_structure).collect())
 }
 
-/// The motions that overturn each structure: how many, and the first of them.
-#[derive(Default)]
-struct Overturned(BTreeMap<String, (u64, Vec<String>)>);
-
-impl Overturned {
-    fn add(&mut self, structure: &Structure, motion: &Motion) {
-        self.merge(structure.name.clone(), 1, vec![motion.motion_id.clone()]);
+/// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
+fn summary(structures: &[Structure], overturning: &[Overturning], motions: u64, out: &Path) -> String {
+    let mut lines: Vec<(&Structure, &Overturning)> = structures.iter().zip(overturning).collect();
+    if structures.len() > MOST_LINES {
+        lines.sort_by_key(|(_, (count, _))| std::cmp::Reverse(*count));
     }
-
-    fn extend(&mut self, others: Overturned) {
-        others.0.into_iter().for_each(|(structure, (count, named))| self.merge(structure, count, named));
-    }
-
-    fn merge(&mut self, structure: String, count: u64, named: Vec<String>) {
-        let known = self.0.entry(structure).or_default();
-        known.0 += count;
-        known.1.extend(named.into_iter().take(NAMED - known.1.len().min(NAMED)));
-    }
-
-    /// One line per structure; of many, those that overturn most.
-    fn text(&self, structures: &[Structure], motions: u64, out: &Path) -> String {
-        let mut structures: Vec<&Structure> = structures.iter().collect();
-        if structures.len() > MOST_LINES {
-            let count = |structure: &Structure| self.0.get(&structure.name).map_or(0, |(count, _)| *count);
-            structures.sort_by_key(|structure| std::cmp::Reverse(count(structure)));
-        }
-        let line = |structure: &&Structure| {
-            let (count, named) = self.0.get(&structure.name).cloned().unwrap_or_default();
-            let named = if (1..=NAMED as u64).contains(&count) {
-                format!(" ({})", listed(&named, NAMED))
-            } else {
-                String::new()
-            };
-            let overturn = if count == 1 { "overturns" } else { "overturn" };
-            let (count, motions) =
-                (number::count(count as usize), number::counted(motions as usize, "motion"));
-            format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
+    let line = |(structure, (count, named)): (&Structure, &Overturning)| {
+        let named = match count {
+            1..=NAMED => format!(" ({})", listed(named, NAMED)),
+            _ => String::new(),
         };
-        first_lines(&structures.iter().map(line).collect::<String>(), 0, out)
-    }
+        let overturn = if *count == 1 { "overturns" } else { "overturn" };
+        let (count, motions) = (number::count(*count), number::counted(motions as usize, "motion"));
+        format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
+    };
+    first_lines(&lines.into_iter().map(line).collect::<String>(), 0, out)
 }

@@ -110,7 +110,15 @@ impl Stage for SynthesizeMotions {
         let (scenarios, suites) = (&all[part], &self.suite);
         let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
-        let model = self.model()?;
+        let low_cut = self.low_cut.map(|corner_hz| LowCut { corner_hz, order: self.low_cut_order });
+        let site = site(&self.site)?;
+        let model = MotionModel {
+            dt_s: self.dt,
+            difference: self.difference,
+            epoch: self.epoch,
+            stochastic: StochasticModel { site, kappa_s: self.kappa, fmax_hz: self.fmax, low_cut },
+            seed: self.seed,
+        };
         let of_thread = suites.clone();
         let pool =
             Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), MeasureScratch::default()));
@@ -130,20 +138,6 @@ impl Stage for SynthesizeMotions {
             format!("{} motions of {} scenarios\n", scenarios.len() * suites.len(), scenarios.len());
         context.finish(writer, &summary)?;
         Ok(summary)
-    }
-}
-
-impl SynthesizeMotions {
-    fn model(&self) -> anyhow::Result<MotionModel> {
-        let low_cut = self.low_cut.map(|corner_hz| LowCut { corner_hz, order: self.low_cut_order });
-        let site = site(&self.site)?;
-        Ok(MotionModel {
-            dt_s: self.dt,
-            difference: self.difference,
-            epoch: self.epoch,
-            stochastic: StochasticModel { site, kappa_s: self.kappa, fmax_hz: self.fmax, low_cut },
-            seed: self.seed,
-        })
     }
 }
 

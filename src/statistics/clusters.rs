@@ -8,13 +8,11 @@ pub const MIN_CLUSTERS: usize = 10;
 /// Sums `k` terms over the cases of each cluster that has any; `add` adds a case to a sum.
 fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> Vec<Vec<f64>> {
     let count = clusters.iter().max().map_or(0, |&last| last as usize + 1);
-    let (mut sums, mut occurs) = (vec![0.0; count * k], vec![false; count]);
+    let mut sums: Vec<Option<Vec<f64>>> = vec![None; count];
     for (case, &cluster) in clusters.iter().enumerate() {
-        let cluster = cluster as usize;
-        occurs[cluster] = true;
-        add(case, &mut sums[cluster * k..][..k]);
+        add(case, sums[cluster as usize].get_or_insert_with(|| vec![0.0; k]));
     }
-    sums.chunks_exact(k).zip(occurs).filter(|(_, occurs)| *occurs).map(|(sum, _)| sum.to_vec()).collect()
+    sums.into_iter().flatten().collect()
 }
 
 /// Computes the sandwich covariance of coefficients (k x k), with the factor G/(G - 1) (n - 1)/(n - k) for G

@@ -138,13 +138,8 @@ pub fn independent_errors(coefficients: &[f64], covariance: &[f64], deviations: 
     (0..k).map(|error| [-deviations, deviations].map(|away| at(error, away))).collect()
 }
 
-/// Computes the dot product.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 /// Computes g' C g, the variance of a function of gradient g (k) by the delta method; C is k x k, by row.
 pub fn variance(covariance: &[f64], gradient: &[f64]) -> f64 {
-    let rows = covariance.chunks_exact(gradient.len());
-    rows.zip(gradient).map(|(row, g)| g * dot(row, gradient)).sum()
+    let dot = |row: &[f64]| row.iter().zip(gradient).map(|(c, g)| c * g).sum::<f64>();
+    covariance.chunks_exact(gradient.len()).zip(gradient).map(|(row, g)| g * dot(row)).sum()
 }

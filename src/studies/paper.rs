@@ -33,19 +33,13 @@ pub struct Comparison {
 /// Compares fits of the paper's structures with all that the paper publishes.
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let seeds = seed_values();
-    published()
-        .into_iter()
-        .map(|number| Comparison::new(&number, ours(&number, demand, curves), &seeds))
-        .collect()
-}
-
-impl Comparison {
-    fn new(number: &Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comparison {
-        let Published { quantity, suite, structure, .. } = number;
-        let its = seeds
-            .iter()
-            .filter(|seed| (&seed.quantity, &seed.suite, &seed.structure) == (quantity, suite, structure));
-        let values: Vec<f64> = its.map(|seed| seed.value).collect();
+    let comparison = |number: Published| {
+        let ours = ours(&number, demand, curves);
+        let Published { quantity, place, suite, structure, .. } = number;
+        let is_of_number = |seed: &&SeedValue| {
+            (&seed.quantity, &seed.suite, &seed.structure) == (&quantity, &suite, &structure)
+        };
+        let values: Vec<f64> = seeds.iter().filter(is_of_number).map(|seed| seed.value).collect();
         let n = values.len() as f64;
         let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
         let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
@@ -55,10 +49,10 @@ impl Comparison {
             (sd > 0.0 && !is_open).then_some((number.published? - ours) / sd)
         };
         Comparison {
-            quantity: quantity.clone(),
-            place: number.place.clone(),
-            suite: suite.clone(),
-            structure: structure.clone(),
+            quantity,
+            place,
+            suite,
+            structure,
             published: number.published,
             ours,
             mean,
@@ -68,7 +62,8 @@ impl Comparison {
             t2: number.t2,
             t2_p: number.t2_p,
         }
-    }
+    };
+    published().into_iter().map(comparison).collect()
 }
 
 /// Our value of a published quantity; none where the fits do not have it.

@@ -150,9 +150,9 @@ fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
 #[test]
 fn all_windows_that_are_wide_enough_are_found() {
     let scan = Scan::new(1.0, 100.0, 8);
-    close(scan.ratio(), 100.0_f64.powf(1.0 / 8.0), 1e-12);
+    close(scan.ratio, 100.0_f64.powf(1.0 / 8.0), 1e-12);
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
-    assert_eq!((scan.levels().len(), scan.lowest(), scan.highest()), (9, 1.0, 100.0));
+    assert_eq!((scan.levels.len(), scan.levels[0], scan.levels[8]), (9, 1.0, 100.0));
     // A narrow overturning range, a window between two modes, and a window at the end of the scan.
     let found = scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]);
     close(found.overturning.unwrap(), 2.0, 1e-3);

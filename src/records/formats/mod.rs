@@ -6,7 +6,6 @@
 //! esm       Engineering Strong Motion database
 //! knet      K-NET and KiK-net
 //! csv       columns of a table, with or without times
-//! format    the list of these
 //! header    fields and blocks of numbers, common to several formats
 //! error     errors of a file
 //! ```
@@ -15,15 +14,13 @@ mod cosmos;
 mod csv;
 mod error;
 mod esm;
-mod format;
 mod header;
 mod knet;
 mod peer_at2;
 
 pub use error::RecordFileError;
-pub use format::Format;
 
-use super::{HeaderPga, ReadOptions, RecordedMotion};
+use super::{Format, HeaderPga, ReadOptions, RecordedMotion};
 use crate::keyword::Keyword;
 use crate::motion::measures::peak;
 use crate::sheet::decode;

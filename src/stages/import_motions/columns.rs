@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::pulse::largest_velocity;
 use crate::motion::{MotionMeasures, Suite};
+use crate::records::RecordedMotion;
 use crate::records::processing::ImportedMotion;
 use crate::records::pulses::Verdict;
-use crate::records::rotation::RotD;
 use crate::table::{motions, rows};
 
 /// What the file has of a motion, besides its measures.
@@ -50,54 +50,52 @@ struct PulseRow {
 
 /// Motions as rows; `periods_s` are those of the spectral accelerations.
 pub fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
-    let sources: Vec<SourceRow> = some.iter().map(SourceRow::from).collect();
+    let sources: Vec<SourceRow> = some.iter().map(source).collect();
     let measures: Vec<MotionMeasures> = some.iter().map(|motion| motion.measured.measures).collect();
-    let pulses: Vec<PulseRow> = some.iter().map(PulseRow::from).collect();
+    let pulses: Vec<PulseRow> = some.iter().map(pulse).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [rows::batch(&sources)?, rows::batch(&measures)?, rows::batch(&pulses)?];
     motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
 }
 
-impl From<&ImportedMotion> for SourceRow {
-    fn from(motion: &ImportedMotion) -> SourceRow {
-        SourceRow {
-            motion_id: motion.motion_id.clone(),
-            suite: motion.suite,
-            name: motion.name(),
-            earthquake: motion.record.event.clone(),
-            mw: motion.record.mw,
-            re_km: motion.record.re_km,
-            station: motion.record.station.clone(),
-            component: motion.record.component.clone(),
-            azimuth_deg: motion.record.azimuth_deg,
-            source_file: motion.source.path.clone(),
-            source_blake3: motion.source.blake3.clone(),
-            scale: motion.scale,
-            dt_s: motion.record.dt_s,
-        }
+fn source(motion: &ImportedMotion) -> SourceRow {
+    let RecordedMotion { event, station, component, .. } = &motion.record;
+    let names: Vec<&str> = [event, station, component].into_iter().flatten().map(String::as_str).collect();
+    SourceRow {
+        motion_id: motion.motion_id.clone(),
+        suite: motion.suite,
+        name: (!names.is_empty()).then(|| names.join(", ")),
+        earthquake: event.clone(),
+        mw: motion.record.mw,
+        re_km: motion.record.re_km,
+        station: station.clone(),
+        component: component.clone(),
+        azimuth_deg: motion.record.azimuth_deg,
+        source_file: motion.source.path.clone(),
+        source_blake3: motion.source.blake3.clone(),
+        scale: motion.scale,
+        dt_s: motion.record.dt_s,
     }
 }
 
-impl From<&ImportedMotion> for PulseRow {
-    fn from(ImportedMotion { measured, rotd, indicator, pulse: fitted, .. }: &ImportedMotion) -> PulseRow {
-        let pulse = fitted.as_ref().map(|fitted| fitted.pulse);
-        let peak = |peak: fn(&RotD) -> f64| rotd.as_ref().map(peak);
-        PulseRow {
-            housner_m: measured.housner_m,
-            rotd50_pga_m_s2: peak(|rotd| rotd.pga50_m_s2),
-            rotd100_pga_m_s2: peak(|rotd| rotd.pga100_m_s2),
-            rotd50_pgv_m_s: peak(|rotd| rotd.pgv50_m_s),
-            rotd100_pgv_m_s: peak(|rotd| rotd.pgv100_m_s),
-            pulse_indicator: indicator.as_ref().map(|found| found.indicator),
-            pulse_verdict: indicator.as_ref().map(|found| found.verdict),
-            pulse_wavelet_s: indicator.as_ref().map(|found| found.period_s),
-            pulse_amplitude_m_s: pulse.map(|pulse| pulse.amplitude_m_s),
-            vp_m_s: pulse.map(|pulse| pulse.amplitude_m_s * largest_velocity(pulse.gamma, pulse.nu_rad)),
-            tp_s: pulse.map(|pulse| pulse.tp_s),
-            gamma: pulse.map(|pulse| pulse.gamma),
-            nu_rad: pulse.map(|pulse| pulse.nu_rad),
-            t0_s: fitted.as_ref().map(|fitted| fitted.t0_s),
-            pulse_r2: fitted.as_ref().map(|fitted| fitted.r2),
-        }
+fn pulse(motion: &ImportedMotion) -> PulseRow {
+    let (rotd, indicator, fitted) = (motion.rotd, motion.indicator, motion.pulse);
+    let pulse = fitted.map(|fitted| fitted.pulse);
+    PulseRow {
+        housner_m: motion.measured.housner_m,
+        rotd50_pga_m_s2: rotd.map(|rotd| rotd.pga50_m_s2),
+        rotd100_pga_m_s2: rotd.map(|rotd| rotd.pga100_m_s2),
+        rotd50_pgv_m_s: rotd.map(|rotd| rotd.pgv50_m_s),
+        rotd100_pgv_m_s: rotd.map(|rotd| rotd.pgv100_m_s),
+        pulse_indicator: indicator.map(|found| found.indicator),
+        pulse_verdict: indicator.map(|found| found.verdict),
+        pulse_wavelet_s: indicator.map(|found| found.period_s),
+        pulse_amplitude_m_s: pulse.map(|pulse| pulse.amplitude_m_s),
+        vp_m_s: pulse.map(|pulse| pulse.amplitude_m_s * largest_velocity(pulse.gamma, pulse.nu_rad)),
+        tp_s: pulse.map(|pulse| pulse.tp_s),
+        gamma: pulse.map(|pulse| pulse.gamma),
+        nu_rad: pulse.map(|pulse| pulse.nu_rad),
+        t0_s: fitted.map(|fitted| fitted.t0_s),
+        pulse_r2: fitted.map(|fitted| fitted.r2),
     }
 }

@@ -11,7 +11,7 @@ use super::about::About;
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
-use crate::records::pairs::{Pairs, pairs};
+use crate::records::pairs::pairs;
 use crate::records::plausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
 use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
@@ -67,13 +67,10 @@ impl Importer {
         }
         let (mut components, mut refused) = (Vec::new(), Vec::new());
         for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
-            let records = match read {
-                Ok(records) => records,
-                Err(refusal) => {
-                    refused.push(refusal);
-                    continue;
-                }
-            };
+            let records = read.unwrap_or_else(|refusal| {
+                refused.push(refusal);
+                Vec::new()
+            });
             for (index, record) in records.into_iter().enumerate() {
                 if record.motion.is_vertical() {
                     self.left_out.fetch_add(1, Ordering::Relaxed);
@@ -85,7 +82,7 @@ impl Importer {
             }
         }
         let horizontal = counted(components.len(), "horizontal component");
-        let Pairs { pairs, left_out } = pairs(components);
+        let (pairs, left_out) = pairs(components);
         if pairs.is_empty() && refused.is_empty() {
             bail!(
                 "no pair among {horizontal}; expected two of one event, station and time step at right angles. \
@@ -102,25 +99,20 @@ impl Importer {
         self.left_out.load(Ordering::Relaxed)
     }
 
-    /// The records of a file without vertical components, which are counted.
-    fn horizontal(&self, file: &Path) -> Result<Vec<NamedRecord>, String> {
-        let mut records = self.read(file)?;
-        let all = records.len();
-        records.retain(|record| self.vertical || !record.motion.is_vertical());
-        self.left_out.fetch_add(all - records.len(), Ordering::Relaxed);
-        Ok(records)
-    }
-
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
         match work {
-            Work::File(file) => match self.horizontal(file) {
-                Ok(records) => {
-                    let import =
-                        |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
-                    records.into_iter().map(import).collect()
-                }
-                Err(refusal) => vec![Err(refusal)],
-            },
+            Work::File(file) => {
+                let mut records = match self.read(file) {
+                    Ok(records) => records,
+                    Err(refusal) => return vec![Err(refusal)],
+                };
+                let all = records.len();
+                records.retain(|record| self.vertical || !record.motion.is_vertical());
+                self.left_out.fetch_add(all - records.len(), Ordering::Relaxed);
+                let import =
+                    |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
+                records.into_iter().map(import).collect()
+            }
             Work::Pair(pair) => {
                 let component = |(file, index): &(PathBuf, usize)| {
                     let record = self.read(file)?.into_iter().nth(*index);

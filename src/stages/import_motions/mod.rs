@@ -23,9 +23,9 @@ use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
-use crate::records::processing::{Implausible, ImportedMotion, Processing, PulseSearch, SourceFile};
+use crate::records::processing::{ImportedMotion, Processing, PulseSearch, SourceFile};
 use crate::records::rotation::Direction;
-use crate::records::signal::{Baseline, HighPass, Scaling};
+use crate::records::signal::{Baseline, Scaling};
 use crate::records::{Format, ReadOptions};
 use crate::units::{G_M_S2, Unit};
 use crate::warning::{Warning, Warnings};
@@ -126,8 +126,14 @@ impl Stage for ImportMotions {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
-        let (reading, given) = (self.reading(), &self.files);
-        let importer = Importer::new(given, &self.out, reading, processing, about, self.vertical)?;
+        let reading = ReadOptions {
+            format: self.format,
+            dt_s: self.dt,
+            unit: self.unit,
+            column: self.column.clone(),
+            pga_tolerance: self.pga_tolerance,
+        };
+        let importer = Importer::new(&self.files, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
             importer.about.expect_any(path, &importer.files)?;
@@ -189,16 +195,6 @@ impl Stage for ImportMotions {
 }
 
 impl ImportMotions {
-    fn reading(&self) -> ReadOptions {
-        ReadOptions {
-            format: self.format,
-            dt_s: self.dt,
-            unit: self.unit,
-            column: self.column.clone(),
-            pga_tolerance: self.pga_tolerance,
-        }
-    }
-
     fn processing(&self) -> anyhow::Result<Processing> {
         let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
             (Some(factors), ..) if factors.0.iter().any(|factor| *factor <= 0.0) => {
@@ -212,13 +208,13 @@ impl ImportMotions {
         let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         Ok(Processing {
             baseline: self.baseline,
-            high_pass: self.high_pass.map(|corner_hz| HighPass { corner_hz }),
+            high_pass_hz: self.high_pass,
             resample_s: self.resample,
             direction: self.rotate,
             scaling,
             pulses: self.pulses,
             residual: self.residual,
-            implausible: if self.accept_implausible { Implausible::Accept } else { Implausible::Refuse },
+            accept_implausible: self.accept_implausible,
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
         })
     }

@@ -14,7 +14,6 @@ const NAMED: usize = 10;
 /// What was read, so that a wrong unit is seen.
 #[derive(Default)]
 pub struct Summary {
-    motions: usize,
     pulses: usize,
     magnitudes: usize,
     /// How many motions came of each format and unit.
@@ -26,7 +25,6 @@ pub struct Summary {
 impl Summary {
     pub fn add(&mut self, imported: &[ImportedMotion]) {
         for motion in imported {
-            self.motions += 1;
             self.pulses += usize::from(motion.pulse.is_some());
             self.magnitudes += usize::from(motion.record.mw.is_some());
             *self
@@ -51,7 +49,7 @@ impl Summary {
         };
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
-            counted(self.motions, "motion"),
+            counted(self.peaks.len(), "motion"),
             listed(&kinds, NAMED),
             count(self.pulses),
             count(self.magnitudes),

@@ -232,9 +232,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         let often = calibration.map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let mut capacities = capacities.iter().filter(|fit| fit.group() == cases.group());
-        let of_capacity = capacities
-            .next()
-            .map(|fit| [[fit.theta, fit.theta_low, fit.theta_high], [fit.beta, fit.beta_low, fit.beta_high]]);
+        let of_capacity = capacities.next().map(|fit| [fit.theta, fit.beta]);
         let mut curves = tables.curves.iter().filter(|fit| fit.group() == cases.group());
         let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
         let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));

@@ -83,7 +83,7 @@ pub fn analyses(tables: &Tables) -> Result<Vec<Ida>, TableError> {
         let mut capacities: Vec<f64> =
             its.filter_map(|row| row.overturning_intensity.or(below(row))).collect();
         capacities.sort_unstable_by(f64::total_cmp);
-        let curve = fit.theta.zip(fit.beta).map(|(theta, beta)| Curve {
+        let curve = fit.theta[0].zip(fit.beta[0]).map(|(theta, beta)| Curve {
             points: (0..=STEPS).map(|k| [at(k), p_overturning(at(k), theta.ln(), beta)]).collect(),
             ..Curve::default()
         });
