@@ -90,11 +90,9 @@ impl Unit {
     /// # Errors
     /// With the known units, if it is not one of them.
     pub fn of_acceleration(text: &str) -> Result<Unit, String> {
-        Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
-            let known =
-                UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration).map(|(name, ..)| *name);
-            let known = known.collect::<Vec<_>>().join(", ");
-            format!("expected a unit of acceleration: {known}")
-        })
+        let known = UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration);
+        let known: Vec<&str> = known.map(|(name, ..)| *name).collect();
+        let found = Unit::parse(text).filter(|unit| unit.quantity == Acceleration);
+        found.ok_or_else(|| format!("expected a unit of acceleration: {}", known.join(", ")))
     }
 }

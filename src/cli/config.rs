@@ -51,7 +51,6 @@ impl Config {
         }
     }
 
-    /// Returns whether there is a section for a command.
     pub fn has(&self, command: &str) -> bool {
         self.sections.contains_key(command)
     }
@@ -100,11 +99,8 @@ pub fn arguments(
             .find(|arg| arg.get_id() == flag.as_str() || arg.get_long() == Some(&flag))
         else {
             let known: Vec<&str> = command.get_arguments().filter_map(|arg| arg.get_long()).collect();
-            let name = command.get_name();
-            return Err(UsageError::because(format!(
-                "{name}: unknown option '{flag}'{}",
-                hint(&flag, &known)
-            )));
+            let (name, hint) = (command.get_name(), hint(&flag, &known));
+            return Err(UsageError::because(format!("{name}: unknown option '{flag}'{hint}")));
         };
         let text = |value: &Value| -> OsString {
             let text = text_of(value);

@@ -9,7 +9,6 @@ use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
 
-/// The first columns.
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
 

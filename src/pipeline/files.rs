@@ -47,7 +47,6 @@ const IN_RUN: [(&str, &str, &str); 5] = [
 /// The stage in a run whose motions all later ones take, and these.
 const FLOOR: (&str, &str) = ("floor-motions", "floor.parquet");
 
-/// Returns what an argument is.
 pub fn role(arg: &Arg) -> Role {
     match arg.get_value_hint() {
         ValueHint::FilePath => Role::Input,

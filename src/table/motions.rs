@@ -38,7 +38,6 @@ pub struct Motion {
     pub tm_s: f64,
     pub tp_s: f64,
     pub acceleration_m_s2: Vec<f64>,
-    /// Row in the file.
     pub row: u64,
 }
 
@@ -119,7 +118,6 @@ pub fn read(
     }))
 }
 
-/// Makes motions of the columns of a batch and their samples.
 fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let [mw, re_km, pga, pgv, tm, tp] =
         ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
