@@ -83,14 +83,14 @@ impl Tables {
 
     /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
     fn read_objects(&mut self) -> anyhow::Result<()> {
-        let mut first: Option<(Option<&String>, Option<&Vec<String>>)> = None;
+        let mut first = None;
         for (path, _, made) in &self.files {
             if Table::open(path)?.schema().index_of(RATES).is_err() {
                 continue;
             }
             let made = made.as_ref();
-            let question =
-                made.map_or((None, None), |made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            let question = made.map(|made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            let question = question.unwrap_or_default();
             if *first.get_or_insert(question) != question {
                 let file = path.file_name().unwrap_or_default().to_string_lossy();
                 self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
@@ -104,8 +104,8 @@ impl Tables {
         Ok(())
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder: names
-    /// of structures alone do not tell.
+    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder:
+    /// names of structures alone do not tell.
     fn leave_out_strangers(&mut self) -> Result<(), TableError> {
         let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
         let input = |name: &str, flag: &str| {
@@ -128,18 +128,15 @@ impl Tables {
             ("validation", input("validation", "fits"), key("pro")?, "fits"),
             ("evaluated", input("evaluated", "fits"), key("pro")?, "fits"),
         ];
-        let mut left_out = Vec::new();
         for (name, has, expected, what) in strangers {
             if has.is_some() && expected.is_some() && has != expected {
-                left_out.push((name, format!("{name}.parquet is not shown: it belongs to other {what}.")));
+                self.files.retain(|(path, ..)| {
+                    path.file_name()
+                        .is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
+                });
+                self.strangers.push(name);
+                self.left_out.push(format!("{name}.parquet is not shown: it belongs to other {what}."));
             }
-        }
-        for (name, reason) in left_out {
-            self.files.retain(|(path, ..)| {
-                path.file_name().is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
-            });
-            self.strangers.push(name);
-            self.left_out.push(reason);
         }
         Ok(())
     }
@@ -156,11 +153,6 @@ impl Tables {
         }
         let (file, parts) = (self.folder.join(format!("{name}.parquet")), self.folder.join(name));
         if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
-    }
-
-    /// Whether a stage made one of them.
-    pub fn are_of(&self, stage: &str) -> bool {
-        self.made_by(stage).is_some()
     }
 
     /// What a stage has made.
