@@ -4,8 +4,6 @@
 pub trait Keyword: Copy + PartialEq + 'static {
     /// All variants, in their order.
     const ALL: &'static [Self];
-    /// Advice on words that a user may expect on the list.
-    const ADVICE: &'static [(&'static str, &'static str)] = &[];
 
     /// Returns the word.
     fn as_str(self) -> &'static str;
@@ -16,7 +14,6 @@ macro_rules! keywords {
     (
         $(#[$meaning:meta])*
         $visible:vis enum $type:ident { $($(#[$detail:meta])* $variant:ident = $word:literal),* $(,)? }
-        $(but $advice:expr)?
     ) => {
         $(#[$meaning])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -26,7 +23,6 @@ macro_rules! keywords {
 
         impl $crate::keyword::Keyword for $type {
             const ALL: &'static [Self] = &[$(Self::$variant),*];
-            $(const ADVICE: &'static [(&'static str, &'static str)] = $advice;)?
 
             fn as_str(self) -> &'static str {
                 match self {
@@ -52,7 +48,7 @@ macro_rules! keywords {
 }
 pub(crate) use keywords;
 
-/// An unknown word: the known ones, and the most similar of them or advice.
+/// An unknown word: the known ones, and the most similar of them.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct UnknownKeyword(String);
@@ -65,9 +61,7 @@ pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
     let found = T::ALL.iter().find(|keyword| keyword.as_str() == word).copied();
     found.ok_or_else(|| {
         let known: Vec<&str> = T::ALL.iter().map(|keyword| keyword.as_str()).collect();
-        let advice = T::ADVICE.iter().find(|(other, _)| *other == word);
-        let advice = advice.map_or_else(|| hint(word, &known), |(_, advice)| format!("; {advice}"));
-        UnknownKeyword(format!("'{word}' is not one of {}{advice}", known.join(", ")))
+        UnknownKeyword(format!("'{word}' is not one of {}{}", known.join(", "), hint(word, &known)))
     })
 }
 

@@ -16,7 +16,6 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     text.char_indices().flat_map(with_comma).collect()
 }
 
-/// Writes a count.
 pub fn count(value: usize) -> String {
     fixed(value as f64, 0)
 }
@@ -67,15 +66,11 @@ pub struct Style {
     unit: &'static str,
 }
 
-/// A probability in percent.
 pub const PERCENT: Style = Style { number: in_percent, unit: " %" };
 /// A probability in percent, in a column that names the unit.
 pub const OF_HUNDRED: Style = Style { number: in_percent, unit: "" };
-/// An annual rate.
 pub const RATE: Style = Style { number: rate, unit: "" };
-/// A number of two digits, and of three.
 pub const TWO_DIGITS: Style = Style { number: |value| significant(value, 2), unit: "" };
-
 pub const THREE_DIGITS: Style = Style { number: |value| significant(value, 3), unit: "" };
 
 fn in_percent(p: f64) -> String {
@@ -117,7 +112,6 @@ impl Style {
         limits.map_or(String::new(), |(low, high)| format!("({words}{})", self.range(low, high)))
     }
 
-    /// Writes a value and its limits.
     pub fn both(self, of: Limited, words: &str) -> String {
         format!("{} {}", self.value(of), self.limits(of, words)).trim_end().to_string()
     }

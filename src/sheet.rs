@@ -17,7 +17,6 @@ pub enum SheetError {
     Cell { line: usize, heading: String, found: String, expected: String },
 }
 
-/// The heading of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// Text in the file.
@@ -29,7 +28,6 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// Splits a heading into name and unit.
     pub fn of(text: &str) -> Heading {
         let unit = |end: &str| Unit::parse(end[1..].trim_matches(['(', ')', '[', ']', ' ']));
         let mut ends = text.match_indices(['(', '[', ' ', '_', ',']).map(|(at, _)| text.split_at(at));

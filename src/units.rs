@@ -1,7 +1,5 @@
 //! Units as people write them, and physical constants.
 
-use std::fmt;
-
 /// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;
 
@@ -92,17 +90,9 @@ impl Unit {
     /// # Errors
     /// With the known units, if it is not one of them.
     pub fn of_acceleration(text: &str) -> Result<Unit, String> {
-        Unit::parse(text).filter(|unit| unit.quantity == Acceleration).ok_or_else(|| {
-            let known =
-                UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration).map(|(name, ..)| *name);
-            let known = known.collect::<Vec<_>>().join(", ");
-            format!("expected a unit of acceleration: {known}")
-        })
-    }
-}
-
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(self.name)
+        let known = UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration);
+        let known: Vec<&str> = known.map(|(name, ..)| *name).collect();
+        let found = Unit::parse(text).filter(|unit| unit.quantity == Acceleration);
+        found.ok_or_else(|| format!("expected a unit of acceleration: {}", known.join(", ")))
     }
 }

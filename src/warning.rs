@@ -38,38 +38,29 @@ keywords! {
 impl Warning {
     /// In at most 15 words.
     pub fn text(self) -> &'static str {
+        use Warning::*;
         match self {
-            Warning::UnusualScenario => {
-                "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km"
-            }
-            Warning::ImplausibleRecord => "this is not a plausible earthquake record",
-            Warning::OtherPeak => {
-                "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?"
-            }
-            Warning::ImplausibleSize => "implausibly tall: a wrong unit?",
-            Warning::LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
-            Warning::HazardEndsEarly => "the hazard curve ends too early: the result is a range",
-            Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
-            Warning::HazardStartsLate => {
-                "the hazard curve starts above the uplift intensity: rates are too low"
-            }
-            Warning::NotFitted => "not among the fitted structures: the universal surface is used",
-            Warning::OtherStructure => "calibrated on responses of a different structure (--name)",
-            Warning::Extrapolated => "outside the range of motions that the model was fitted to",
-            Warning::UnusualStructure => "outside the range of structures of the universal surface",
-            Warning::PoorFit => "the paper's curve or planes do not fit these responses",
-            Warning::NoEvents => "all or no responses overturned: the estimate rests on other structures",
-            Warning::FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
-            Warning::FewClusters => {
-                "fewer than ten earthquakes or cells: limits use a typical spread between them"
-            }
-            Warning::ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
-            Warning::ScanStartsLate => {
-                "most motions overturn the structure at the first intensity; lower --from"
-            }
-            Warning::UnreadableFile => "not imported",
-            Warning::UnusedColumns => "columns not used by rockfrag",
-            Warning::NoPartner => "no perpendicular component: left out",
+            UnusualScenario => "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km",
+            ImplausibleRecord => "this is not a plausible earthquake record",
+            OtherPeak => "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?",
+            ImplausibleSize => "implausibly tall: a wrong unit?",
+            LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
+            HazardEndsEarly => "the hazard curve ends too early: the result is a range",
+            HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
+            HazardStartsLate => "the hazard curve starts above the uplift intensity: rates are too low",
+            NotFitted => "not among the fitted structures: the universal surface is used",
+            OtherStructure => "calibrated on responses of a different structure (--name)",
+            Extrapolated => "outside the range of motions that the model was fitted to",
+            UnusualStructure => "outside the range of structures of the universal surface",
+            PoorFit => "the paper's curve or planes do not fit these responses",
+            NoEvents => "all or no responses overturned: the estimate rests on other structures",
+            FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
+            FewClusters => "fewer than ten earthquakes or cells: limits use a typical spread between them",
+            ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
+            ScanStartsLate => "most motions overturn the structure at the first intensity; lower --from",
+            UnreadableFile => "not imported",
+            UnusedColumns => "columns not used by rockfrag",
+            NoPartner => "no perpendicular component: left out",
         }
     }
 }

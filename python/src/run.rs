@@ -36,7 +36,7 @@ pub fn run<T: Send>(
 ) -> PyResult<T> {
     expect_own_threads().map_err(|error| to_python(&error))?;
     let mut context = Context::default();
-    context.quiet = true;
+    context.common.quiet = true;
     let observed = &context.observed.clone();
     let (finished, wait) = sync_channel(1);
     let (result, interrupted) = py.detach(move || {

@@ -67,7 +67,7 @@ pub fn call(
         .map_err(|error| PyTypeError::new_err(in_python(&error.to_string())))?;
     run(py, threads, progress.as_ref(), move |mut context| {
         let call = configured(command, &words)?;
-        context.force = call.common.force;
+        context.common.force = call.common.force;
         make(&call, &context, &mut HashMap::new())
     })
 }
@@ -93,7 +93,7 @@ pub fn run_pipeline(
 ) -> PyResult<Vec<Made>> {
     run(py, threads, progress.as_ref(), |mut context| {
         let calls = calls_of(&pipeline, out, seed)?;
-        context.force = force;
+        context.common.force = force;
         let mut made = HashMap::new();
         calls.iter().map(|call| make(call, &context, &mut made)).collect()
     })

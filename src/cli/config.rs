@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{ArgAction, ArgMatches, Command};
+use clap::{Arg, ArgAction, ArgMatches, Command};
 use serde_json::Value;
 
 use crate::keyword::hint;
@@ -51,35 +51,25 @@ impl Config {
         }
     }
 
-    /// Returns whether there is a section for a command.
     pub fn has(&self, command: &str) -> bool {
         self.sections.contains_key(command)
     }
 
     /// Returns the arguments of a section, except those that `user` names or excludes.
     pub fn section(&self, command: &Command, user: &[OsString]) -> anyhow::Result<Vec<OsString>> {
-        let empty = BTreeMap::new();
-        let section = self.sections.get(command.get_name()).unwrap_or(&empty);
-        let named = named_by(command, user);
-        let is_free = |flag: &str| {
-            let Some(arg) = command.get_arguments().find(|arg| arg.get_long() == Some(flag)) else {
-                return true;
-            };
-            let excluded = command.get_arg_conflicts_with(arg);
-            !named.iter().any(|id| arg.get_id() == id || excluded.iter().any(|other| other.get_id() == id))
-        };
-        let free = section
-            .iter()
-            .filter(|(flag, _)| is_free(flag))
-            .map(|(flag, value)| (flag.clone(), value.clone()));
-        let mut arguments = arguments(command, free, &self.folder)?;
-        let takes_seed = command.get_arguments().any(|arg| arg.get_long() == Some("seed"));
-        if let Some(seed) =
-            self.seed.as_ref().filter(|_| takes_seed && is_free("seed") && !section.contains_key("seed"))
-        {
-            arguments.push(format!("--seed={seed}").into());
+        let mut section = self.sections.get(command.get_name()).cloned().unwrap_or_default();
+        let of_flag = |flag: &str| command.get_arguments().find(|arg| arg.get_long() == Some(flag));
+        if let Some(seed) = self.seed.clone().filter(|_| of_flag("seed").is_some()) {
+            section.entry("seed".to_string()).or_insert(Value::String(seed));
         }
-        Ok(arguments)
+        let matches = lenient(command, user);
+        let source = |id: &str| matches.as_ref().and_then(|matches| matches.value_source(id));
+        let is_named = |arg: &&Arg| source(arg.get_id().as_str()) == Some(ValueSource::CommandLine);
+        section.retain(|flag, _| {
+            let Some(arg) = of_flag(flag) else { return true };
+            !command.get_arg_conflicts_with(arg).iter().chain([&arg]).any(is_named)
+        });
+        arguments(command, section, &self.folder)
     }
 
     /// Returns the arguments of a section in a run; default files are in `folder`.
@@ -109,11 +99,8 @@ pub fn arguments(
             .find(|arg| arg.get_id() == flag.as_str() || arg.get_long() == Some(&flag))
         else {
             let known: Vec<&str> = command.get_arguments().filter_map(|arg| arg.get_long()).collect();
-            let name = command.get_name();
-            return Err(UsageError::because(format!(
-                "{name}: unknown option '{flag}'{}",
-                hint(&flag, &known)
-            )));
+            let (name, hint) = (command.get_name(), hint(&flag, &known));
+            return Err(UsageError::because(format!("{name}: unknown option '{flag}'{hint}")));
         };
         let text = |value: &Value| -> OsString {
             let text = text_of(value);
@@ -163,11 +150,4 @@ fn text_of(value: &Value) -> String {
 pub fn lenient(command: &Command, user: &[OsString]) -> Option<ArgMatches> {
     let words = [&[OsString::from(command.get_name())], user].concat();
     command.clone().ignore_errors(true).try_get_matches_from(words).ok()
-}
-
-/// Returns the arguments named by the user.
-fn named_by(command: &Command, user: &[OsString]) -> Vec<String> {
-    let Some(matches) = lenient(command, user) else { return Vec::new() };
-    let ids = command.get_arguments().map(|arg| arg.get_id().to_string());
-    ids.filter(|id| matches.value_source(id) == Some(ValueSource::CommandLine)).collect()
 }

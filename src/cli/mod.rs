@@ -18,7 +18,6 @@ use crate::pipeline::{UsageError, cache, files};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 
-/// Default pipeline file.
 const PIPELINE: &str = "pipeline.yaml";
 
 /// How likely free-standing structures are to rock or overturn in an earthquake, and how often at a site
@@ -99,7 +98,7 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
     {
         return run_stage(&command, user);
     }
-    match Tool::from_arg_matches(&command().try_get_matches_from(arguments)?)? {
+    let text = match Tool::from_arg_matches(&command().try_get_matches_from(arguments)?)? {
         Tool::Run { pipeline, out, seed, dry_run, common } => {
             if pipeline == Path::new(PIPELINE) && !pipeline.exists() {
                 let message = format!("no {PIPELINE} here; `rockfrag init` writes one to start from");
@@ -108,30 +107,31 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
             set_threads(&common)?;
             let calls = calls_of(&pipeline, out, seed)?;
             match dry_run {
-                true => print(&run::dry_run(&calls)?),
-                false => print(&run::run(&calls, &Context::new(&common))?),
+                true => run::dry_run(&calls)?,
+                false => run::run(&calls, &Context::new(common))?,
             }
         }
-        Tool::Init { start, out } => print(&init::init(start, &out)?),
-        Tool::Inspect(inspect) => print(&inspect.run()?),
+        Tool::Init { start, out } => init::init(start, &out)?,
+        Tool::Inspect(inspect) => inspect.run()?,
         Tool::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut command(), "rockfrag", &mut script);
-            print(&String::from_utf8(script)?)
+            String::from_utf8(script)?
         }
-    }
+    };
+    print(&text)
 }
 
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let call = configured(command, user)?;
     set_threads(&call.common)?;
-    let context = Context::new(&call.common);
+    let context = Context::new(call.common.clone());
     let done = cache::run(&call, &context, &HashMap::new())?;
-    if !done.ran && !context.quiet {
+    if !done.ran && !context.common.quiet {
         let _ = writeln!(std::io::stderr(), "{}: up to date", call.name);
     }
     print(&done.summary)?;
-    if !context.quiet {
+    if !context.common.quiet {
         run::warn(&done.warnings);
     }
     Ok(())

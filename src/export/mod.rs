@@ -26,16 +26,13 @@ pub struct FragilityModel {
     pub id: String,
     /// Where it comes from, for a reader.
     pub description: String,
-    /// Meaning of each limit state.
     pub limit_states: Vec<String>,
 }
 
-/// The fragility of one structure along one peak.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
     /// Letters, digits and underscores: the programs give other signs a meaning.
     pub id: String,
-    /// Peak of the motion that is the intensity.
     pub peak: Peak,
     /// Intensities, m/s2 or m/s, rising from uplift: below the first all probabilities are 0.
     pub levels: Vec<f64>,

@@ -9,7 +9,6 @@ use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
 use crate::units::G_M_S2;
 
-/// The first columns.
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
 
@@ -86,16 +85,14 @@ fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> Stri
 
 /// Describes the rows, for the JSON file beside them.
 pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
-    let mut all = Map::new();
-    all.insert(
-        "_GeneralInformation".to_string(),
-        json!({
+    let mut all = json!({
+        "_GeneralInformation": {
             "ShortName": model.id,
             "Description": model.description,
             "Version": env!("CARGO_PKG_VERSION"),
             "ComponentGroups": { "Rocking structures": [] },
-        }),
-    );
+        },
+    });
     for function in functions {
         let (name, unit_name, unit) = demand(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
@@ -104,19 +101,16 @@ pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
             (format!("LS{}", index + 1), json!({ format!("DS{}", index + 1): { "Description": meaning } }))
         };
         let states: Map<String, Value> = model.limit_states.iter().enumerate().map(state).collect();
-        all.insert(
-            function.id.clone(),
-            json!({
-                "Description": model.description,
-                "Comments": format!(
-                    "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
-                ),
-                "SuggestedComponentBlockSize": "1 EA",
-                "RoundUpToIntegerQuantity": "True",
-                "RangeOfData": { "Demand-Type": name, "Demand-Unit": unit_name, "From": low, "To": high },
-                "LimitStates": states,
-            }),
-        );
+        all[&function.id] = json!({
+            "Description": model.description,
+            "Comments": format!(
+                "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
+            ),
+            "SuggestedComponentBlockSize": "1 EA",
+            "RoundUpToIntegerQuantity": "True",
+            "RangeOfData": { "Demand-Type": name, "Demand-Unit": unit_name, "From": low, "To": high },
+            "LimitStates": states,
+        });
     }
-    Value::Object(all)
+    all
 }

@@ -15,9 +15,7 @@ use crate::warning::Warnings;
 /// The result of a call.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done {
-    /// Text printed by the stage.
     pub summary: String,
-    /// Warnings about the results.
     pub warnings: Warnings,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
@@ -25,10 +23,7 @@ pub struct Done {
     pub key: String,
 }
 
-/// Returns the provenance of the files of a call if they are up to date.
-///
-/// # Errors
-/// With the reason, if they are not.
+/// Returns the provenance of the files of a call if they are up to date, else the reason why not.
 pub fn freshness(call: &Call, planned: &Provenance) -> Result<Provenance, String> {
     let mut last = None;
     for path in call.stage.outputs() {
@@ -49,13 +44,13 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Result<Provenance, String
 pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
     let planned = call.provenance(made)?;
     let key = planned.key();
-    if !context.force
+    if !context.common.force
         && let Ok(made) = freshness(call, &planned)
     {
         return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, key });
     }
     for path in call.stage.outputs() {
-        expect_replaceable(&path, call, context.force)?;
+        expect_replaceable(&path, call, context.common.force)?;
     }
     let context = context.of_call(call.inputs.values().flatten(), planned);
     let summary = call.stage.run(&context)?;

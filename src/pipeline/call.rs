@@ -16,7 +16,6 @@ use crate::table::provenance::Provenance;
 /// Files of an input that are named in what is made of it.
 const MOST_NAMED: usize = 4;
 
-/// A call of a stage.
 pub struct Call {
     pub name: String,
     pub stage: Box<dyn Stage>,
@@ -28,7 +27,6 @@ pub struct Call {
 }
 
 impl Call {
-    /// Makes a call from the matches of a command.
     pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> anyhow::Result<Call> {
         let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();

@@ -59,17 +59,10 @@ pub struct Observed {
     pub stop: AtomicBool,
 }
 
-/// The context of a running stage.
 #[derive(Clone, Default)]
 pub struct Context {
-    /// Run even if up to date; replace files of other programs.
-    pub force: bool,
-    /// Print only the result.
-    pub quiet: bool,
-    /// Draw progress bars if stderr is a terminal.
-    pub progress: bool,
+    pub common: Common,
     pub observed: Arc<Observed>,
-    /// Provenance of the files of the stage.
     pub made: Provenance,
     /// Input files and their keys.
     inputs: Vec<(PathBuf, String)>,
@@ -77,10 +70,8 @@ pub struct Context {
 }
 
 impl Context {
-    /// Makes the context of a command line.
-    pub fn new(common: &Common) -> Context {
-        let progress = common.progress == Bars::Auto && !common.quiet;
-        Context { force: common.force, quiet: common.quiet, progress, ..Context::default() }
+    pub fn new(common: Common) -> Context {
+        Context { common, ..Context::default() }
     }
 
     /// Returns the context of a call that reads these files and makes files of this provenance.
@@ -91,32 +82,26 @@ impl Context {
         Context { made, inputs, warnings: Arc::default(), ..self.clone() }
     }
 
-    /// Adds warnings.
     pub fn warn(&self, warnings: Warnings) {
         if let Ok(mut all) = self.warnings.lock() {
             all.extend(warnings);
         }
     }
 
-    /// Returns all warnings so far.
     pub fn warnings(&self) -> Warnings {
         self.warnings.lock().map(|all| all.clone()).unwrap_or_default()
     }
 
-    /// Begins a table.
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
         TableWriter::create(path, schema)
     }
 
-    /// Ends a table with provenance, printed summary and warnings. A changed input is an error.
+    /// Ends a table with its [`Context::provenance`].
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         writer.finish(&self.provenance(summary)?)
     }
 
-    /// Returns the provenance of a finished file.
-    ///
-    /// # Errors
-    /// If an input has changed since it was read.
+    /// Returns the provenance of a finished file. A changed input is an error.
     pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
         for (path, key) in &self.inputs {
             if key_of(path)? != *key {
@@ -126,7 +111,6 @@ impl Context {
         Ok(Provenance { summary: summary.to_string(), warnings: self.warnings(), ..self.made.clone() })
     }
 
-    /// Writes a table of rows.
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
         let mut writer = self.create(path, &rows::schema::<R>())?;
         writer.append(&rows::batch(rows)?)?;
@@ -136,7 +120,8 @@ impl Context {
     /// Begins progress over `total` steps.
     pub fn bar(&self, total: u64) -> Progress {
         self.observed.total.fetch_add(total, Ordering::Relaxed);
-        let is_seen = self.progress && std::io::stderr().is_terminal();
+        let is_wanted = self.common.progress == Bars::Auto && !self.common.quiet;
+        let is_seen = is_wanted && std::io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(total), target).with_message(self.made.stage.clone());
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");

@@ -12,7 +12,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, ValueHint};
 
 use super::UsageError;
-use crate::table::file::Partition;
+use crate::table::file::{Partition, is_table};
 
 /// What an argument is to a stage. Its value hint says so, which completions need as well: an argument without
 /// one is a parameter, and enters the key of the results by its value.
@@ -47,7 +47,6 @@ const IN_RUN: [(&str, &str, &str); 5] = [
 /// The stage in a run whose motions all later ones take, and these.
 const FLOOR: (&str, &str) = ("floor-motions", "floor.parquet");
 
-/// Returns what an argument is.
 pub fn role(arg: &Arg) -> Role {
     match arg.get_value_hint() {
         ValueHint::FilePath => Role::Input,
@@ -92,11 +91,10 @@ pub fn out_beside_in(matches: &ArgMatches) -> Option<OsString> {
 
 /// Checks that what a stage writes as Parquet has no other ending.
 pub fn check_out(command: &Command, matches: &ArgMatches) -> anyhow::Result<()> {
-    let is_parquet = |path: &Path| path.extension().is_some_and(|ending| ending == "parquet");
     let Some(arg) = command.get_arguments().find(|arg| role(arg) == Role::Output) else { return Ok(()) };
-    let is_written_so = arg.get_default_values().iter().any(|default| is_parquet(Path::new(default)));
+    let is_written_so = arg.get_default_values().iter().any(|default| is_table(Path::new(default)));
     match matches.try_get_one::<PathBuf>("out").ok().flatten() {
-        Some(out) if is_written_so && out.extension().is_some() && !is_parquet(out) => {
+        Some(out) if is_written_so && out.extension().is_some() && !is_table(out) => {
             let out = out.display();
             Err(UsageError::because(format!("out is {out}; expected a name that ends in .parquet")))
         }

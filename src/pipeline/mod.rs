@@ -24,7 +24,6 @@ pub mod stream;
 pub struct UsageError(String);
 
 impl UsageError {
-    /// Makes the error of a message.
     pub fn because(message: impl Into<String>) -> anyhow::Error {
         UsageError(message.into()).into()
     }

@@ -65,7 +65,6 @@ pub struct Pool<T> {
 }
 
 impl<T> Pool<T> {
-    /// Makes a pool; `make` makes new scratch.
     pub fn new(make: impl Fn() -> T + Sync + 'static) -> Pool<T> {
         Pool { idle: Mutex::new(Vec::new()), make: Box::new(make) }
     }

@@ -26,7 +26,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
         let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
-        if !context.quiet {
+        if !context.common.quiet {
             let took = if done.ran {
                 format!("{:.2} s", start.elapsed().as_secs_f64())
             } else {
@@ -40,7 +40,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             printed = done.summary;
         }
     }
-    if !context.quiet {
+    if !context.common.quiet {
         warn(&warnings);
     }
     Ok(printed)

@@ -7,14 +7,12 @@ use arrow_schema::Field;
 
 use crate::fragility::Measure;
 
-/// Name, unit and meaning of each column.
 static COLUMNS: LazyLock<Vec<[String; 3]>> = LazyLock::new(|| {
     let text = include_str!("../../data/columns.csv");
     let rows = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).into_deserialize();
     rows.collect::<Result<_, _>>().expect("data/columns.csv has three columns")
 });
 
-/// Returns the names of all columns.
 pub fn names() -> impl Iterator<Item = &'static str> {
     COLUMNS.iter().map(|[name, ..]| name.as_str())
 }
@@ -39,7 +37,6 @@ pub fn meaning(column: &str) -> String {
     }
 }
 
-/// The field with its unit and meaning.
 pub fn with_meaning(field: Field) -> Field {
     let Some((unit, meaning)) = entry(field.name()) else { return field };
     let pairs = [("unit", unit), ("description", meaning)];

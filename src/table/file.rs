@@ -52,7 +52,6 @@ impl fmt::Display for Partition {
 }
 
 impl Partition {
-    /// Returns the name of its file in a folder.
     pub fn file_name(self) -> String {
         format!("part-{:05}.parquet", self.index)
     }
@@ -96,7 +95,6 @@ pub struct RowGroup {
 }
 
 impl RowGroup {
-    /// Returns the number of rows.
     pub fn count(&self) -> usize {
         (self.rows.end - self.rows.start) as usize
     }
@@ -143,7 +141,6 @@ impl Table {
         missing.map_or(Ok(()), |column| Err(TableError::missing_column(path, column)))
     }
 
-    /// Returns the number of rows.
     pub fn rows(&self) -> u64 {
         self.rows.end - self.rows.start
     }
@@ -267,30 +264,24 @@ pub fn tables(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(entries(folder)?.into_iter().filter(|path| is_table(path)).collect())
 }
 
-/// Returns whether a file has the name of a table.
 pub fn is_table(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "parquet")
 }
 
 /// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
 fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError> {
+    let refuse = |problem: String| Err(TableError::table(folder, problem));
     if files.is_empty() {
-        return Err(TableError::table(folder, "a folder without Parquet files"));
+        return refuse("a folder without Parquet files".to_string());
     }
     let parts: Option<Vec<Partition>> = files.iter().map(TableFile::partition).collect();
     let parts = parts.unwrap_or_default();
     let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
     let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
     match missing {
-        Some(part) => Err(TableError::table(
-            folder,
-            format!("partition {part} is missing; make it with --partition {part}"),
-        )),
+        Some(part) => refuse(format!("partition {part} is missing; make it with --partition {part}")),
         None if parts.len() as u64 == of => Ok(()),
-        None => Err(TableError::table(
-            folder,
-            format!("{} files; expected the {of} partitions of one table", parts.len()),
-        )),
+        None => refuse(format!("{} files; expected the {of} partitions of one table", parts.len())),
     }
 }
 
@@ -305,19 +296,11 @@ pub(super) fn expect_small(
     group: &RowGroupMetaData,
     wanted: &[usize],
 ) -> Result<(), TableError> {
-    let columns = group.columns().iter().enumerate();
     let is_wanted = |leaf: usize| wanted.contains(&group.schema_descr().get_column_root_idx(leaf));
-    let bytes: i64 = columns
-        .filter(|(leaf, _)| is_wanted(*leaf))
-        .map(|(_, column)| column.uncompressed_size().max(0))
-        .sum();
-    if bytes > MOST_BYTES {
-        return Err(TableError::parquet(
-            path,
-            format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less"),
-        ));
-    }
-    Ok(())
+    let columns = group.columns().iter().enumerate().filter(|(leaf, _)| is_wanted(*leaf));
+    let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();
+    let cause = || format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
+    if bytes > MOST_BYTES { Err(TableError::parquet(path, cause())) } else { Ok(()) }
 }
 
 thread_local! {

@@ -36,7 +36,6 @@ pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
     Ok(whole)
 }
 
-/// Converts a batch to a frame.
 pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let schema = rows.schema();
     let columns =

@@ -38,7 +38,6 @@ pub struct Motion {
     pub tm_s: f64,
     pub tp_s: f64,
     pub acceleration_m_s2: Vec<f64>,
-    /// Row in the file.
     pub row: u64,
 }
 
@@ -119,18 +118,16 @@ pub fn read(
     }))
 }
 
-/// Makes motions of the columns of a batch and their samples.
 fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
     let [mw, re_km, pga, pgv, tm, tp] =
         ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
     let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
     let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
     let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
-    let text = |texts: &[Option<Cow<str>>], at: usize| texts[at].as_deref().map(str::to_string);
     let motion = |(at, acceleration_m_s2): (usize, Vec<f64>)| Motion {
         motion_id: ids[at].to_string(),
-        suite: text(&suites, at),
-        earthquake: text(&earthquakes, at),
+        suite: suites[at].clone().map(Cow::into_owned),
+        earthquake: earthquakes[at].clone().map(Cow::into_owned),
         mw: mw[at],
         re_km: re_km[at],
         dt_s: dt[at],

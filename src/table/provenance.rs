@@ -14,7 +14,6 @@ const META: &str = "name=\"rockfrag\" content=\"";
 /// Writer of the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
-/// The provenance of a file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     pub stage: String,
@@ -29,7 +28,6 @@ pub struct Provenance {
     pub files: BTreeMap<String, String>,
     /// Text printed by the stage.
     pub summary: String,
-    /// Warnings about the results.
     pub warnings: Warnings,
 }
 
@@ -60,7 +58,6 @@ impl Provenance {
         KeyValue::new(KEY.to_string(), self.json())
     }
 
-    /// As text.
     pub fn json(&self) -> String {
         serde_json::json!(self).to_string()
     }
@@ -75,12 +72,10 @@ impl Provenance {
         }
         let text =
             |values: Option<&Vec<String>>| values.map_or("nothing".to_string(), |values| values.join(","));
-        let names = now.arguments.keys().chain(self.arguments.keys());
-        for name in names {
-            let (before, now) = (self.arguments.get(name), now.arguments.get(name));
-            if before != now {
-                return Some(format!("--{name} changed from {} to {}", text(before), text(now)));
-            }
+        let is_other = |name: &&String| self.arguments.get(*name) != now.arguments.get(*name);
+        if let Some(name) = now.arguments.keys().chain(self.arguments.keys()).find(is_other) {
+            let [before, now] = [self, now].map(|made| text(made.arguments.get(name)));
+            return Some(format!("--{name} changed from {before} to {now}"));
         }
         let other = now.inputs.iter().find(|(name, key)| self.inputs.get(*name) != Some(key));
         other.map(|(name, _)| format!("what --{name} reads changed"))

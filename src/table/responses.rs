@@ -34,7 +34,6 @@ pub fn batch(responses: &[ResponseRow], measures: &[IntensityMeasures]) -> anyho
     rows::side_by_side(&[rows::batch(responses)?, rows::batch(measures)?])
 }
 
-/// A point of a traced response.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TraceRow {
     pub motion_id: String,

@@ -23,7 +23,6 @@ impl<T: Serialize + DeserializeOwned> Row for T {}
 /// How the names of the columns of a value with its limits end.
 const LIMITS: [&str; 3] = ["", "_low", "_high"];
 
-/// The fields of a row.
 fn fields<R: Row>() -> Vec<FieldRef> {
     let options = TracingOptions::default()
         .strings_as_large_utf8(false)
@@ -40,7 +39,6 @@ fn fields<R: Row>() -> Vec<FieldRef> {
     fields.into_iter().map(field).collect()
 }
 
-/// The columns of a field.
 fn columns(field: &FieldRef) -> Vec<FieldRef> {
     let DataType::Struct(parts) = field.data_type() else { return vec![field.clone()] };
     let column = |(end, part): (&str, &FieldRef)| {
@@ -56,7 +54,6 @@ pub fn schema<R: Row>() -> SchemaRef {
     Arc::new(Schema::new(columns.collect::<Vec<_>>()))
 }
 
-/// Converts rows to a batch.
 pub fn batch<R: Row>(rows: &[R]) -> anyhow::Result<RecordBatch> {
     batch_of::<R, R>(rows)
 }

@@ -21,7 +21,6 @@ const MOTIONS_IN_GROUP: usize = 64;
 /// Suffix of files being written.
 const PARTIAL: &str = ".partial";
 
-/// A table being written.
 pub struct TableWriter {
     path: PathBuf,
     partial: NamedTempFile,
@@ -29,7 +28,6 @@ pub struct TableWriter {
 }
 
 impl TableWriter {
-    /// Begins a table at `path`.
     pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
         let partial = partial_beside(path)?;
         let file = partial.as_file().try_clone().map_err(|source| TableError::io(path, source))?;
@@ -38,7 +36,6 @@ impl TableWriter {
         Ok(TableWriter { path: path.to_path_buf(), partial, writer })
     }
 
-    /// Adds rows.
     pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
         self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
     }

@@ -53,7 +53,7 @@ const CASES: &[Case] = &[
 
 fn shown(sheet: &Sheet) -> (String, usize, String) {
     let heading = |Heading { name, unit, .. }: &Heading| match unit {
-        Some(unit) => format!("{name}:{unit}"),
+        Some(unit) => format!("{name}:{}", unit.name),
         None => name.clone(),
     };
     let headings: Vec<String> = sheet.headings.iter().map(heading).collect();

@@ -134,7 +134,7 @@ fn unit(
         return Err(RecordFileError::value(line, "unit", found.name, "one of acceleration, such as m/s2"));
     }
     match options.unit.filter(|given| given.si != found.si) {
-        Some(given) => Err(contradiction(line, "unit", found.to_string(), given.to_string())),
+        Some(given) => Err(contradiction(line, "unit", found.name.to_string(), given.name.to_string())),
         None => Ok(found),
     }
 }

@@ -36,7 +36,7 @@ fn contradicts(motion: &RecordedMotion, options: &ReadOptions) -> Result<(), Rec
             error("time step", format!("{} s", motion.dt_s), format!("{dt_s} s"))
         }
         (_, Some(unit)) if unit.si != motion.unit.si => {
-            error("unit", motion.unit.to_string(), unit.to_string())
+            error("unit", motion.unit.name.to_string(), unit.name.to_string())
         }
         _ => Ok(()),
     }

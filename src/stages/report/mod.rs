@@ -76,7 +76,7 @@ impl Stage for Report {
         let summary = format!("{}: {}\n", page.display(), counted(figures.len(), "figure"));
         let key = context.provenance(&summary)?.json();
         let stems: Vec<PathBuf> = figures.iter().map(|figure| folder.join(&figure.name)).collect();
-        if let Some(other) = stems.iter().find_map(|stem| foreign(stem)).filter(|_| !context.force) {
+        if let Some(other) = stems.iter().find_map(|stem| foreign(stem)).filter(|_| !context.common.force) {
             bail!("{}: not written by rockfrag; --force replaces it", other.display());
         }
         let paths = figures.par_iter().zip(&stems);
