@@ -1,10 +1,5 @@
 //! Enums with one word per variant, in options and in files.
 
-use std::fmt;
-use std::marker::PhantomData;
-
-use serde::de::{EnumAccess, Error, VariantAccess, Visitor};
-
 /// An enum with one word per variant.
 pub trait Keyword: Copy + PartialEq + 'static {
     /// All variants, in their order.
@@ -24,9 +19,9 @@ macro_rules! keywords {
         $(but $advice:expr)?
     ) => {
         $(#[$meaning])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
         $visible enum $type {
-            $($(#[$detail])* $variant),*
+            $($(#[$detail])* #[serde(rename = $word)] $variant),*
         }
 
         impl $crate::keyword::Keyword for $type {
@@ -53,59 +48,14 @@ macro_rules! keywords {
                 f.pad($crate::keyword::Keyword::as_str(*self))
             }
         }
-
-        impl serde::Serialize for $type {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serializer.serialize_str($crate::keyword::Keyword::as_str(*self))
-            }
-        }
-
-        impl<'de> serde::Deserialize<'de> for $type {
-            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                let words = $crate::keyword::Words(std::marker::PhantomData);
-                deserializer.deserialize_enum(stringify!($type), &[$($word),*], words)
-            }
-        }
     };
 }
 pub(crate) use keywords;
 
-/// Takes the word of a variant from a file.
-pub struct Words<T>(pub PhantomData<T>);
-
-impl<'de, T: Keyword> Visitor<'de> for Words<T> {
-    type Value = T;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a word")
-    }
-
-    fn visit_enum<A: EnumAccess<'de>>(self, access: A) -> Result<T, A::Error> {
-        let (word, variant) = access.variant::<String>()?;
-        variant.unit_variant()?;
-        parse(&word).map_err(A::Error::custom)
-    }
-}
-
-/// An unknown word.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnknownKeyword {
-    word: String,
-    known: Vec<&'static str>,
-    advice: Option<&'static str>,
-}
-
-impl fmt::Display for UnknownKeyword {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "'{}' is not one of {}", self.word, self.known.join(", "))?;
-        match self.advice {
-            Some(advice) => write!(f, "; {advice}"),
-            None => f.write_str(&hint(&self.word, &self.known)),
-        }
-    }
-}
-
-impl std::error::Error for UnknownKeyword {}
+/// An unknown word: the known ones, and the most similar of them or advice.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct UnknownKeyword(String);
 
 /// Returns the variant of a word.
 ///
@@ -113,10 +63,11 @@ impl std::error::Error for UnknownKeyword {}
 /// If no variant has it, with the most similar word.
 pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
     let found = T::ALL.iter().find(|keyword| keyword.as_str() == word).copied();
-    found.ok_or_else(|| UnknownKeyword {
-        word: word.to_string(),
-        known: T::ALL.iter().map(|keyword| keyword.as_str()).collect(),
-        advice: T::ADVICE.iter().find(|(other, _)| *other == word).map(|(_, advice)| *advice),
+    found.ok_or_else(|| {
+        let known: Vec<&str> = T::ALL.iter().map(|keyword| keyword.as_str()).collect();
+        let advice = T::ADVICE.iter().find(|(other, _)| *other == word);
+        let advice = advice.map_or_else(|| hint(word, &known), |(_, advice)| format!("; {advice}"));
+        UnknownKeyword(format!("'{word}' is not one of {}{advice}", known.join(", ")))
     })
 }
 

@@ -18,13 +18,7 @@ pub const STRUCTURES: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrica
 
 /// Returns the two structures.
 pub fn structures() -> Vec<Structure> {
-    let structure = |(name, p_rad_s, alpha_rad): (&str, f64, f64)| Structure {
-        name: name.to_string(),
-        p_rad_s,
-        alpha_rad,
-        eta: ETA,
-    };
-    STRUCTURES.map(structure).into()
+    STRUCTURES.map(|(name, p, alpha)| Structure::new(name, p, alpha, ETA).expect("possible values")).into()
 }
 
 /// Exponent lambda implied by the hybrid measures of the worked example (section 3).

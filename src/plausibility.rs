@@ -1,7 +1,6 @@
 //! What structures and ground motions can be: ranges within which a number given by a user can be right.
 
 use crate::number::{period, significant};
-use crate::rocking::Structure;
 
 /// PGA, g, beyond which nothing was ever recorded.
 pub const STRONGEST_PGA_G: f64 = 4.5;
@@ -11,19 +10,16 @@ pub const STRONGEST_PGV_M_S: f64 = 5.0;
 /// Moment magnitudes that were ever recorded, with a margin.
 pub const MAGNITUDES: std::ops::RangeInclusive<f64> = 1.0..=9.9;
 
+/// Solid blocks of a smaller p (rad/s) are higher than about 40 m: their dimensions are probably in cm.
+pub const LEAST_P_RAD_S: f64 = 0.6;
+
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{peak} of {} {unit} once in {} years exceeds any known hazard: {guess}", significant(*.value, 3), period(*.years))]
-pub struct ImplausibleHazard {
-    peak: &'static str,
-    value: f64,
-    unit: &'static str,
-    years: f64,
-    guess: &'static str,
-}
+#[error("{0}")]
+pub struct ImplausibleHazard(String);
 
 /// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
 pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
@@ -45,7 +41,9 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
         (.., true) => "are these probabilities in 50 years (heading probability_of_exceedance_in_50_years)?",
         _ => "is the unit or the column wrong?",
     };
-    Err(ImplausibleHazard { peak, value, unit, years: 1.0 / rate, guess })
+    let (value, years) = (significant(value, 3), period(1.0 / rate));
+    let hazard = format!("{peak} of {value} {unit} once in {years} years");
+    Err(ImplausibleHazard(format!("{hazard} exceeds any known hazard: {guess}")))
 }
 
 /// Why a value cannot be a peak of ground motion: PGA in m/s2, PGV in m/s.
@@ -57,10 +55,18 @@ pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
         (true, false) => Err("0 to 5 m/s (above any record): is the value in cm/s?"),
     }
 }
-/// Solid blocks of a smaller p (rad/s) are higher than about 40 m.
-const LEAST_P_RAD_S: f64 = 0.6;
 
-/// Returns whether a solid block would be implausibly tall: its dimensions are probably in cm.
-pub fn is_too_high(structure: &Structure) -> bool {
-    structure.p_rad_s < LEAST_P_RAD_S
+/// PGV/PGA of ground motions, s: 0.005 for a sine of 30 Hz; the synthetic pulses of large magnitudes reach 1.7.
+const PGV_PGA_S: std::ops::RangeInclusive<f64> = 0.005..=3.0;
+
+/// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.
+pub fn judge_peaks(pga_m_s2: f64, pgv_m_s: f64) -> Result<(), String> {
+    let ratio_s = pgv_m_s / pga_m_s2;
+    match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
+        true => Ok(()),
+        false => Err(format!(
+            "PGV/PGA is {} s; expected 0.005 to 3 s, of PGA in g and PGV in m/s: a wrong unit?",
+            significant(ratio_s, 3)
+        )),
+    }
 }

@@ -3,34 +3,27 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Purpose of random numbers. Streams of different purposes are independent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
-    /// Order of the strata of a Latin hypercube; the row is the cell times the dimensions plus the dimension.
-    Strata,
-    /// Place of a sample in its stratum, or in the unit cube; the row is the scenario.
-    Sample,
-    /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
-    Noise,
-    /// Rows of a resample; the row is the replicate.
-    Bootstrap,
-}
+use crate::keyword::keywords;
 
-impl Purpose {
-    fn label(self) -> &'static str {
-        match self {
-            Purpose::Strata => "strata",
-            Purpose::Sample => "sample",
-            Purpose::Noise => "noise",
-            Purpose::Bootstrap => "bootstrap",
-        }
+keywords! {
+    /// Purpose of random numbers. Streams of different purposes are independent.
+    pub enum Purpose {
+        /// Order of the strata of a Latin hypercube; the row is the cell times the dimensions plus the
+        /// dimension.
+        Strata = "strata",
+        /// Place of a sample in its stratum, or in the unit cube; the row is the scenario.
+        Sample = "sample",
+        /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
+        Noise = "noise",
+        /// Rows of a resample; the row is the replicate.
+        Bootstrap = "bootstrap",
     }
 }
 
 /// Returns the random stream of a seed, a purpose and a row: ChaCha with 8 rounds, its key from seed and
 /// purpose, its stream number the row.
 pub fn stream(seed: u64, purpose: Purpose, row: u64) -> ChaCha8Rng {
-    let key = blake3::hash(format!("rockfrag {} {seed}", purpose.label()).as_bytes());
+    let key = blake3::hash(format!("rockfrag {purpose} {seed}").as_bytes());
     let mut generator = ChaCha8Rng::from_seed(*key.as_bytes());
     generator.set_stream(row);
     generator

@@ -12,8 +12,6 @@ keywords! {
     #[expect(missing_docs, reason = "text() says it")]
     pub enum Warning {
         UnusualScenario = "unusual_scenario",
-        ImplausibleRow = "implausible_row",
-        NotRocking = "not_rocking",
         ImplausibleRecord = "implausible_record",
         OtherPeak = "other_peak",
         ImplausibleSize = "implausible_size",
@@ -44,13 +42,11 @@ impl Warning {
             Warning::UnusualScenario => {
                 "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km"
             }
-            Warning::ImplausibleRow => "this row is invalid; it has no result",
-            Warning::NotRocking => "the object is anchored or slides: no result",
             Warning::ImplausibleRecord => "this is not a plausible earthquake record",
             Warning::OtherPeak => {
                 "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?"
             }
-            Warning::ImplausibleSize => "implausibly tall: are the dimensions in inches or cm?",
+            Warning::ImplausibleSize => "implausibly tall: a wrong unit?",
             Warning::LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
             Warning::HazardEndsEarly => "the hazard curve ends too early: the result is a range",
             Warning::HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",

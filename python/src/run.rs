@@ -1,39 +1,19 @@
 //! Work in the background of a Python call: the GIL is released, and the caller hears of progress and can
 //! interrupt.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::OnceLock;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::context::{Context, Listener};
+use rockfrag::pipeline::context::{Context, Observed};
 
 use crate::error::to_python;
 
 /// The time between two checks of signals and progress.
 const CHECK_EVERY: Duration = Duration::from_millis(50);
-
-/// How far the work is.
-#[derive(Default)]
-struct Heard {
-    done: AtomicU64,
-    total: AtomicU64,
-    stop: AtomicBool,
-}
-
-impl Listener for Heard {
-    fn begin(&self, steps: u64) {
-        self.total.fetch_add(steps, Ordering::Relaxed);
-    }
-
-    fn advance(&self, steps: u64) -> anyhow::Result<()> {
-        self.done.fetch_add(steps, Ordering::Relaxed);
-        anyhow::ensure!(!self.stop.load(Ordering::Relaxed), "interrupted");
-        Ok(())
-    }
-}
 
 /// The first process that uses rockfrag. A child made by fork lacks its threads and would wait for them.
 static OWNER: OnceLock<u32> = OnceLock::new();
@@ -55,12 +35,10 @@ pub fn run<T: Send>(
     work: impl FnOnce(Context) -> anyhow::Result<T> + Send,
 ) -> PyResult<T> {
     expect_own_threads().map_err(|error| to_python(&error))?;
-    let heard = Arc::new(Heard::default());
     let mut context = Context::default();
     context.quiet = true;
-    context.listener = Some(heard.clone());
+    let observed = &context.observed.clone();
     let (finished, wait) = sync_channel(1);
-    let heard = &heard;
     let (result, interrupted) = py.detach(move || {
         thread::scope(|scope| {
             let worker = scope.spawn(move || {
@@ -72,8 +50,8 @@ pub fn run<T: Send>(
             let mut interrupted = None;
             while wait.recv_timeout(CHECK_EVERY) == Err(RecvTimeoutError::Timeout) {
                 if interrupted.is_none() {
-                    interrupted = Python::attach(|py| check(py, progress, heard)).err();
-                    heard.stop.store(interrupted.is_some(), Ordering::Relaxed);
+                    interrupted = Python::attach(|py| check(py, progress, observed)).err();
+                    observed.stop.store(interrupted.is_some(), Ordering::Relaxed);
                 }
             }
             (worker.join(), interrupted)
@@ -84,7 +62,7 @@ pub fn run<T: Send>(
     }
     let result = result.unwrap_or_else(|_| Err(anyhow::anyhow!("the stage stopped unexpectedly")));
     let result = result.map_err(|error| to_python(&error))?;
-    check(py, progress, heard)?;
+    check(py, progress, observed)?;
     Ok(result)
 }
 
@@ -99,10 +77,11 @@ fn on_threads<T: Send>(
 }
 
 /// Lets Python interrupt, and calls `progress` with the number of steps done and of all.
-fn check(py: Python, progress: Option<&Py<PyAny>>, heard: &Heard) -> PyResult<()> {
+fn check(py: Python, progress: Option<&Py<PyAny>>, observed: &Observed) -> PyResult<()> {
     py.check_signals()?;
     if let Some(progress) = progress {
-        progress.call1(py, (heard.done.load(Ordering::Relaxed), heard.total.load(Ordering::Relaxed)))?;
+        let [done, total] = [&observed.done, &observed.total].map(|steps| steps.load(Ordering::Relaxed));
+        progress.call1(py, (done, total))?;
     }
     Ok(())
 }

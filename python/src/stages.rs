@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use clap::{Arg, ArgAction, Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use rockfrag::cli::config::{Config, arguments};
+use rockfrag::cli::config::arguments;
 use rockfrag::cli::{calls_of, configured, stage_commands};
 use rockfrag::pipeline::cache::{self, Done};
 use rockfrag::pipeline::call::Call;
-use rockfrag::pipeline::context::{COMMON, Common, Context};
+use rockfrag::pipeline::context::{COMMON, Context};
 use rockfrag::pipeline::files::role;
 use rockfrag::stages::inspect::Inspect;
 use serde_json::{Value, json};
@@ -66,8 +66,8 @@ pub fn call(
     let words = arguments(command, options, Path::new(""))
         .map_err(|error| PyTypeError::new_err(in_python(&error.to_string())))?;
     run(py, threads, progress.as_ref(), move |mut context| {
-        let (call, matches) = configured(command, &words)?;
-        context.force = Common::from_arg_matches(&matches)?.force;
+        let call = configured(command, &words)?;
+        context.force = call.common.force;
         make(&call, &context, &mut HashMap::new())
     })
 }
@@ -92,7 +92,7 @@ pub fn run_pipeline(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Made>> {
     run(py, threads, progress.as_ref(), |mut context| {
-        let calls = calls_of(&Config::read(&pipeline)?.with_seed(seed), out, &pipeline)?;
+        let calls = calls_of(&pipeline, out, seed)?;
         context.force = force;
         let mut made = HashMap::new();
         calls.iter().map(|call| make(call, &context, &mut made)).collect()

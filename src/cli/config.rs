@@ -13,29 +13,29 @@ use crate::pipeline::UsageError;
 use crate::pipeline::files::{assigned, in_run, role};
 
 /// A pipeline file.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Config {
     /// Folder of relative paths.
     folder: PathBuf,
-    /// Folder of all outputs, if given.
-    pub out: Option<PathBuf>,
-    seed: Option<String>,
+    /// Folder of all outputs.
+    pub out: PathBuf,
+    pub seed: Option<String>,
     sections: BTreeMap<String, BTreeMap<String, Value>>,
 }
 
 impl Config {
-    /// Reads a pipeline file.
-    pub fn read(path: &Path) -> anyhow::Result<Config> {
+    /// Reads a pipeline file, whose sections must be among these commands.
+    pub fn read(path: &Path, commands: &[Command]) -> anyhow::Result<Config> {
         let failed = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
         let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
         let parsed: Option<BTreeMap<String, Value>> = serde_saphyr::from_str(&text).map_err(|error| {
             failed(error.without_snippet().to_string().lines().next().unwrap_or_default().to_string())
         })?;
-        let mut config =
-            Config { folder: path.parent().unwrap_or(Path::new("")).to_path_buf(), ..Config::default() };
+        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        let mut config = Config { out: folder.join("out"), seed: None, sections: BTreeMap::new(), folder };
         for (key, value) in parsed.unwrap_or_default() {
             match (key.as_str(), value) {
-                ("out", value) => config.out = Some(PathBuf::from(text_of(&value))),
+                ("out", value) => config.out = config.folder.join(text_of(&value)),
                 ("seed", value) => config.seed = Some(text_of(&value)),
                 (_, Value::Object(section)) => {
                     drop(config.sections.insert(key, section.into_iter().collect()))
@@ -44,30 +44,11 @@ impl Config {
                 (_, value) => return Err(failed(format!("{key} is {value}; expected a section of options"))),
             }
         }
-        Ok(config)
-    }
-
-    /// Checks that sections are among these commands.
-    pub fn check(&self, commands: &[Command], path: &Path) -> anyhow::Result<()> {
         let names: Vec<&str> = commands.iter().map(Command::get_name).chain(["seed", "out"]).collect();
-        match self.sections.keys().find(|section| !names.contains(&section.as_str())) {
-            Some(section) => Err(UsageError::because(format!(
-                "{}: unknown section '{section}'{}",
-                path.display(),
-                hint(section, &names)
-            ))),
-            None => Ok(()),
+        match config.sections.keys().find(|section| !names.contains(&section.as_str())) {
+            Some(section) => Err(failed(format!("unknown section '{section}'{}", hint(section, &names)))),
+            None => Ok(config),
         }
-    }
-
-    /// Returns the configuration with another seed.
-    pub fn with_seed(self, seed: Option<u64>) -> Config {
-        Config { seed: seed.map(|seed| seed.to_string()).or(self.seed), ..self }
-    }
-
-    /// Returns the folder of the files of a run.
-    pub fn run_folder(&self, out: Option<PathBuf>) -> PathBuf {
-        out.unwrap_or_else(|| self.folder.join(self.out.clone().unwrap_or_else(|| PathBuf::from("out"))))
     }
 
     /// Returns whether there is a section for a command.

@@ -101,9 +101,12 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
     }
     match Tool::from_arg_matches(&command().try_get_matches_from(arguments)?)? {
         Tool::Run { pipeline, out, seed, dry_run, common } => {
+            if pipeline == Path::new(PIPELINE) && !pipeline.exists() {
+                let message = format!("no {PIPELINE} here; `rockfrag init` writes one to start from");
+                return Err(UsageError::because(message));
+            }
             set_threads(&common)?;
-            let config = read_pipeline(&pipeline)?.with_seed(seed);
-            let calls = calls_of(&config, out, &pipeline)?;
+            let calls = calls_of(&pipeline, out, seed)?;
             match dry_run {
                 true => print(&run::dry_run(&calls)?),
                 false => print(&run::run(&calls, &Context::new(&common))?),
@@ -120,10 +123,9 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
 }
 
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
-    let (call, matches) = configured(command, user)?;
-    let common = Common::from_arg_matches(&matches)?;
-    set_threads(&common)?;
-    let context = Context::new(&common);
+    let call = configured(command, user)?;
+    set_threads(&call.common)?;
+    let context = Context::new(&call.common);
     let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.quiet {
         let _ = writeln!(std::io::stderr(), "{}: up to date", call.name);
@@ -137,22 +139,18 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
 
 /// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a
 /// file.
-pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<(Call, ArgMatches)> {
+pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<Call> {
     let known = lenient(command, user);
     let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
     let section = match &config {
-        Some(path) => {
-            let config = Config::read(path)?;
-            config.check(&stage_commands(), path)?;
-            config.section(command, user)?
-        }
+        Some(path) => Config::read(path, &stage_commands())?.section(command, user)?,
         None => Vec::new(),
     };
     parsed(command, [section, user.to_vec()].concat())
 }
 
 /// Parses and checks the arguments of a stage.
-pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Call, ArgMatches)> {
+fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<Call> {
     let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
     // Parsed as part of the whole command line, which usage lines name.
     let parse = |words: &[OsString]| -> Result<ArgMatches, clap::Error> {
@@ -166,52 +164,37 @@ pub fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<(Ca
     let stage = Stages::of(command.get_name(), &matches)?;
     files::check_out(command, &matches)?;
     stage.check()?;
-    Ok((Call::new(command, &matches, stage), matches))
+    Call::new(command, &matches, stage)
 }
 
 /// Returns the calls of a pipeline file, in the order of a run.
-pub fn calls_of(config: &Config, out: Option<PathBuf>, pipeline: &Path) -> anyhow::Result<Vec<Call>> {
+pub fn calls_of(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyhow::Result<Vec<Call>> {
     let commands = stage_commands();
-    config.check(&commands, pipeline)?;
-    let folder = config.run_folder(out);
-    let call = |command: &Command| match parsed(command, config.section_of_run(command, &folder)?) {
-        Ok((call, _)) => Ok(call),
-        Err(error) => Err(match error.downcast_ref::<clap::Error>() {
-            Some(refused) => {
-                let (file, section) = (pipeline.display(), command.get_name());
-                UsageError::because(format!("{file}: {section}: {}", in_one_line(refused)))
-            }
+    let mut config = Config::read(pipeline, &commands)?;
+    config.seed = seed.map(|seed| seed.to_string()).or(config.seed);
+    let folder = out.unwrap_or_else(|| config.out.clone());
+    let refuse = |problem: String| UsageError::because(format!("{}: {problem}", pipeline.display()));
+    let mut calls: Vec<Call> = Vec::new();
+    for command in commands.iter().filter(|command| config.has(command.get_name())) {
+        let call = parsed(command, config.section_of_run(command, &folder)?);
+        calls.push(call.map_err(|error| match error.downcast_ref::<clap::Error>() {
+            Some(refused) => refuse(format!("{}: {}", command.get_name(), in_one_line(refused))),
             None => error,
-        }),
-    };
-    let calls = commands.iter().filter(|command| config.has(command.get_name())).map(call);
-    let calls = calls.collect::<anyhow::Result<Vec<Call>>>()?;
+        })?);
+    }
     let mut written = HashMap::new();
-    for (call, file) in
-        calls.iter().flat_map(|call| call.stage.outputs().into_iter().map(move |file| (call, file)))
-    {
-        if let Some(first) = written.insert(file.clone(), &call.name) {
-            let (pipeline, file) = (pipeline.display(), file.display());
-            return Err(UsageError::because(format!(
-                "{pipeline}: {first} and {} both write {file}",
-                call.name
-            )));
+    for call in &calls {
+        for file in call.stage.outputs() {
+            let text = file.display().to_string();
+            if let Some(first) = written.insert(file, &call.name) {
+                return Err(refuse(format!("{first} and {} both write {text}", call.name)));
+            }
         }
     }
     match calls.is_empty() {
-        true => Err(UsageError::because(format!("{}: no stage; expected at least one", pipeline.display()))),
+        true => Err(refuse("no stage; expected at least one".to_string())),
         false => Ok(calls),
     }
-}
-
-/// Reads a pipeline file; without one, the error names `rockfrag init`.
-fn read_pipeline(path: &Path) -> anyhow::Result<Config> {
-    if path == Path::new(PIPELINE) && !path.exists() {
-        return Err(UsageError::because(format!(
-            "no {PIPELINE} here; `rockfrag init` writes one to start from"
-        )));
-    }
-    Config::read(path)
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {

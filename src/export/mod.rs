@@ -20,9 +20,6 @@ use crate::fragility::Peak;
 /// pelicun, which keeps six digits where it converts units.
 pub const GAP: f64 = 2e-5;
 
-/// How the name of a model begins.
-pub const OWN_ID: &str = "rockfrag_";
-
 /// What the functions of a file have in common.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FragilityModel {
@@ -48,8 +45,7 @@ pub struct Function {
     pub range_of_data: [f64; 2],
 }
 
-/// Replaces the signs of a name that have a meaning in these programs.
-pub fn plain_id(name: &str) -> String {
-    let plain = |sign: char| if sign.is_ascii_alphanumeric() { sign } else { '_' };
-    name.chars().map(plain).collect()
+/// Returns the id of a structure, without the signs that have a meaning in these programs.
+pub fn own_id(name: &str) -> String {
+    format!("rockfrag_{}", name.replace(|sign: char| !sign.is_ascii_alphanumeric(), "_"))
 }

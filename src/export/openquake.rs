@@ -1,7 +1,5 @@
 //! NRML 0.5, the XML of OpenQuake: a fragilityModel. PGA is in g, PGV in cm/s.
 
-use std::fmt::Write;
-
 use super::{FragilityModel, Function};
 use crate::fragility::{LimitState, Peak};
 use crate::keyword::Keyword;
@@ -18,53 +16,38 @@ fn measure(peak: Peak) -> (&'static str, f64) {
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &FragilityModel, functions: &[Function]) -> String {
-    let states = LimitState::ALL;
-    document(model, functions, |function| {
-        let (imt, unit) = measure(function.peak);
-        let levels: Vec<f64> = function.levels.iter().map(|level| level / unit).collect();
-        let mut text =
-            format!("    <fragilityFunction id=\"{}\" format=\"discrete\">\n", escaped(&function.id));
-        let _ = writeln!(
-            text,
-            "      <imls imt=\"{imt}\" noDamageLimit=\"{}\">{}</imls>",
-            function.range_of_data[0] / unit,
-            numbers(levels.into_iter())
-        );
-        for (index, state) in states.iter().enumerate() {
-            let poes = numbers(function.probabilities.iter().map(|p| p[index]));
-            let _ = writeln!(text, "      <poes ls=\"{}\">{poes}</poes>", state.as_str());
-        }
-        text
-    })
-}
-
-fn document(
-    model: &FragilityModel,
-    functions: &[Function],
-    function: impl Fn(&Function) -> String,
-) -> String {
-    let states = LimitState::ALL;
-    let ranges = functions.iter().map(|function| {
+    let names = LimitState::ALL.iter().map(|state| state.as_str());
+    let mut description = vec![model.description.clone()];
+    let meanings = names.clone().zip(&model.limit_states);
+    description.extend(meanings.map(|(state, meaning)| format!("{state}: {meaning}")));
+    let mut tables = String::new();
+    for function in functions {
         let (imt, unit) = measure(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
-        format!("{}: holds from {imt} {low:.4} (uplift) to {high:.4}", function.id)
-    });
-    let meanings = states.iter().zip(&model.limit_states);
-    let meanings = meanings.map(|(state, meaning)| format!("{}: {meaning}", state.as_str()));
-    let parts: Vec<String> =
-        std::iter::once(model.description.clone()).chain(meanings).chain(ranges).collect();
-    let names: Vec<&str> = states.iter().map(|state| state.as_str()).collect();
-    let mut text = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n  <fragilityModel id=\"{}\" assetCategory=\"structures\" lossCategory=\"structural\">\n    <description>{}</description>\n    <limitStates>{}</limitStates>\n",
-        escaped(&model.id),
-        escaped(&parts.join(". ")),
-        names.join(" "),
-    );
-    for each in functions {
-        text += &function(each);
-        text += "    </fragilityFunction>\n";
+        description.push(format!("{}: holds from {imt} {low:.4} (uplift) to {high:.4}", function.id));
+        let levels = numbers(function.levels.iter().map(|level| level / unit));
+        let id = escaped(&function.id);
+        tables += &format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">\n");
+        tables += &format!("      <imls imt=\"{imt}\" noDamageLimit=\"{low}\">{levels}</imls>\n");
+        for (index, state) in names.clone().enumerate() {
+            let poes = numbers(function.probabilities.iter().map(|p| p[index]));
+            tables += &format!("      <poes ls=\"{state}\">{poes}</poes>\n");
+        }
+        tables += "    </fragilityFunction>\n";
     }
-    text + "  </fragilityModel>\n</nrml>\n"
+    format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<nrml xmlns="http://openquake.org/xmlns/nrml/0.5">
+  <fragilityModel id="{}" assetCategory="structures" lossCategory="structural">
+    <description>{}</description>
+    <limitStates>{}</limitStates>
+{tables}  </fragilityModel>
+</nrml>
+"#,
+        escaped(&model.id),
+        escaped(&description.join(". ")),
+        names.collect::<Vec<_>>().join(" "),
+    )
 }
 
 /// Writes numbers in full, separated by spaces.

@@ -7,18 +7,10 @@ use super::UsageError;
 use super::call::Call;
 use super::context::Context;
 use crate::table::TableError;
+use crate::table::file::is_table;
 use crate::table::keys::head;
 use crate::table::provenance::Provenance;
 use crate::warning::Warnings;
-
-/// Whether the files of a call are up to date.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Freshness {
-    /// Provenance of the files.
-    UpToDate(Provenance),
-    /// The reason.
-    Stale(String),
-}
 
 /// The result of a call.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,20 +25,23 @@ pub struct Done {
     pub key: String,
 }
 
-/// Compares the provenance of the files of a call with the planned one.
-pub fn freshness(call: &Call, planned: &Provenance) -> Freshness {
+/// Returns the provenance of the files of a call if they are up to date.
+///
+/// # Errors
+/// With the reason, if they are not.
+pub fn freshness(call: &Call, planned: &Provenance) -> Result<Provenance, String> {
     let mut last = None;
     for path in call.stage.outputs() {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         match Provenance::of_file(&path) {
             Ok(Some(made)) if made.key() == planned.key() => last = Some(made),
-            Ok(Some(made)) => return Freshness::Stale(made.difference(planned).unwrap_or_default()),
-            Ok(None) => return Freshness::Stale(format!("{name} does not say how it was made")),
-            Err(TableError::Missing(_)) => return Freshness::Stale(format!("{name} is missing")),
-            Err(_) => return Freshness::Stale(format!("{name} cannot be read")),
+            Ok(Some(made)) => return Err(made.difference(planned).unwrap_or_default()),
+            Ok(None) => return Err(format!("{name} does not say how it was made")),
+            Err(TableError::Missing(_)) => return Err(format!("{name} is missing")),
+            Err(_) => return Err(format!("{name} cannot be read")),
         }
     }
-    last.map_or(Freshness::Stale("it only prints".to_string()), Freshness::UpToDate)
+    last.ok_or_else(|| "it only prints".to_string())
 }
 
 /// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
@@ -55,7 +50,7 @@ pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> a
     let planned = call.provenance(made)?;
     let key = planned.key();
     if !context.force
-        && let Freshness::UpToDate(made) = freshness(call, &planned)
+        && let Ok(made) = freshness(call, &planned)
     {
         return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, key });
     }
@@ -86,7 +81,7 @@ fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()
 
 /// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
 pub fn is_ours(path: &Path) -> bool {
-    if path.extension().is_some_and(|extension| extension == "parquet") {
+    if is_table(path) {
         return Provenance::of_file(path).is_ok_and(|made| made.is_some());
     }
     // Tables of evaluate as CSV or JSON need not name the model, but have columns that only rockfrag writes.

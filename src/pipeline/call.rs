@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Command};
+use clap::{ArgMatches, Command, FromArgMatches};
 
-use super::context::COMMON;
+use super::context::{COMMON, Common};
 use super::files::{Role, files_of, role};
 use super::stage::Stage;
 use crate::table::TableError;
@@ -20,6 +20,7 @@ const MOST_NAMED: usize = 4;
 pub struct Call {
     pub name: String,
     pub stage: Box<dyn Stage>,
+    pub common: Common,
     /// Values of all options except files, defaults included, by flag.
     pub arguments: BTreeMap<String, Vec<String>>,
     /// Files and folders to read, or words in their place (a site name), by flag.
@@ -28,7 +29,7 @@ pub struct Call {
 
 impl Call {
     /// Makes a call from the matches of a command.
-    pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> Call {
+    pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> anyhow::Result<Call> {
         let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
         let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
         for arg in command.get_arguments() {
@@ -53,7 +54,8 @@ impl Call {
             let part = |path: &PathBuf| Partition::file_of(partition, path).ok().filter(|_| path.is_dir());
             inputs.values_mut().flatten().for_each(|path| *path = part(path).unwrap_or(path.clone()));
         }
-        Call { name: command.get_name().to_string(), stage, arguments, inputs }
+        let (name, common) = (command.get_name().to_string(), Common::from_arg_matches(matches)?);
+        Ok(Call { name, stage, common, arguments, inputs })
     }
 
     /// Returns the provenance of its files. `planned` has the keys of files not yet written.

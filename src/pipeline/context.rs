@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
 use arrow_schema::SchemaRef;
@@ -50,13 +51,12 @@ keywords! {
     }
 }
 
-/// A program that observes the progress of a stage, in place of the terminal.
-pub trait Listener: Send + Sync {
-    /// Begins a number of steps.
-    fn begin(&self, steps: u64);
-
-    /// Ends a number of steps; an error stops the stage.
-    fn advance(&self, steps: u64) -> anyhow::Result<()>;
+/// What another program sees of the progress of a stage, and how it stops the stage.
+#[derive(Default)]
+pub struct Observed {
+    pub done: AtomicU64,
+    pub total: AtomicU64,
+    pub stop: AtomicBool,
 }
 
 /// The context of a running stage.
@@ -68,8 +68,7 @@ pub struct Context {
     pub quiet: bool,
     /// Draw progress bars if stderr is a terminal.
     pub progress: bool,
-    /// Observer of progress, in place of the terminal.
-    pub listener: Option<Arc<dyn Listener>>,
+    pub observed: Arc<Observed>,
     /// Provenance of the files of the stage.
     pub made: Provenance,
     /// Input files and their keys.
@@ -136,29 +135,29 @@ impl Context {
 
     /// Begins progress over `total` steps.
     pub fn bar(&self, total: u64) -> Progress {
-        if let Some(listener) = &self.listener {
-            listener.begin(total);
-        }
-        let is_seen = self.progress && self.listener.is_none() && std::io::stderr().is_terminal();
+        self.observed.total.fetch_add(total, Ordering::Relaxed);
+        let is_seen = self.progress && std::io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(total), target).with_message(self.made.stage.clone());
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
         let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
-        Progress { bar, listener: self.listener.clone() }
+        Progress { bar, observed: self.observed.clone() }
     }
 }
 
 /// Progress of a stage; dropping it clears the bar.
 pub struct Progress {
     bar: ProgressBar,
-    listener: Option<Arc<dyn Listener>>,
+    observed: Arc<Observed>,
 }
 
 impl Progress {
-    /// Ends a number of steps; an error if the listener stops the stage.
+    /// Ends a number of steps; an error if another program stops the stage.
     pub fn advance(&self, steps: u64) -> anyhow::Result<()> {
         self.bar.inc(steps);
-        self.listener.as_ref().map_or(Ok(()), |listener| listener.advance(steps))
+        self.observed.done.fetch_add(steps, Ordering::Relaxed);
+        anyhow::ensure!(!self.observed.stop.load(Ordering::Relaxed), "interrupted");
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Axes: from values to fractions of a length, and the places of ticks.
 
-use super::figure::{Axis, Marks, Panel, Scale};
+use super::figure::{Axis, Panel, Scale};
 use super::text::minus;
 use crate::number;
 
@@ -36,14 +36,7 @@ impl Panel {
             for [at, value, low, high, _] in layer.marks.numbers() {
                 x.push(at);
                 y.push(value);
-                match layer.marks {
-                    Marks::Bars(_) => {
-                        x.extend([low, high]);
-                        y.push(0.0);
-                    }
-                    _ if self.has_rows() => x.extend([low, high]),
-                    _ => y.extend([low, high]),
-                }
+                if self.has_rows() { &mut x } else { &mut y }.extend([low, high]);
             }
         }
         [Ruler::new(&self.x, &x), Ruler::new(&self.y, &y)]

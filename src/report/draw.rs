@@ -98,14 +98,8 @@ pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
     pixels.encode_png().map_err(|_| usvg::Error::InvalidSize)
 }
 
-/// The area of the data of a panel.
-#[derive(Debug, Clone, Copy)]
-struct Area {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-}
+/// The area of the data of a panel: left, top, width and height.
+type Area = [f64; 4];
 
 fn drawing(figure: &Figure) -> (String, f64) {
     let mut text = String::new();
@@ -119,7 +113,7 @@ fn drawing(figure: &Figure) -> (String, f64) {
         for (column, panel) in row.iter().enumerate() {
             let left = column as f64 * across + names;
             let width = across - names - RIGHT;
-            write_panel(&mut text, panel, Area { left, top: top + title, width, height });
+            write_panel(&mut text, panel, [left, top + title, width, height]);
         }
         let has_labels = row.iter().any(|panel| !panel.x.label.is_empty());
         top += title + height + if has_labels { BELOW } else { 0.25 * BELOW };
@@ -147,7 +141,7 @@ fn names_room(panel: &Panel, across: f64) -> f64 {
 
 /// Estimates the width of marked text: the letters of its reader are not known.
 fn width(marked: &str, size: f64) -> f64 {
-    runs(marked).iter().map(|run| run.words.chars().count()).sum::<usize>() as f64 * size * LETTER_WIDTH
+    words(marked).chars().count() as f64 * size * LETTER_WIDTH
 }
 
 /// Cuts a name to the room for names.
@@ -184,7 +178,6 @@ fn legend(text: &mut String, figure: &Figure, left: f64) -> f64 {
                 path(text, &[-4.5, 4.5].map(|up| [middle[0], middle[1] + up]), colour, 0.8, Dash::Solid);
                 dots(text, &[middle], 1.8, colour, 1.0);
             }
-            Marks::Bars(_) => rectangle(text, [middle[0] - 4.0, middle[1] - 3.0], [8.0, 6.0], colour),
         }
         label(text, [x + MARK + 3.0, y], LETTERS, "", Ink::Text, &layer.label);
         x += long + BETWEEN;
@@ -194,16 +187,10 @@ fn legend(text: &mut String, figure: &Figure, left: f64) -> f64 {
 
 fn write_panel(text: &mut String, panel: &Panel, area: Area) {
     let [x, y] = panel.rulers();
-    let Area { left, top, width, height } = area;
+    let [left, top, width, height] = area;
     // What lies beyond the axes is cut off by the inner picture.
-    let _ = writeln!(
-        text,
-        "<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">",
-        round(left),
-        round(top),
-        round(width),
-        round(height)
-    );
+    let [x_at, y_at, wide, high] = area.map(round);
+    let _ = writeln!(text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
     if let Scale::Names(names) = &panel.y.scale {
         for row in 0..names.len() {
             let at = height * (1.0 - y.fraction(row as f64));
@@ -223,7 +210,7 @@ fn write_panel(text: &mut String, panel: &Panel, area: Area) {
     label(text, [left, top - 6.0], LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
 }
 
-fn axes(text: &mut String, panel: &Panel, [x, y]: [&Ruler; 2], Area { left, top, width, height }: Area) {
+fn axes(text: &mut String, panel: &Panel, [x, y]: [&Ruler; 2], [left, top, width, height]: Area) {
     let (right, bottom) = (left + width, top + height);
     let mut lines = vec![vec![[left, top], [left, bottom], [right, bottom]]];
     let middle = " text-anchor=\"middle\"";
@@ -245,11 +232,8 @@ fn axes(text: &mut String, panel: &Panel, [x, y]: [&Ruler; 2], Area { left, top,
         }
     }
     let d: String = lines.iter().map(|line| course(line)).collect();
-    let _ = writeln!(
-        text,
-        "<path d=\"{d}\" fill=\"none\" stroke=\"{}\" stroke-width=\"0.6\"/>",
-        Ink::Text.colour()
-    );
+    let ink = Ink::Text.colour();
+    let _ = writeln!(text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"0.6\"/>");
     label(text, [left + 0.5 * width, bottom + 21.0], LETTERS, middle, Ink::Text, &panel.x.label);
     let [at, along] = [left - LEFT + 11.0, top + 0.5 * height].map(round);
     let turned = format!("{middle} transform=\"rotate(-90 {at} {along})\"");
@@ -285,12 +269,6 @@ fn marks(text: &mut String, layer: &Layer, has_rows: bool, place: impl Fn([f64; 
                 path(text, &ends.map(&place), colour, 0.8, Dash::Solid);
                 let radius = if e.n.is_nan() { 1.8 } else { 0.9 + 2.3 * (e.n / most).sqrt() };
                 dots(text, &[place([e.x, e.y])], radius, colour, 1.0);
-            }
-        }
-        Marks::Bars(bars) => {
-            for &[from, to, value] in bars {
-                let ([x0, y0], [x1, y1]) = (place([from, 0.0]), place([to, value]));
-                rectangle(text, [x0, y1], [x1 - x0 - 0.5, y0 - y1], colour);
             }
         }
     }
@@ -342,14 +320,6 @@ fn path(text: &mut String, places: &[[f64; 2]], colour: &str, width: f64, dash: 
     let _ = writeln!(
         text,
         "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"{dash}/>"
-    );
-}
-
-fn rectangle(text: &mut String, [x, y]: [f64; 2], size: [f64; 2], colour: &str) {
-    let ([x, y], [width, height]) = ([x, y].map(round), size.map(|side| round(side.max(0.0))));
-    let _ = writeln!(
-        text,
-        "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{colour}\" fill-opacity=\"0.6\"/>"
     );
 }
 

@@ -68,8 +68,6 @@ pub enum Marks {
     },
     /// Values with limits of y, or of x where y is an axis of names.
     Estimates(Vec<Estimate>),
-    /// Bars from 0: first x, last x, height.
-    Bars(Vec<[f64; 3]>),
 }
 
 /// A value with its limits.
@@ -134,6 +132,20 @@ impl Layer {
 }
 
 impl Figure {
+    /// Makes a figure of panels, at most `columns` in a row and `height` points high.
+    pub fn new(
+        name: &str,
+        title: &str,
+        caption: impl Into<String>,
+        columns: usize,
+        height: f64,
+        panels: Vec<Panel>,
+    ) -> Figure {
+        let columns = columns.min(panels.len());
+        let [name, title] = [name, title].map(str::to_string);
+        Figure { name, title, caption: caption.into(), columns, height, panels }
+    }
+
     /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
     /// empty.
     pub fn csv(&self) -> Result<String, csv::Error> {
@@ -157,9 +169,14 @@ impl Figure {
     }
 }
 
+impl Panel {
+    pub fn new(title: &str, x: Axis, y: Axis, layers: Vec<Layer>) -> Panel {
+        Panel { title: title.to_string(), x, y, layers, notes: Vec::new() }
+    }
+}
+
 impl Marks {
-    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. `low` and `high` of a bar
-    /// are its ends.
+    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number.
     pub fn numbers(&self) -> Vec<[f64; 5]> {
         const NONE: f64 = f64::NAN;
         match self {
@@ -169,7 +186,6 @@ impl Marks {
                 points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()
             }
             Marks::Estimates(estimates) => estimates.iter().map(|e| [e.x, e.y, e.low, e.high, e.n]).collect(),
-            Marks::Bars(bars) => bars.iter().map(|&[x0, x1, y]| [0.5 * (x0 + x1), y, x0, x1, NONE]).collect(),
         }
     }
 }

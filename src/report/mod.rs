@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! figure     a figure as data: panels of layers
-//! figures    one function per figure
 //! draw       a figure as SVG and PNG; axis: ranges and ticks
 //! page       the HTML page: sections of tables and figures
 //! text       marked text
@@ -11,7 +10,6 @@
 mod axis;
 mod draw;
 mod figure;
-pub mod figures;
 mod page;
 pub mod text;
 

@@ -1,5 +1,5 @@
-//! Text of figures and of the page. Marked text has italics and small letters below or above the line: `*P*_{ro}`,
-//! `10^{-3}`.
+//! Text of figures and of the page. Marked text has italics and small letters below or above the line:
+//! `*P*_{ro}`, `10^{-3}`.
 
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]

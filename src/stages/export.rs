@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
-use super::shared::structures::{StructureArgs, warnings_of};
-use crate::export::{FragilityModel, Function, OWN_ID, PELICUN_TOLERANCE};
-use crate::export::{discrete, levels, metadata, parameters, plain_id, whole_curve_end};
+use super::shared::structures::StructureArgs;
+use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
+use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
 use crate::fragility::{GivenPeak, Peak, Scenarios};
 use crate::hazard::strongest;
 use crate::hazard::{Velocity, magnitude};
@@ -66,12 +66,12 @@ impl Stage for Export {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
         let models = self.model.read()?;
         let (mut functions, mut description) = (Vec::new(), String::new());
         for structure in &structures {
-            let (model, mut warnings) = models.model(structure)?;
-            warnings.extend(warnings_of(structure));
+            let (model, warnings) = models.model(structure)?;
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let (velocity, median) = (Velocity::of_model(&model, self.im, None), magnitude(None).0);
             let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
@@ -82,7 +82,7 @@ impl Stage for Export {
         }
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
-            id: format!("{OWN_ID}{}", plain_id(&structures[0].name)),
+            id: own_id(&structures[0].name),
             description,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
         };
@@ -134,7 +134,7 @@ impl Export {
             most
         };
         Function {
-            id: format!("{OWN_ID}{}_{}", plain_id(&structure.name), self.im),
+            id: format!("{}_{}", own_id(&structure.name), self.im),
             peak: self.im,
             probabilities: levels.iter().map(held).collect(),
             range_of_data: [uplift, end],

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
-use super::shared::structures::{StructureArgs, warnings_of_all};
+use super::shared::structures::StructureArgs;
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
@@ -26,7 +26,7 @@ use crate::rocking::{
 };
 use crate::statistics::FitStatus;
 use crate::table::TableError;
-use crate::table::motions::{ACCELERATION, Motion, Motions, Part};
+use crate::table::motions::{self, ACCELERATION, Motion, Part};
 use crate::table::responses::{self, ResponseRow};
 use crate::table::{frame, rows};
 use crate::units::G_M_S2;
@@ -164,10 +164,10 @@ impl Stage for Ida {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
-        context.warn(warnings_of_all(&structures));
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
         let scan = Scan::new(self.from, self.to, self.steps);
-        let motions = Motions::open(&self.input, None)?;
+        let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
         let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
@@ -178,9 +178,11 @@ impl Stage for Ida {
             pool.with(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
         };
         pipelined(
-            batches(motions.parts(), rayon::current_num_threads()),
+            batches(motions::parts(&motions), rayon::current_num_threads()),
             |parts| {
-                let read = |part: Part| motions.read(part, CHUNK)?.collect::<Result<Vec<_>, TableError>>();
+                let read = |part: Part| {
+                    motions::read_part(&motions, part, CHUNK)?.collect::<Result<Vec<_>, TableError>>()
+                };
                 let chunks = parts.into_iter().map(read).collect::<Result<Vec<_>, TableError>>()?;
                 chunks.concat().into_par_iter().map(analyse).collect::<anyhow::Result<Vec<Analysed>>>()
             },
@@ -378,7 +380,7 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
 
 fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
     let problem = format!("motion '{}': {problem}", motion.motion_id);
-    TableError::Value { path: path.to_path_buf(), row: motion.row, column: ACCELERATION, problem }
+    TableError::value(path, motion.row, ACCELERATION, problem)
 }
 
 /// Of the structures that half of the motions or more do not overturn, or overturn at the first intensity, so

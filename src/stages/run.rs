@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use anyhow::Context as _;
 
-use crate::pipeline::cache::{self, Freshness};
+use crate::pipeline::cache;
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Context;
 use crate::warning::Warnings;
@@ -65,8 +65,8 @@ pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
     for call in calls {
         let made = call.provenance(&planned)?;
         let would = match cache::freshness(call, &made) {
-            Freshness::UpToDate(_) => "up to date".to_string(),
-            Freshness::Stale(reason) => format!("run: {reason}"),
+            Ok(_) => "up to date".to_string(),
+            Err(reason) => format!("run: {reason}"),
         };
         writeln!(text, "{}: {would}", call.name)?;
         for (name, values) in &made.arguments {

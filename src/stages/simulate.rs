@@ -7,7 +7,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use super::shared::motions::{DistinctIds, Measures, record, warnings};
-use super::shared::structures::{StructureArgs, warnings_of_all};
+use super::shared::structures::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
 use crate::pipeline::context::Context;
@@ -18,7 +18,7 @@ use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::TableError;
 use crate::table::file::Partition;
-use crate::table::motions::{Motion, Motions, Part};
+use crate::table::motions::{self, Motion, Part};
 use crate::table::responses::{self, TraceRow};
 use crate::warning::Warnings;
 
@@ -63,9 +63,9 @@ impl Stage for Simulate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let structures = self.structures.resolve()?;
-        context.warn(warnings_of_all(&structures));
-        let motions = Motions::open(&self.input, self.partition)?;
+        let (structures, warnings) = self.structures.resolve()?;
+        context.warn(warnings);
+        let motions = motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
         let (mut ids, mut traces) = (DistinctIds::default(), Vec::new());
@@ -78,10 +78,10 @@ impl Stage for Simulate {
                 bar.advance(chunk.len() as u64)?;
                 pool.with(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
             };
-            motions.read(part, CHUNK)?.map(simulate_chunk).collect()
+            motions::read_part(&motions, part, CHUNK)?.map(simulate_chunk).collect()
         };
         pipelined(
-            batches(motions.parts(), PARTS_A_THREAD * rayon::current_num_threads()),
+            batches(motions::parts(&motions), PARTS_A_THREAD * rayon::current_num_threads()),
             |parts| parts.into_par_iter().map(simulate_part).collect::<anyhow::Result<Vec<_>>>(),
             |responded| {
                 for some in responded.into_iter().flatten() {

@@ -5,11 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{
-    Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type, UInt32Type,
-    UInt64Type,
-};
-use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_array::types::{Float32Type, Float64Type};
+use arrow_array::{Array, ArrayRef, RecordBatch, downcast_integer};
 use arrow_schema::DataType;
 
 use super::TableError;
@@ -47,7 +44,7 @@ impl Batch {
     }
 
     /// Returns the numbers of a column without nulls.
-    pub fn required_numbers(&self, name: &'static str) -> Result<Vec<f64>, TableError> {
+    pub fn required_numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
         self.expect(name)?;
         let numbers = self.numbers(name)?;
         match numbers.iter().position(|number| number.is_nan()) {
@@ -70,7 +67,7 @@ impl Batch {
     }
 
     /// Returns the texts of a column without nulls.
-    pub fn required_texts(&self, name: &'static str) -> Result<Vec<Cow<'_, str>>, TableError> {
+    pub fn required_texts(&self, name: &str) -> Result<Vec<Cow<'_, str>>, TableError> {
         self.expect(name)?;
         let text = |(row, text): (usize, Option<_>)| {
             text.ok_or_else(|| self.value_error(row, name, "null; expected a text"))
@@ -79,9 +76,9 @@ impl Batch {
     }
 
     /// Returns the words of a column without nulls.
-    pub fn required_words<T: Keyword>(&self, name: &'static str) -> Result<Vec<T>, TableError> {
+    pub fn required_words<T: Keyword>(&self, name: &str) -> Result<Vec<T>, TableError> {
         let word = |(row, text): (usize, Cow<str>)| {
-            keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown.to_string()))
+            keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown))
         };
         self.required_texts(name)?.into_iter().enumerate().map(word).collect()
     }
@@ -95,14 +92,13 @@ impl Batch {
                 "eta" => "eta",
                 _ => "p_rad_s",
             };
-            self.value_error(row, column, error.to_string())
+            self.value_error(row, column, error)
         })
     }
 
     /// Makes the error of a value in a row of this batch.
-    pub fn value_error(&self, row: usize, column: &'static str, problem: impl Into<String>) -> TableError {
-        let row = self.first_row + row as u64;
-        TableError::Value { path: self.path.to_path_buf(), row, column, problem: problem.into() }
+    pub fn value_error(&self, row: usize, column: &str, problem: impl ToString) -> TableError {
+        TableError::value(&self.path, self.first_row + row as u64, column, problem)
     }
 
     fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {
@@ -125,17 +121,10 @@ pub fn numbers(column: &ArrayRef) -> Option<Vec<f64>> {
             }
         }};
     }
-    Some(match column.data_type() {
+    Some(downcast_integer! {
+        column.data_type() => (cast),
         DataType::Float64 => cast!(Float64Type),
         DataType::Float32 => cast!(Float32Type),
-        DataType::Int8 => cast!(Int8Type),
-        DataType::Int16 => cast!(Int16Type),
-        DataType::Int32 => cast!(Int32Type),
-        DataType::Int64 => cast!(Int64Type),
-        DataType::UInt8 => cast!(UInt8Type),
-        DataType::UInt16 => cast!(UInt16Type),
-        DataType::UInt32 => cast!(UInt32Type),
-        DataType::UInt64 => cast!(UInt64Type),
         DataType::Null => vec![f64::NAN; column.len()],
         _ => return None,
     })

@@ -74,21 +74,21 @@ impl Partition {
 
 /// A table open for reading, by several threads if needed.
 pub struct Table {
-    files: Vec<TableFile>,
+    pub(super) files: Vec<TableFile>,
     /// Rows to read; all of them without a partition.
     rows: Range<u64>,
 }
 
-struct TableFile {
-    path: Arc<Path>,
-    metadata: ArrowReaderMetadata,
+pub(super) struct TableFile {
+    pub(super) path: Arc<Path>,
+    pub(super) metadata: ArrowReaderMetadata,
 }
 
 /// Rows of one row group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowGroup {
-    file: usize,
-    group: usize,
+    pub(super) file: usize,
+    pub(super) group: usize,
     /// Rows within the row group.
     pub rows: Range<u64>,
     /// First row, counted in the file.
@@ -175,12 +175,6 @@ impl Table {
             }
         }
         groups
-    }
-
-    /// Returns the file of a row group, its footer, and the number of the row group in it.
-    pub(super) fn place(&self, group: &RowGroup) -> (&Arc<Path>, &ArrowReaderMetadata, usize) {
-        let TableFile { path, metadata } = &self.files[group.file];
-        (path, metadata, group.group)
     }
 
     /// Reads the `wanted` columns of a row group in batches of `batch_size` rows.

@@ -2,8 +2,7 @@
 
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, IntoColumn, NamedFrom};
-use polars::prelude::{PolarsError, Series};
+use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, PolarsError};
 use serde_json::{Map, Value};
 
 use super::columns::numbers;
@@ -49,10 +48,7 @@ pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
 pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize>>, PolarsError> {
     let (suites, structures): (Vec<_>, Vec<_>) = rows.map(|group| (group.suite, group.structure)).unzip();
     let height = structures.len();
-    let keys = vec![
-        Series::new("suite".into(), suites).into_column(),
-        Series::new("structure".into(), structures).into_column(),
-    ];
+    let keys = vec![Column::new("suite".into(), suites), Column::new("structure".into(), structures)];
     // On this thread: the pool of polars does not know --threads.
     let frame = DataFrame::new(height, keys)?;
     let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
@@ -65,28 +61,21 @@ pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize
 
 fn column(name: &str, array: &ArrayRef) -> Column {
     let name = name.into();
-    let is_null = |row: usize| array.is_null(row);
-    let series = if let Some(texts) = array.as_string_opt::<i32>() {
-        Series::new(name, texts.iter().collect::<Vec<_>>())
+    if let Some(texts) = array.as_string_opt::<i32>() {
+        Column::new(name, texts.iter().collect::<Vec<_>>())
     } else if let Some(flags) = array.as_boolean_opt() {
-        Series::new(name, flags.iter().collect::<Vec<_>>())
+        Column::new(name, flags.iter().collect::<Vec<_>>())
     } else if let Some(values) = numbers(array) {
-        let some = |(row, value): (usize, f64)| (!is_null(row)).then_some(value);
-        let values: Vec<Option<f64>> = values.into_iter().enumerate().map(some).collect();
+        let known = values.iter().enumerate().map(|(row, value)| array.is_valid(row).then_some(*value));
         match array.data_type().is_integer() {
-            true => Series::new(
-                name,
-                values.iter().map(|value| value.map(|value| value as i64)).collect::<Vec<_>>(),
-            ),
-            false => Series::new(name, values),
+            true => Column::new(name, known.map(|known| Some(known? as i64)).collect::<Vec<_>>()),
+            false => Column::new(name, known.collect::<Vec<_>>()),
         }
     } else {
-        let length = |row: usize| {
-            array.as_list_opt::<i32>().map(|lists| format!("{} numbers", lists.value_length(row)))
-        };
-        Series::new(name, (0..array.len()).map(length).collect::<Vec<_>>())
-    };
-    series.into_column()
+        let lists = array.as_list_opt::<i32>();
+        let length = |row| lists.map(|lists| format!("{} numbers", lists.value_length(row)));
+        Column::new(name, (0..array.len()).map(length).collect::<Vec<_>>())
+    }
 }
 
 /// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects.

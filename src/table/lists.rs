@@ -13,7 +13,7 @@ use parquet::file::serialized_reader::SerializedPageReader;
 use parquet::schema::types::ColumnDescriptor;
 
 use super::TableError;
-use super::file::{RowGroup, Table, expect_small, guarded};
+use super::file::{RowGroup, Table, TableFile, expect_small, guarded};
 
 /// The lists of a row group, row by row.
 pub struct Lists {
@@ -32,8 +32,8 @@ type Next = dyn FnMut(usize) -> Result<Vec<Option<Vec<f64>>>, ParquetError> + Se
 impl Lists {
     /// Begins to read the lists of a row group.
     pub fn open(table: &Table, group: &RowGroup, column: &'static str) -> Result<Lists, TableError> {
-        let (path, metadata, number) = table.place(group);
-        let (data, schema) = (metadata.metadata().row_group(number), metadata.parquet_schema());
+        let TableFile { path, metadata } = &table.files[group.file];
+        let (data, schema) = (metadata.metadata().row_group(group.group), metadata.parquet_schema());
         let missing = || TableError::missing_column(path, column);
         let leaf = (0..schema.num_columns()).find(|leaf| schema.get_column_root(*leaf).name() == column);
         let leaf = leaf.ok_or_else(missing)?;
@@ -72,8 +72,8 @@ impl Lists {
             return Err(TableError::parquet(&self.path, format!("column '{}' ends early", self.column)));
         }
         let list = |(row, list): (u64, Option<Vec<f64>>)| {
-            let (path, problem) = (self.path.to_path_buf(), "null; expected a list of numbers".to_string());
-            list.ok_or(TableError::Value { path, row, column: self.column, problem })
+            let problem = "null; expected a list of numbers";
+            list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem))
         };
         (first_row..).zip(lists).map(list).collect()
     }

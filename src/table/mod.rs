@@ -30,28 +30,19 @@ use std::path::{Path, PathBuf};
 
 use arrow_schema::DataType;
 
-/// A table that cannot be read or written. Rows count from 0.
+/// A table that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     #[error("{}: no such file", .0.display())]
     Missing(PathBuf),
     #[error("{}: {source}", path.display())]
     Io { path: PathBuf, source: std::io::Error },
-    #[error("{}: not a readable Parquet file ({cause})", path.display())]
-    Parquet { path: PathBuf, cause: String },
-    #[error("{}: no column '{column}'; expected {expected}", path.display())]
-    MissingColumn { path: PathBuf, column: String, expected: String },
-    #[error("{}: column '{column}' is {found}; expected {expected}", path.display())]
-    ColumnType { path: PathBuf, column: String, found: String, expected: &'static str },
-    /// `row` counts from 0, in words from 1.
-    #[error("{}: row {}, column '{column}': {problem}", path.display(), row + 1)]
-    Value { path: PathBuf, row: u64, column: &'static str, problem: String },
     #[error("{}: {problem}", path.display())]
     Table { path: PathBuf, problem: String },
 }
 
 impl TableError {
-    /// Makes the error of the operating system for `path`.
+    /// An error of the operating system.
     pub fn io(path: &Path, source: std::io::Error) -> TableError {
         match source.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
@@ -59,24 +50,27 @@ impl TableError {
         }
     }
 
-    /// Makes the error of the Parquet library for `path`.
+    /// An error of the Parquet library.
     pub fn parquet(path: &Path, cause: impl ToString) -> TableError {
-        TableError::Parquet { path: path.to_path_buf(), cause: cause.to_string() }
+        TableError::table(path, format!("not a readable Parquet file ({})", cause.to_string()))
     }
 
-    /// Makes the error of a table without a column.
     pub fn missing_column(path: &Path, column: &str) -> TableError {
-        let (path, expected) = (path.to_path_buf(), dictionary::meaning(column));
-        TableError::MissingColumn { path, column: column.to_string(), expected }
+        let expected = dictionary::meaning(column);
+        TableError::table(path, format!("no column '{column}'; expected {expected}"))
     }
 
-    /// Makes the error of a column of another type.
-    pub fn other_type(path: &Path, column: &str, found: &DataType, expected: &'static str) -> TableError {
-        let (path, column, found) = (path.to_path_buf(), column.to_string(), found.to_string());
-        TableError::ColumnType { path, column, found, expected }
+    pub fn other_type(path: &Path, column: &str, found: &DataType, expected: &str) -> TableError {
+        TableError::table(path, format!("column '{column}' is {found}; expected {expected}"))
     }
 
-    /// Makes the error of a table as a whole.
+    /// A value that cannot be; `row` counts from 0, in words from 1.
+    pub fn value(path: &Path, row: u64, column: &str, problem: impl ToString) -> TableError {
+        let problem = problem.to_string();
+        TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
+    }
+
+    /// Any other problem with a table.
     pub fn table(path: &Path, problem: impl Into<String>) -> TableError {
         TableError::Table { path: path.to_path_buf(), problem: problem.into() }
     }

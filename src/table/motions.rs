@@ -48,9 +48,6 @@ pub type Sampled = (Batch, Vec<Vec<f64>>);
 /// Motions, and the file they are in.
 type MotionsOfFile = (Arc<Path>, Vec<Motion>);
 
-/// A motions table open for reading by several threads.
-pub struct Motions(Table);
-
 /// A part of a motions table.
 pub enum Part {
     /// A row group, not yet read.
@@ -59,56 +56,7 @@ pub enum Part {
     Read(MotionsOfFile),
 }
 
-impl Motions {
-    /// Opens a motions table, or a partition of it.
-    pub fn open(path: &Path, partition: Option<Partition>) -> Result<Motions, TableError> {
-        open(path, partition).map(Motions)
-    }
-
-    /// Returns the number of motions.
-    pub fn rows(&self) -> u64 {
-        self.0.rows()
-    }
-
-    /// Returns all motions in parts.
-    pub fn parts(&self) -> impl Iterator<Item = Result<Part, TableError>> + Send {
-        self.0.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-            if group.count() <= LARGEST_PART {
-                return Box::new(std::iter::once(Ok(Part::Unread(group))));
-            }
-            match self.read_group(&group, LARGEST_PART) {
-                Ok(read) => Box::new(read.map(|read| read.map(Part::Read))),
-                Err(error) => Box::new(std::iter::once(Err(error))),
-            }
-        })
-    }
-
-    /// Reads the motions of a part, `at_once` at a time.
-    pub fn read(
-        &self,
-        part: Part,
-        at_once: usize,
-    ) -> Result<Box<dyn Iterator<Item = Result<MotionsOfFile, TableError>>>, TableError> {
-        match part {
-            Part::Unread(group) => Ok(Box::new(self.read_group(&group, at_once)?)),
-            Part::Read((path, mut motions)) => Ok(Box::new(std::iter::from_fn(move || {
-                let next: Vec<Motion> = motions.drain(..at_once.min(motions.len())).collect();
-                (!next.is_empty()).then(|| Ok((path.clone(), next)))
-            }))),
-        }
-    }
-
-    fn read_group(
-        &self,
-        group: &RowGroup,
-        at_once: usize,
-    ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
-        let read = read(&self.0, group, &|name| COLUMNS.contains(&name), at_once)?;
-        Ok(read.map(|read| read.and_then(motions)))
-    }
-}
-
-/// Opens a table that has the columns of motions.
+/// Opens a motions table, or a partition of it.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
     let table = Table::open_partition(path, partition)?;
     table.expect(path, ["motion_id", "dt_s", ACCELERATION])?;
@@ -116,6 +64,43 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableErr
         0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
         _ => Ok(table),
     }
+}
+
+/// Returns all motions of a table in parts.
+pub fn parts(table: &Table) -> impl Iterator<Item = Result<Part, TableError>> + Send {
+    table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
+        if group.count() <= LARGEST_PART {
+            return Box::new(std::iter::once(Ok(Part::Unread(group))));
+        }
+        match read_group(table, &group, LARGEST_PART) {
+            Ok(read) => Box::new(read.map(|read| read.map(Part::Read))),
+            Err(error) => Box::new(std::iter::once(Err(error))),
+        }
+    })
+}
+
+/// Reads the motions of a part, `at_once` at a time.
+pub fn read_part(
+    table: &Table,
+    part: Part,
+    at_once: usize,
+) -> Result<Box<dyn Iterator<Item = Result<MotionsOfFile, TableError>>>, TableError> {
+    match part {
+        Part::Unread(group) => Ok(Box::new(read_group(table, &group, at_once)?)),
+        Part::Read((path, mut motions)) => Ok(Box::new(std::iter::from_fn(move || {
+            let next: Vec<Motion> = motions.drain(..at_once.min(motions.len())).collect();
+            (!next.is_empty()).then(|| Ok((path.clone(), next)))
+        }))),
+    }
+}
+
+fn read_group(
+    table: &Table,
+    group: &RowGroup,
+    at_once: usize,
+) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
+    let read = read(table, group, &|name| COLUMNS.contains(&name), at_once)?;
+    Ok(read.map(|read| read.and_then(motions)))
 }
 
 /// Reads the `wanted` columns of motions besides the samples, and these, `at_once` at a time.

@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use rockfrag::motion::{Floor, floor, measures};
-use rockfrag::table::motions::{Motion, Motions};
+use rockfrag::table::motions::{Motion, open, parts, read_part};
 
 const DAMPING: f64 = 0.05;
 
 fn motions() -> Vec<Motion> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/rocking/motions.parquet");
-    let motions = Motions::open(&path, None).unwrap();
-    let read = |part| motions.read(part, 64).unwrap().flat_map(|batch| batch.unwrap().1).collect::<Vec<_>>();
-    motions.parts().flat_map(|part| read(part.unwrap())).collect()
+    let table = open(&path, None).unwrap();
+    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
+    read.flat_map(|batch| batch.unwrap().1).collect()
 }
 
 #[test]

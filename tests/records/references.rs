@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rockfrag::motion::measures::velocity;
 use rockfrag::motion::{MeasurePlan, MeasureScratch, Measured};
 use rockfrag::records::pulses::{FittedPulse, PulseIndicator};
-use rockfrag::table::motions::{Motion, Motions};
+use rockfrag::table::motions::{Motion, open, parts, read_part};
 
 const SA_PERIODS_S: [f64; 6] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
 
@@ -16,9 +16,9 @@ fn reference(name: &str) -> PathBuf {
 
 /// Reads the motions of a file.
 pub fn motions(path: &Path) -> Vec<Motion> {
-    let table = Motions::open(path, None).unwrap();
-    let parts = table.parts().flat_map(|part| table.read(part.unwrap(), 64).unwrap());
-    parts.flat_map(|part| part.unwrap().1).collect()
+    let table = open(path, None).unwrap();
+    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
+    read.flat_map(|part| part.unwrap().1).collect()
 }
 
 /// Motions of the references, by name.

@@ -1,83 +1,136 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
-use std::slice::from_ref;
-
 use resvg::{tiny_skia::Pixmap, usvg};
+use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::number;
-use rockfrag::report::figures::*;
-use rockfrag::report::{
-    Axis, Column, Estimate, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg,
-};
+use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
+use rockfrag::rocking::{Outcome, Response, Structure};
+use rockfrag::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow};
+use rockfrag::stages::report::figures::common::{equal_ratios, observed_shares};
+use rockfrag::stages::report::figures::*;
+use rockfrag::stages::report::tables::Tables;
+use rockfrag::studies::ReliabilityBin;
+use rockfrag::table::motions::Motion;
+use serde_json::json;
 
 const PLANES: [[f64; 3]; 2] = [[-6.0, 30.0, -2.0], [0.5, 1.5, -2.0]];
 
-/// A group whose demand lies on the planes; its name must be escaped.
-fn group(count: usize) -> Group {
-    let case = |k: usize| {
+/// Responses whose demand lies on the planes; the name of the structure must be escaped.
+fn cases(p_rad_s: f64, count: usize) -> Cases {
+    let name = format!("{p_rad_s}<b & \"c\"\u{1}");
+    let structure = Structure::new(&name, p_rad_s, 0.15, 0.92).unwrap();
+    let mut cases = Cases::new(Some("csgm"), structure);
+    for k in 0..count {
         let (im4, im3) = (1.02 + 0.01 * k as f64, 5.0 + (k % 7) as f64);
         let [ln_a, b1, b2] = PLANES[usize::from(im4 >= 1.3)];
         let edp = (ln_a + b1 * im4.ln() + b2 * im3.ln()).exp();
+        let outcome = if k < 90 { Outcome::SafeRocking } else { Outcome::Overturning };
         let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
-        RockingCase {
-            pgv_m_s: im4 / im3,
-            tp_s: k.is_multiple_of(2).then_some(1.0),
-            measures: IntensityMeasures { im2: Some(2.0), im6: Some(0.0), ..measures },
-            edp: (k < 90).then_some(edp),
+        let im1 = k.is_multiple_of(2).then_some(6.0);
+        let measures = IntensityMeasures { im1, im2: Some(2.0), im6: Some(0.0), ..measures };
+        let peaks = measures.peaks(&cases.structure);
+        cases.push(&Response { outcome, edp, impacts: 0 }, &measures, peaks, None);
+    }
+    cases
+}
+
+/// Two structures with their fits.
+fn tables(count: usize) -> Tables {
+    let mut tables = Tables::default();
+    tables.limit_state = 0.1;
+    for p_rad_s in [1.0, 2.5] {
+        let all = cases(p_rad_s, 100);
+        let with = |fit: DemandFit, b: &[f64]| DemandFit { coefficients: b.to_vec(), ..fit };
+        tables.demand.extend(fit_planes(&all, 1.3).into_iter().zip(PLANES).map(|(fit, b)| with(fit, &b)));
+        let laws =
+            [Measure::Im3, Measure::Im4].map(|measure| with(fit_power_law(&all, measure), &[-2.0, 1.5]));
+        tables.demand.extend(laws);
+        for (im_x, im_y) in
+            [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im4, None), (Measure::Im5, None)]
+        {
+            let mut fit = fit_curve(&all, Event::Overturning, im_x, im_y);
+            fit.coefficients = [-2.0, 1.5, 0.5][..2 + usize::from(im_y.is_some())].to_vec();
+            fit.covariance = vec![0.01; fit.coefficients.len().pow(2)];
+            tables.curves.push(fit);
         }
-    };
-    Group { name: "a<b & \"c\"\u{1}, csgm".to_string(), cases: (0..count).map(case).collect() }
+        tables.groups.push(cases(p_rad_s, count));
+    }
+    tables
 }
 
 /// All fifteen figures, of `count` data, which may be none.
 fn figures(count: usize) -> Vec<Figure> {
-    let fit = Some(MeasureFit { ln_a: -2.0, b: 1.5, r2: 0.5, beta: 0.9 });
-    let fits = vec![fit, None, fit, None, None, None];
-    let wave: Vec<f64> = (0..50 * count).map(|k| (0.02 * k as f64).sin()).collect();
-    let history = |p_rad_s| History { p_rad_s, alpha_rad: 0.15, dt_s: 0.01, theta_rad: wave.clone() };
-    let record = Motion {
-        words: "Mw 6.5".to_string(),
+    let tables = tables(count);
+    let groups: Vec<&Cases> = tables.groups.iter().take(count).collect();
+    let suites = [groups.clone()];
+    let wave: Vec<f64> = (0..50 * count).map(|k| 2.0 * (0.02 * k.min(157) as f64).sin()).collect();
+    let record = |suite: &str| Motion {
+        motion_id: "1".to_string(),
+        suite: Some(suite.to_string()),
+        earthquake: None,
+        mw: 6.5,
+        re_km: 10.0,
         dt_s: 0.01,
+        pga_m_s2: 2.0,
+        pgv_m_s: 2.0,
+        tm_s: 3.0,
+        tp_s: 3.0,
         acceleration_m_s2: wave.clone(),
-        velocity_m_s: wave.clone(),
-        pulse: (count > 0).then(|| [wave.clone(), wave.clone()]),
+        row: 0,
     };
-    let share = Estimate { x: 1.0, y: 0.25, low: 0.0, high: f64::NAN, n: 4.0 };
-    let points = vec![[0.5, 0.2], [f64::NAN, f64::NAN], [2.0, 0.9]];
-    let curve = Curve { label: "curve".to_string(), band: vec![[0.0, 1.0]; 3], points };
-    let frame =
-        StructureCurves { name: "frame".to_string(), curves: vec![curve; 2], shares: vec![share; count] };
-    let panel = ProbabilityPanel { structures: vec![frame; count.min(2)], ..Default::default() };
-    let object = AnnualRate { name: "rack ".repeat(30), rate: 1e-3, low: f64::NAN, high: 2e-3 };
-    let analysis = Ida { capacities: vec![0.3; count], motions: count, ..Default::default() };
-    let named =
-        NamedEstimates { series: vec![("im4".to_string(), vec![share]); count], ..Default::default() };
-    let group = group(count);
+    let motions = [record("csgm"), record("pulse")];
+    let motions = &motions[..1 + count.min(1)];
+    let rates_of_object =
+        RatesRow { overturning_per_year: [Some(1e-3), None, Some(2e-3)], ..Default::default() };
+    let object = ObjectRow { structure: "rack ".repeat(30), ..Default::default() };
+    let objects = vec![(object, rates_of_object, DoubtsRow::default()); count];
+    let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
+        "theta": 0.3, "beta": 0.5, "status": "ok" }]);
+    let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
+        "capacity": "overturns", "overturning_intensity": 0.3 });
+    let stripe =
+        |k: usize| json!({ "structure": "a", "intensity": 0.1 * (1 + k) as f64, "outcome": "overturning" });
+    let capacities: Vec<_> = serde_json::from_value(json!(vec![capacity; count])).unwrap();
+    let stripes: Vec<_> = serde_json::from_value((0..count).map(stripe).collect()).unwrap();
+    let analyses: Vec<_> = serde_json::from_value(fit).unwrap();
+    let bin = ReliabilityBin {
+        suite: None,
+        structure: "a".to_string(),
+        event: Event::Failure,
+        model: "surface".to_string(),
+        predicted: 0.2,
+        share: 0.25,
+        share_low: 0.0,
+        share_high: f64::NAN,
+        n: 4,
+        observed: 1,
+    };
+    let set = json!({ "structure": "a", "target": "p_ro", "form": "single", "measures": "im4", "terms": 1,
+        "n": 4, "rank": 1, "loss": -0.1, "loss_error": 0.05, "status": "ok" });
+    let sets: Vec<_> = serde_json::from_value(json!(vec![set; count])).unwrap();
     vec![
-        motion(&record),
-        demand(&vec![group.clone(); count.min(2)]),
-        similarity(&[history(1.0), history(2.5)], "a motion"),
-        regressions(&group, &fits),
-        quality(&vec![("frame".to_string(), fits); count.min(2)]),
-        planes(&[GroupPlanes { group, transition: 1.3, planes: PLANES }]),
-        exceedance(from_ref(&panel)),
-        overturning(&[panel.clone(), panel.clone()]),
-        hybrids(from_ref(&panel)),
-        maps(&[Map {
-            rocks: vec![[0.3, 0.2]; count],
-            lines: [(); 4].map(|()| vec![[0.4, 0.5]; count]),
-            ..Map::default()
-        }]),
-        rates(&vec![object.clone(); count]),
-        list(&vec![object; count]),
-        ida(&[analysis]),
-        validation(from_ref(&named)),
-        ranking(&[named]),
+        motion(motions),
+        demand(&groups),
+        similarity(&tables.groups, motions).unwrap(),
+        regressions(&tables, &tables.groups[0]),
+        quality(&tables, &groups),
+        planes(&tables, &groups),
+        exceedance(&tables, &suites),
+        overturning(&tables, &suites),
+        hybrids(&tables, &suites),
+        maps(&tables, &suites),
+        rates(&objects[..count.min(1)]),
+        list(&objects),
+        ida(&analyses, &capacities, &stripes),
+        validation(&vec![bin; count]),
+        ranking(&sets),
     ]
 }
 
 #[test]
 fn each_figure_is_drawn_and_its_table_has_the_numbers() {
+    assert!(figures(100).iter().all(|figure| !figure.panels.is_empty()));
     for figure in [figures(100), figures(1), figures(0)].concat() {
         let text = svg(&figure, "{\"stage\": \"report\"}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
@@ -112,7 +165,8 @@ fn values_stand_where_the_axes_say() {
 
 #[test]
 fn cases_on_the_planes_are_seen_on_two_lines() {
-    let figure = planes(&[GroupPlanes { group: group(100), transition: 1.3, planes: PLANES }]);
+    let tables = tables(100);
+    let figure = planes(&tables, &[&tables.groups[0]]);
     let layers: Vec<Vec<[f64; 5]>> =
         figure.panels[0].layers.iter().map(|layer| layer.marks.numbers()).collect();
     for (points, line) in layers[..2].iter().zip(&layers[2..]) {

@@ -9,9 +9,11 @@ mod reference;
 mod rocking;
 mod truth;
 
+use rockfrag::table::motions::{Motion, open, parts, read_part};
+
 /// All motions of a file.
-fn motions(path: &std::path::Path) -> Vec<rockfrag::table::motions::Motion> {
-    let motions = rockfrag::table::motions::Motions::open(path, None).unwrap();
-    let read = |part| motions.read(part, 64).unwrap().flat_map(|batch| batch.unwrap().1).collect::<Vec<_>>();
-    motions.parts().flat_map(|part| read(part.unwrap())).collect()
+fn motions(path: &std::path::Path) -> Vec<Motion> {
+    let table = open(path, None).unwrap();
+    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
+    read.flat_map(|batch| batch.unwrap().1).collect()
 }

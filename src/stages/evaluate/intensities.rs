@@ -7,11 +7,13 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{Field, Schema};
 
 use crate::fragility::Peak;
+use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::plausibility::judge_peak;
 use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
 use crate::stages::shared::hazard::{Renamed, headings, peak, rename};
+use crate::stages::shared::object_list::describes_object;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
@@ -32,11 +34,14 @@ pub fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
         let (peak, unit) = peak(&Heading::of(field.name()))?;
         (peak == wanted).then(|| (field.name().clone(), unit))
     });
-    let found: Vec<(String, f64)> = found.collect();
+    let mut found: Vec<(String, f64)> = found.collect();
     let (column, expected) = match wanted {
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
         Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
     };
+    if let Some(own) = found.iter().position(|(name, _)| name == column) {
+        found = vec![found.swap_remove(own)];
+    }
     if let [(first, _), (second, _), ..] = &found[..] {
         let path = batch.path.display();
         return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
@@ -51,7 +56,8 @@ pub fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     };
     let judged = |(row, value): (usize, f64)| match judge_peak(wanted == Peak::Pgv, value * unit) {
         Ok(()) => Ok(value * unit),
-        Err(possible) => Err(batch.value_error(row, expected, format!("expected {possible}")).into()),
+        Err(_) if value.is_nan() => Err(batch.value_error(row, column, "no value").into()),
+        Err(possible) => Err(batch.value_error(row, column, format!("expected {possible}")).into()),
     };
     batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
 }
@@ -69,31 +75,43 @@ fn read_csv(path: &Path, renamed: &[Renamed]) -> anyhow::Result<RecordBatch> {
     let mut sheet = Sheet::parse(&std::fs::read(path).map_err(|source| TableError::io(path, source))?)
         .map_err(|error| TableError::table(path, error.to_string()))?;
     rename(&mut sheet, renamed)?;
-    if sheet.lines.is_empty() {
-        let problem = format!("no rows under {}; expected intensities", headings(&sheet));
+    let of_object = |heading: &&Heading| describes_object(heading);
+    if let Some(heading) = sheet.headings.iter().find(of_object) {
+        let problem = format!(
+            "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \
+             object by options, or list objects in --structures",
+            heading.text
+        );
         return Err(TableError::table(path, problem).into());
     }
-    let column = |at: usize| -> (Field, ArrayRef) {
+    if sheet.headings.is_empty() || sheet.lines.is_empty() {
+        let (rows, headings) = (counted(sheet.lines.len(), "row"), headings(&sheet));
+        let problem = format!("{rows} under {headings}; expected intensities under pga_g and pgv_m_s");
+        return Err(TableError::table(path, problem).into());
+    }
+    let column = |at: usize| -> Result<(Field, ArrayRef), TableError> {
+        let heading = &sheet.headings[at];
         let number = |row: usize| match sheet.cell(row, at) {
-            "" => Some(None),
-            _ => sheet.number(row, at).ok().map(Some),
+            "" => Ok(None),
+            _ => sheet.number(row, at).map(Some),
         };
         let rows = 0..sheet.lines.len();
-        let array: ArrayRef = match rows.clone().map(number).collect::<Option<Vec<_>>>() {
-            Some(values) => Arc::new(Float64Array::from(values)),
-            None => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
+        let array: ArrayRef = match rows.clone().map(number).collect::<Result<Vec<_>, _>>() {
+            Ok(values) => Arc::new(Float64Array::from(values)),
+            Err(error) if peak(heading).is_some() => return Err(TableError::table(path, error.to_string())),
+            Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
         };
-        let heading = &sheet.headings[at];
         let name = match heading.name.as_str() {
+            "m" | "magnitude" => "mw",
             "p" => "p_rad_s",
             "alpha" => "alpha_rad",
             "tp" => "tp_s",
             "tm" => "tm_s",
-            "magnitude" => "mw",
             _ => &heading.text,
         };
-        (Field::new(name, array.data_type().clone(), true), array)
+        Ok((Field::new(name, array.data_type().clone(), true), array))
     };
-    let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = (0..sheet.columns).map(column).unzip();
+    let columns = (0..sheet.columns).map(column).collect::<Result<Vec<_>, _>>()?;
+    let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = columns.into_iter().unzip();
     Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)?)
 }

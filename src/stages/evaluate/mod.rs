@@ -29,14 +29,14 @@ use super::shared::hazard::{self, Renamed};
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::Object;
 use super::shared::responses;
-use super::shared::spec::{Place, Restitution, Spec};
+use super::shared::spec::{Place, Reason, Restitution, Spec};
 use super::shared::structures::StructureArgs;
 use crate::hazard::{Hazard, Motion, PeakHazard, Site, Velocity};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::number;
+use crate::pipeline::options::{listed, number};
 use crate::pipeline::stage::Stage;
-use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::plausibility::rarity;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
@@ -157,9 +157,12 @@ impl Evaluate {
             )),
             (_, pga_g, pgv_m_s) => {
                 if pga_g.and(pgv_m_s).and(self.vs30).is_some() {
-                    return Err(UsageError::because("vs30: PGV/PGA is given"));
+                    return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
                 }
                 let pga_m_s2 = pga_g.map(|pga| pga * G_M_S2);
+                if let (Some(pga), Some(pgv)) = (pga_m_s2, pgv_m_s) {
+                    judge_peaks(pga, pgv).map_err(UsageError::because)?;
+                }
                 Ok(Question::Motion(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 }))
             }
         }
@@ -187,6 +190,15 @@ impl Evaluate {
             Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
+        let is_counted = |answer: &Answer<RatesRow>| answer.row.counted_motions.is_some();
+        if let Some(path) = self.responses.as_ref().filter(|_| !all.iter().any(is_counted)) {
+            let names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
+            anyhow::bail!(
+                "{}: responses of {}; expected responses of the structure of this call, to its kind of motion",
+                path.display(),
+                listed(&names, 8)
+            );
+        }
         self.finish(&all, rates::text(&all, &site, self.target, self.sentence), context)
     }
 
@@ -226,9 +238,7 @@ impl Evaluate {
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
-        let is_held = |object: &Object| {
-            object.directions.as_ref().is_err_and(|reason| reason.warning == Warning::NotRocking)
-        };
+        let is_held = |object: &Object| matches!(object.directions, Err(Reason::NotRocking(_)));
         match objects.first().map_or(Ok(()), |object| object.structure().map(|_| ())) {
             Err(reason) if !objects.iter().any(|object| object.directions.is_ok() || is_held(object)) => {
                 match &self.structures.structures {

@@ -14,7 +14,6 @@ use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
 use crate::stages::shared::objects::{Direction, Object};
-use crate::stages::shared::spec::Reason;
 use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
 use crate::warning::{Warning, Warnings};
@@ -231,12 +230,12 @@ pub fn answers<R: Predicted>(
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         let (subject, mut warnings) = match &object.directions {
             Ok(found) => Subject::of(&object, found, models)?,
-            Err(Reason { warning, text }) => {
+            Err(reason) => {
                 return Ok(Answer {
                     object: ObjectRow::refused(&object),
                     row: R::default(),
-                    doubts: DoubtsRow { warnings: Some(text.clone()), ..DoubtsRow::default() },
-                    warnings: vec![*warning],
+                    doubts: DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() },
+                    warnings: Vec::new(),
                     explained: String::new(),
                     responses: 0,
                 });

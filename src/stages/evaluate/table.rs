@@ -15,6 +15,7 @@ use crate::hazard::Motion;
 use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
+use crate::plausibility::judge_peaks;
 use crate::rocking::Structure;
 use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
@@ -92,6 +93,9 @@ fn of_batch<'a>(
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
+    for (row, (&pga, &pgv)) in pga.iter().zip(&pgv).enumerate() {
+        judge_peaks(pga, pgv).map_err(|problem| batch.value_error(row, "pgv_m_s", problem))?;
+    }
     let mw = batch.magnitudes()?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);

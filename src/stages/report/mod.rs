@@ -1,9 +1,8 @@
 //! report: one page and its figures, of all tables in a folder.
 
-mod figures;
+pub mod figures;
 mod page;
-mod studies;
-mod tables;
+pub mod tables;
 
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::studies;
+use super::figures::common::label_of_scaled;
 use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
@@ -23,8 +23,8 @@ use crate::warning::Warnings;
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
-/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded; of
-/// a list there are only these.
+/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
+/// of a list there are only these.
 const OF_RATES: &[&str] = &["list", "rates", "map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
@@ -65,7 +65,8 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
     let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let is_shown = |stage: &str| tables.are_of(stage) && (stage != "fit-pex" || tables.objects.is_empty());
+    let is_shown =
+        |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || tables.objects.is_empty());
     let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
         let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
@@ -99,7 +100,8 @@ fn facts(tables: &Tables) -> Vec<String> {
         let years = number::plain(rates.years.unwrap_or(f64::NAN));
         let objects = number::counted(tables.objects.len(), "object");
         facts.push(format!(
-            "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over {hazard}."
+            "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over \
+             {hazard}."
         ));
         facts.push(format!("By {}.", model_of_all(tables.objects.iter().map(|(object, ..)| object))));
         let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
@@ -200,8 +202,8 @@ fn planes(compared: &[Comparison]) -> Table {
     };
     let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
     table(
-        "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* is their \
-         difference over the standard deviation between seeds.",
+        "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* \
+         is their difference over the standard deviation between seeds.",
         of_planes.map(row),
         "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}",
     )
@@ -224,7 +226,7 @@ fn overturned(groups: &[Cases]) -> String {
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
     let median = match capacities.first() {
-        Some(fit) => format!("median of the lowest overturning {}", studies::words(fit.measure)),
+        Some(fit) => format!("median of the lowest overturning {}", label_of_scaled(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
@@ -281,7 +283,8 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     }
     let mut all = vec![
         table(
-            "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd over seeds",
+            "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
+             over seeds",
             published,
             "quantity|structure|suite|published|ours|mean|sd|z",
         ),

@@ -12,7 +12,7 @@ use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
-use crate::table::motions::{Motion, Motions};
+use crate::table::motions::{self, Motion};
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 
@@ -83,14 +83,14 @@ impl Tables {
 
     /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
     fn read_objects(&mut self) -> anyhow::Result<()> {
-        let mut first: Option<(Option<&String>, Option<&Vec<String>>)> = None;
+        let mut first = None;
         for (path, _, made) in &self.files {
             if Table::open(path)?.schema().index_of(RATES).is_err() {
                 continue;
             }
             let made = made.as_ref();
-            let question =
-                made.map_or((None, None), |made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            let question = made.map(|made| (made.inputs.get("hazard"), made.arguments.get("years")));
+            let question = question.unwrap_or_default();
             if *first.get_or_insert(question) != question {
                 let file = path.file_name().unwrap_or_default().to_string_lossy();
                 self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
@@ -104,8 +104,8 @@ impl Tables {
         Ok(())
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder: names
-    /// of structures alone do not tell.
+    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder:
+    /// names of structures alone do not tell.
     fn leave_out_strangers(&mut self) -> Result<(), TableError> {
         let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
         let input = |name: &str, flag: &str| {
@@ -128,18 +128,15 @@ impl Tables {
             ("validation", input("validation", "fits"), key("pro")?, "fits"),
             ("evaluated", input("evaluated", "fits"), key("pro")?, "fits"),
         ];
-        let mut left_out = Vec::new();
         for (name, has, expected, what) in strangers {
             if has.is_some() && expected.is_some() && has != expected {
-                left_out.push((name, format!("{name}.parquet is not shown: it belongs to other {what}.")));
+                self.files.retain(|(path, ..)| {
+                    path.file_name()
+                        .is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
+                });
+                self.strangers.push(name);
+                self.left_out.push(format!("{name}.parquet is not shown: it belongs to other {what}."));
             }
-        }
-        for (name, reason) in left_out {
-            self.files.retain(|(path, ..)| {
-                path.file_name().is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
-            });
-            self.strangers.push(name);
-            self.left_out.push(reason);
         }
         Ok(())
     }
@@ -158,11 +155,6 @@ impl Tables {
         if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
     }
 
-    /// Whether a stage made one of them.
-    pub fn are_of(&self, stage: &str) -> bool {
-        self.made_by(stage).is_some()
-    }
-
     /// What a stage has made.
     pub fn made_by(&self, stage: &str) -> Option<&Provenance> {
         self.files.iter().filter_map(|(.., made)| made.as_ref()).find(|made| made.stage == stage)
@@ -176,10 +168,11 @@ impl Tables {
     /// The motions of a row group in the middle of the file.
     pub fn motions(&self) -> Result<Vec<Motion>, TableError> {
         let Some(path) = self.place("motions") else { return Ok(Vec::new()) };
-        let motions = Motions::open(&path, None)?;
-        let middle = (motions.rows() / MOTIONS_IN_GROUP / 2) as usize;
-        let part = motions.parts().nth(middle).or_else(|| motions.parts().next());
-        let some = part.map(|part| motions.read(part?, MOTIONS_IN_GROUP as usize)?.next().transpose());
+        let table = motions::open(&path, None)?;
+        let middle = (table.rows() / MOTIONS_IN_GROUP / 2) as usize;
+        let part = motions::parts(&table).nth(middle).or_else(|| motions::parts(&table).next());
+        let at_once = MOTIONS_IN_GROUP as usize;
+        let some = part.map(|part| motions::read_part(&table, part?, at_once)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
     }
 }

@@ -207,6 +207,12 @@ impl Models {
         let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
         if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
+            if row.ratio_given_pga != overturning.ratio_given_pga {
+                let (folder, name) = (self.folder(), &overturning.structure);
+                bail!(
+                    "{folder}: P_ex and P_ro of '{name}' are of different responses; run fit-pex and fit-pro on one file"
+                );
+            }
             return Ok(row);
         }
         let mut fitted: Vec<f64> = rows().filter_map(|row| row.limit_state).collect();

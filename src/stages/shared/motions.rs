@@ -16,7 +16,7 @@ use crate::warning::{Warning, Warnings};
 pub fn record<'a>(path: &Path, motion: &'a Motion) -> Result<Record<'a>, TableError> {
     Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| {
         let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
-        TableError::Value { path: path.to_path_buf(), row: motion.row, column, problem: problem.to_string() }
+        TableError::value(path, motion.row, column, problem)
     })
 }
 

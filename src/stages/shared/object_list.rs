@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use clap::CommandFactory;
 
+use super::hazard::headings;
 use super::spec::{Reason, Shape, Spec};
 use crate::sheet::{Heading, Sheet};
 use crate::units::Quantity;
@@ -48,10 +49,10 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
     let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
     let texts = || sheet.headings.iter().map(|heading| heading.text.clone());
     if !(has("height") || has("p")) {
-        let headings = texts().collect::<Vec<_>>().join(", ");
         anyhow::bail!(
-            "{}: headings {headings}; expected name, width, depth and height, or p, alpha and eta",
-            place()
+            "{}: {}; expected name, width, depth and height, or p, alpha and eta",
+            place(),
+            headings(&sheet)
         );
     }
     if sheet.lines.is_empty() {
@@ -72,7 +73,7 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
     let option = |column: &Column| matches!(column, Column::Option(..)).then(|| column.clone());
     for (at, column) in columns.iter().enumerate().filter_map(|(at, column)| Some((at, option(column)?))) {
         if columns[..at].contains(&column) {
-            anyhow::bail!("{}: heading '{}' stands twice", place(), sheet.headings[at].text);
+            anyhow::bail!("{}: two columns '{}'; keep one", place(), sheet.headings[at].text);
         }
     }
     let named = NAMES.iter().find_map(|name| sheet.column(&[name]));
@@ -91,17 +92,23 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
         let held = held.filter_map(|(at, _)| held_by(&sheet.headings[at].text, sheet.cell(row, at))).next();
         match spec(&sheet, &columns, row) {
             Ok(_) if TOTALS.contains(&names[row].to_lowercase().as_str()) => {
-                let refused = Some(Reason::implausible("a row of totals, not an object"));
+                let refused = Some(Reason::Implausible("a row of totals, not an object".to_string()));
                 Spec { name, refused, ..Spec::from(Shape::default()) }
             }
             Ok(spec) => Spec { name, refused: held, ..spec },
             Err(problem) => {
-                Spec { name, refused: Some(Reason::implausible(problem)), ..Spec::from(Shape::default()) }
+                Spec { name, refused: Some(Reason::Implausible(problem)), ..Spec::from(Shape::default()) }
             }
         }
     };
     let unused = texts().enumerate().filter(|(at, _)| columns[*at] == Column::Unused && Some(*at) != named);
     Ok((rows.map(spec).collect(), unused.map(|(_, text)| text).collect()))
+}
+
+/// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
+pub fn describes_object(heading: &Heading) -> bool {
+    let others = ["p", "alpha", "eta", "count"];
+    matches!(meaning(heading), Column::Option(name, _) if !others.contains(&name.as_str()))
 }
 
 fn meaning(heading: &Heading) -> Column {
@@ -158,7 +165,7 @@ fn held_by(heading: &str, cell: &str) -> Option<Reason> {
         ["castor", "caster", "wheel"].iter().any(|wheels| heading.contains(wheels) || word.contains(wheels));
     match FREE.contains(&word.as_str()) {
         true => None,
-        false if rolls => Some(Reason::not_rocking("on castors: it rolls, and does not rock")),
-        false => Some(Reason::not_rocking(format!("{heading}: {word}; it is not free to rock"))),
+        false if rolls => Some(Reason::NotRocking("on castors: it rolls, and does not rock".to_string())),
+        false => Some(Reason::NotRocking(format!("{heading}: {word}; it is not free to rock"))),
     }
 }

@@ -44,7 +44,7 @@ impl Object {
 
     /// The structure of its weaker direction, or why there is none, with its name.
     pub fn structure(&self) -> Result<&Structure, String> {
-        let named = |reason: &Reason| format!("structure '{}': {}", self.spec.name, reason.text);
+        let named = |reason: &Reason| format!("structure '{}': {}", self.spec.name, reason);
         self.directions.as_ref().map(|directions| &directions[0].structure).map_err(named)
     }
 
@@ -78,11 +78,13 @@ impl Spec {
         }
         match self.place {
             Place { level: Some(level), period: None, .. } if level > 0.0 => {
-                return Err(Reason::implausible("level needs period, the first of the building (s)"));
+                return Err(Reason::Implausible(
+                    "level needs period, the first of the building (s)".to_string(),
+                ));
             }
             Place { level: None, period: Some(_), .. } => {
                 let text = "period needs level, the height of the floor over that of the roof";
-                return Err(Reason::implausible(text));
+                return Err(Reason::Implausible(text.to_string()));
             }
             _ => {}
         }
@@ -100,7 +102,11 @@ impl Spec {
                     None => self.sides(width, height)?,
                 }
             }
-            _ => return Err(Reason::implausible("expected p, alpha and eta, or width and height")),
+            _ => {
+                return Err(Reason::Implausible(
+                    "expected p, alpha and eta, or width and height".to_string(),
+                ));
+            }
         };
         let tan = |direction: &Direction| direction.structure.alpha_rad.tan();
         directions.sort_by(|a, b| tan(a).total_cmp(&tan(b)));
@@ -108,7 +114,7 @@ impl Spec {
         directions.retain(|direction| tan(direction) <= friction);
         match directions.is_empty() {
             true => {
-                Err(Reason::not_rocking(format!("slides first: it rocks from a friction of {least:.2} on")))
+                Err(Reason::NotRocking(format!("slides first: it rocks from a friction of {least:.2} on")))
             }
             false => Ok(directions),
         }
@@ -135,7 +141,7 @@ impl Spec {
         ];
         for (name, value, most, expected) in most {
             if let Some(value) = value.filter(|value| *value > most) {
-                return Err(Reason::implausible(format!(
+                return Err(Reason::Implausible(format!(
                     "{name} is {value}; expected up to {most} {expected}"
                 )));
             }
@@ -205,7 +211,7 @@ impl Spec {
         if alpha_rad > FRAC_PI_4 {
             let tan = alpha_rad.tan();
             let text = format!("squat: it slides unless its friction is above {tan:.2}");
-            return Err(Reason::not_rocking(text));
+            return Err(Reason::NotRocking(text));
         }
         let of_height = centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, middle)));
         let of_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);

@@ -7,7 +7,7 @@ use clap::{Args, Parser};
 
 use crate::pipeline::options::{in_one_line, number};
 use crate::rocking::{Structure, StructureError, housner_eta};
-use crate::warning::{UNNAMED, Warning};
+use crate::warning::UNNAMED;
 
 /// An object as it is given.
 #[derive(Debug, Clone, PartialEq, Parser)]
@@ -114,26 +114,18 @@ pub struct Place {
     pub centre_offset_sd: Option<f64>,
 }
 
-/// Why there is no answer for an object: what is given cannot be right, or it does not rock.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reason {
-    pub warning: Warning,
-    pub text: String,
-}
-
-impl Reason {
-    pub fn implausible(text: impl Into<String>) -> Reason {
-        Reason { warning: Warning::ImplausibleRow, text: text.into() }
-    }
-
-    pub fn not_rocking(text: impl Into<String>) -> Reason {
-        Reason { warning: Warning::NotRocking, text: text.into() }
-    }
+/// Why there is no answer for an object.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Reason {
+    #[error("{0}")]
+    Implausible(String),
+    #[error("{0}")]
+    NotRocking(String),
 }
 
 impl From<StructureError> for Reason {
     fn from(StructureError { parameter, value, expected, .. }: StructureError) -> Reason {
-        Reason::implausible(format!("{parameter} is {value}; expected {expected}"))
+        Reason::Implausible(format!("{parameter} is {value}; expected {expected}"))
     }
 }
 

@@ -9,7 +9,7 @@ use super::objects::Object;
 use super::spec::{Place, Restitution, Shape, Spec};
 use crate::paper;
 use crate::pipeline::UsageError;
-use crate::plausibility::is_too_high;
+use crate::plausibility::LEAST_P_RAD_S;
 use crate::rocking::Structure;
 use crate::warning::{Warning, Warnings};
 
@@ -35,9 +35,9 @@ impl StructureArgs {
         self.structures.is_some() || !self.structure.is_empty() || self.one != Shape::default()
     }
 
-    /// All structures, each of the weaker direction of an object.
-    pub fn resolve(&self) -> anyhow::Result<Vec<Structure>> {
-        let (objects, _) = self.objects(&Place::default())?;
+    /// All structures, each of the weaker direction of an object, and warnings about them and their list.
+    pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
+        let (objects, unused) = self.objects(&Place::default())?;
         let structure = |object: &Object| match object.floor() {
             Some(_) => {
                 let name = &object.spec.name;
@@ -48,7 +48,14 @@ impl StructureArgs {
             None => object.structure().cloned(),
         };
         let structures: Result<Vec<Structure>, String> = objects.iter().map(structure).collect();
-        structures.map_err(UsageError::because)
+        let structures = structures.map_err(UsageError::because)?;
+        let of_structure = |structure: &Structure| {
+            let name = structure.name.clone();
+            warnings_of(structure).into_iter().map(move |warning| (warning, name.clone()))
+        };
+        let unused = unused.into_iter().map(|heading| (Warning::UnusedColumns, heading));
+        let warnings = structures.iter().flat_map(of_structure).chain(unused).collect();
+        Ok((structures, warnings))
     }
 
     /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them.
@@ -88,15 +95,6 @@ const LOW_ETA: f64 = 0.5;
 
 /// Warnings about the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
-    let size = is_too_high(structure).then_some(Warning::ImplausibleSize);
+    let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
-}
-
-/// The same of several structures.
-pub fn warnings_of_all(structures: &[Structure]) -> Warnings {
-    let warnings = |structure: &Structure| {
-        let name = structure.name.clone();
-        warnings_of(structure).into_iter().map(move |warning| (warning, name.clone()))
-    };
-    structures.iter().flat_map(warnings).collect()
 }

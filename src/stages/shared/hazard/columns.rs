@@ -29,7 +29,7 @@ impl FromStr for Renamed {
 pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
     for Renamed { column, heading } in renamed {
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
-            bail!("no heading '{heading}'; expected one of {}", headings(sheet));
+            bail!("no heading '{heading}' among {}", headings(sheet));
         };
         let renamed = Heading::of(column);
         if let (Some(old), Some(new)) = (found.unit, renamed.unit)
@@ -44,7 +44,8 @@ pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
 
 /// The headings of a sheet, for messages.
 pub fn headings(sheet: &Sheet) -> String {
-    sheet.headings.iter().map(|heading| heading.text.as_str()).collect::<Vec<_>>().join(", ")
+    let texts: Vec<&str> = sheet.headings.iter().map(|heading| heading.text.as_str()).collect();
+    if texts.is_empty() { "no headings".to_string() } else { format!("headings {}", texts.join(", ")) }
 }
 
 /// Whether a heading has one of these words, and no others but those that may stand beside them: a word more

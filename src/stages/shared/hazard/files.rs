@@ -81,7 +81,7 @@ pub fn contents(sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> any
             ""
         };
         bail!(
-            "headings {}; expected PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), and \
+            "{}; expected PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), and \
              annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period{other}; --columns \
              pga_g=HEADING takes another heading",
             headings(sheet)
@@ -227,7 +227,7 @@ fn fields(sheet: &Sheet, effective_years: Option<f64>) -> anyhow::Result<JointHa
     };
     let column = |name: &str| sheet.headings.iter().position(|heading| heading.text == name);
     let Some((pga, pgv)) = column("gmv_PGA").zip(column("gmv_PGV")) else {
-        bail!("headings {}; expected gmv_PGA and gmv_PGV", headings(sheet));
+        bail!("{}; expected gmv_PGA and gmv_PGV", headings(sheet));
     };
     let bin = |row| {
         Ok(PairOfPeaks {

@@ -1,63 +1,56 @@
 //! Figure 9: the two planes of the demand (Eqs. 17 and 18, Table II), seen along the line in which they meet.
 
-use super::{Group, RockingCase, compare};
-use crate::fragility::PLANE;
+use super::common::{compare, demand_fits, demands};
+use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
-use crate::report::figure::{Axis, Figure, Ink, Layer, Panel};
+use crate::report::{Axis, Figure, Ink, Layer, Panel};
+use crate::stages::report::tables::{Tables, name};
 
 type Vector = [f64; 3];
 
-/// The planes of one group, below the transition and from there on: ln a, b1 and b2 over ln IM4 and ln IM3.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GroupPlanes {
-    pub group: Group,
-    /// IM4 at which they meet.
-    pub transition: f64,
-    pub planes: [Vector; 2],
-}
-
 /// Figure 9: the demand in safe rocking and both planes edge-on, one panel a group.
-pub fn planes(groups: &[GroupPlanes]) -> Figure {
-    Figure {
-        name: "planes".to_string(),
-        title: "The two planes, seen edge-on".to_string(),
-        caption: format!(
-            "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in which the planes meet. {} There, velocity and period stand in place of the two measures.",
-            compare("Figure 9")
-        ),
-        columns: groups.len().min(2),
-        height: 110.0,
-        panels: groups.iter().map(panel).collect(),
-    }
+pub fn planes(tables: &Tables, groups: &[&Cases]) -> Figure {
+    let panel = |cases: &&Cases| {
+        let planes: Vec<&DemandFit> = demand_fits(tables, cases, DemandModel::Biplanar).collect();
+        let [low, high] = planes[..] else { return None };
+        let coefficients = [low, high].map(|fit| [0, 1, 2].map(|k| fit.coefficients[k]));
+        Some(panel(cases, high.range_low?, coefficients))
+    };
+    let caption = "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in \
+                   which the planes meet.";
+    let caption =
+        compare(caption, "Figure 9") + " There, velocity and period stand in place of the two measures.";
+    let panels = groups.iter().filter_map(panel).collect();
+    Figure::new("planes", "The two planes, seen edge-on", caption, 2, 110.0, panels)
 }
 
-fn panel(GroupPlanes { group, transition, planes }: &GroupPlanes) -> Panel {
+/// Of planes below the transition and from there on: ln a, b1 and b2 over ln IM4 and ln IM3.
+fn panel(cases: &Cases, transition: f64, planes: [Vector; 2]) -> Panel {
     let [right, up] = edge_on(planes);
-    let mut layers = Vec::new();
-    let mut lines = Vec::new();
+    let view = |point: Vector| [dot(right, point), dot(up, point)];
+    let logarithms = |(k, edp): (usize, f64)| -> Option<Vector> {
+        let [im4, im3] = PLANE.map(|measure| measure.value_of(&cases.measures(k)));
+        Some([im4?.ln(), im3?.ln(), edp.ln()])
+    };
+    let (mut layers, mut lines) = (Vec::new(), Vec::new());
     let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
     for ((label, ink, is_below), [ln_a, b1, b2]) in sides.into_iter().zip(planes) {
-        let logarithms = |case: &RockingCase| -> Option<Vector> {
-            let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
-            Some([im4?.ln(), im3?.ln(), case.demand()?.ln()])
-        };
-        let cases = group.cases.iter().filter_map(logarithms);
-        let cases: Vec<Vector> = cases.filter(|case| (case[0] < transition.ln()) == is_below).collect();
-        let view = |point: Vector| [dot(right, point), dot(up, point)];
+        let its = demands(cases).filter_map(logarithms);
+        let its: Vec<Vector> = its.filter(|case| (case[0] < transition.ln()) == is_below).collect();
         let mut on_plane: Vec<[f64; 2]> =
-            cases.iter().map(|&[x, y, _]| view([x, y, ln_a + b1 * x + b2 * y])).collect();
+            its.iter().map(|&[x, y, _]| view([x, y, ln_a + b1 * x + b2 * y])).collect();
         on_plane.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
         let ends = on_plane.first().into_iter().chain(on_plane.last()).copied();
         lines.push(Layer::line("planes", Ink::Text, ends.collect()));
-        layers.push(Layer::points(label, ink, cases.into_iter().map(view)));
+        layers.push(Layer::points(label, ink, its.into_iter().map(view)));
     }
     layers.extend(lines);
     let [x, y] = [right, up].map(|direction| Axis::linear(&sum(direction)));
-    Panel { title: group.name.clone(), x, y, layers, notes: Vec::new() }
+    Panel::new(&name(cases), x, y, layers)
 }
 
 /// Returns the directions to the right and upwards in a view along the line in which the planes meet.
-fn edge_on(planes: &[Vector; 2]) -> [Vector; 2] {
+fn edge_on(planes: [Vector; 2]) -> [Vector; 2] {
     let [first, second] = planes.map(|[_, b1, b2]| [b1, b2, -1.0]);
     let along = unit(cross(first, second));
     let right = unit(cross(along, [0.0, 0.0, 1.0]));

@@ -1,0 +1,115 @@
+//! What several figures share: labels, choices of cases and fits, values along an axis, bins.
+
+use crate::fragility::{Cases, DemandFit, DemandModel, Event, Measure};
+use crate::report::Estimate;
+use crate::stages::ida::ScaledMeasure;
+use crate::stages::report::tables::Tables;
+use crate::studies::wilson_limits;
+
+/// Label of the demand (Eq. 7).
+pub const DEMAND: &str = "|*θ*|_{max} / *α*";
+
+/// Label of a measure (Eq. 13).
+pub fn label(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Im1 => "*ω*_{p} / *p*",
+        Measure::Im2 => "*ω*_{m} / *p*",
+        Measure::Im3 => "PGA / (*p* PGV)",
+        Measure::Im4 => "PGA / (*g* tan *α*)",
+        Measure::Im5 => "*p* PGV / (*g* tan *α*)",
+        Measure::Im6 => "*ω*_{m} PGV / (*g* tan *α*)",
+        Measure::Im3Inverse => "*p* PGV / PGA",
+    }
+}
+
+/// Label of a measure by which motions are scaled.
+pub fn label_of_scaled(measure: ScaledMeasure) -> &'static str {
+    match measure {
+        ScaledMeasure::Scale => "factor on the motion",
+        ScaledMeasure::Pga => "PGA (g)",
+        ScaledMeasure::Pgv => "PGV (m/s)",
+        ScaledMeasure::Im4 => label(Measure::Im4),
+        ScaledMeasure::Im5 => label(Measure::Im5),
+        ScaledMeasure::Im6 => label(Measure::Im6),
+    }
+}
+
+/// Names the figure of the paper that shows the same, at the end of a caption.
+pub fn compare(caption: &str, figure: &str) -> String {
+    format!("{caption} Compare {figure} of Dimitrakopoulos & Paraskeva (2015).")
+}
+
+/// The rows of each key, in the order in which the keys first come.
+pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn(R) -> K) -> Vec<Vec<R>> {
+    let mut groups: Vec<Vec<R>> = Vec::new();
+    for row in rows {
+        match groups.iter_mut().find(|group| key(group[0]) == key(row)) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    groups
+}
+
+/// The cases that rocked, and whether they overturned.
+pub fn rocked(cases: &Cases) -> impl Iterator<Item = (usize, bool)> {
+    (0..cases.len()).filter_map(|k| Some((k, cases.happened(k, Event::Overturning, f64::INFINITY)?)))
+}
+
+/// The cases whose demand in safe rocking has a logarithm, and this demand.
+pub fn demands(cases: &Cases) -> impl Iterator<Item = (usize, f64)> {
+    (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| (k, cases.edp[k]))
+}
+
+/// The regressions of the demand of some cases, of one form.
+pub fn demand_fits<'a>(
+    tables: &'a Tables,
+    cases: &Cases,
+    model: DemandModel,
+) -> impl Iterator<Item = &'a DemandFit> {
+    let its = tables.demand.iter().filter(|fit| fit.group() == cases.group());
+    its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
+}
+
+/// The least and the largest of positive values.
+pub fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// Values in equal ratios from the first to the last.
+pub fn ratios([low, high]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
+    (0..=steps).map(move |k| low * (high / low).powf(k as f64 / steps as f64))
+}
+
+/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with limits by
+/// `limits` of events and cases, number of cases. Empty bins are left out.
+pub fn observed_shares(
+    cases: &[(f64, bool)],
+    bin: impl Fn(f64) -> usize,
+    limits: impl Fn(usize, usize) -> [f64; 2],
+) -> Vec<Estimate> {
+    let mut bins: Vec<(f64, usize, usize)> = Vec::new();
+    for &(value, event) in cases {
+        let place = bin(value);
+        bins.resize(bins.len().max(place + 1), (0.0, 0, 0));
+        let (sum, n, events) = &mut bins[place];
+        (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
+    }
+    let share = |&(sum, n, events): &(f64, usize, usize)| {
+        let [low, high] = limits(events, n);
+        Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
+    };
+    bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
+}
+
+/// Wilson's limits of a share, for [`observed_shares`].
+pub fn wilson(events: usize, n: usize) -> [f64; 2] {
+    let limits = wilson_limits(events, n);
+    [limits.low, limits.high]
+}
+
+/// Bins of equal ratio between two values, for [`observed_shares`].
+pub fn equal_ratios([low, high]: [f64; 2], count: usize) -> impl Fn(f64) -> usize {
+    let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
+    move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
+}
