@@ -160,7 +160,7 @@ fn values_stand_where_the_axes_say() {
     let panel =
         Panel { x, y, layers: vec![Layer::points("", Ink::Data(0), [[5.0, 10.0]])], ..Default::default() };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(svg(&figure, "").contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
+    assert!(svg(&figure, "").contains("M229.1 50h0"), "half of 510.2 - 40 - 12 points, and of 100");
 }
 
 #[test]
