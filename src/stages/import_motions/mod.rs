@@ -126,6 +126,8 @@ impl Stage for ImportMotions {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
+        let unused = about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone()));
+        context.warn(unused.collect());
         let reading = ReadOptions {
             format: self.format,
             dt_s: self.dt,
