@@ -37,22 +37,12 @@ const MODES: usize = 5;
 /// Share of the first mode's motion that is left where a floor's record ends.
 const LEFT: f64 = 0.05;
 
-/// How a peak of a floor depends on u = ln(T1/Tg), by scripts/floors/peaks.py: the rigid share of a mode is
-/// r = 1/(1 + exp(k (u - b))), its resonance D = d/(exp(-l (u - e)) + exp(h (u - e))), the scatter s.
-struct Amplification {
-    b: f64,
-    k: f64,
-    d: f64,
-    e: f64,
-    l: f64,
-    h: f64,
-    s: f64,
-}
-
-const OF_ACCELERATION: Amplification =
-    Amplification { b: -0.090, k: 3.430, d: 3.635, e: 0.112, l: 0.434, h: 1.494, s: 0.284 };
-const OF_VELOCITY: Amplification =
-    Amplification { b: 0.930, k: 3.199, d: 3.569, e: -0.225, l: 1.574, h: 0.637, s: 0.314 };
+/// How a peak of a floor depends on u = ln(T1/Tg), by scripts/floors/peaks.py: b, k, d, e, l, h of the rigid
+/// share of a mode, r = 1/(1 + exp(k (u - b))), and of its resonance, D = d/(exp(-l (u - e)) + exp(h (u - e))).
+const OF_ACCELERATION: [f64; 6] = [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494];
+const OF_VELOCITY: [f64; 6] = [0.930, 3.199, 3.569, -0.225, 1.574, 0.637];
+/// Scatter s of both peaks, of a motion that is all resonance.
+const SCATTER: [f64; 2] = [0.284, 0.314];
 
 impl Floor {
     /// Shares G_i of the modes.
@@ -92,25 +82,26 @@ impl Floor {
     pub fn peaks(&self, pga_m_s2: f64, pgv_m_s: f64) -> FloorPeaks {
         let period_of_ground = TAU * pgv_m_s / pga_m_s2;
         let u = (self.period_s / period_of_ground).ln();
-        let [acceleration, velocity] = [OF_ACCELERATION, OF_VELOCITY].map(|of| self.amplified(&of, u));
+        let (acceleration, resonant_a) = self.amplified(OF_ACCELERATION, u);
+        let (velocity, resonant_v) = self.amplified(OF_VELOCITY, u);
         FloorPeaks {
-            pfa_m_s2: acceleration.0 * pga_m_s2,
-            pfv_m_s: velocity.0 * pgv_m_s,
-            sd_ln_pfa: OF_ACCELERATION.s * acceleration.1.sqrt(),
-            sd_ln_pfv: OF_VELOCITY.s * velocity.1.sqrt(),
-            resonant_share: velocity.1,
+            pfa_m_s2: acceleration * pga_m_s2,
+            pfv_m_s: velocity * pgv_m_s,
+            sd_ln_pfa: SCATTER[0] * resonant_a.sqrt(),
+            sd_ln_pfv: SCATTER[1] * resonant_v.sqrt(),
+            resonant_share: resonant_v,
         }
     }
 
     /// The factor of a peak, and the share of resonance in its square.
-    fn amplified(&self, of: &Amplification, u: f64) -> (f64, f64) {
+    fn amplified(&self, [b, k, d, e, l, h]: [f64; 6], u: f64) -> (f64, f64) {
         let (mut rigid, mut resonant) = (1.0, 0.0);
         for (i, share) in self.shares().into_iter().enumerate() {
             let of_mode = u - ((2 * i + 1) as f64).ln();
-            let r = 1.0 / (1.0 + (of.k * (of_mode - of.b)).exp());
-            let d = of.d / ((-of.l * (of_mode - of.e)).exp() + (of.h * (of_mode - of.e)).exp());
+            let r = 1.0 / (1.0 + (k * (of_mode - b)).exp());
+            let resonance = d / ((-l * (of_mode - e)).exp() + (h * (of_mode - e)).exp());
             rigid -= share * (1.0 - r);
-            resonant += (share * d).powi(2);
+            resonant += (share * resonance).powi(2);
         }
         let square = rigid * rigid + resonant;
         (square.sqrt(), resonant / square)

@@ -29,9 +29,8 @@ pub struct Scenario {
 
 /// Magnitude at which the pulse amplitude saturates.
 const SATURATION_MW: f64 = 7.0;
-/// Standard deviation of log10 Vp.
+/// Standard deviations of log10 Vp and log10 Tp.
 const SIGMA_LOG10_VP: f64 = 0.16;
-/// Standard deviation of log10 Tp.
 const SIGMA_LOG10_TP: f64 = 0.18;
 /// Mean and standard deviation of gamma, before truncation below 1.
 const GAMMA: (f64, f64) = (1.93, 0.47);
@@ -105,13 +104,11 @@ impl Suite {
 
 keywords! {
     /// A kind of ground motion that is synthesized from a scenario.
+    #[expect(missing_docs, reason = "those of Suite say it")]
     #[derive(Hash)]
     pub enum SyntheticSuite {
-        /// The coherent pulse alone.
         Pulse = "pulse",
-        /// Pulse and high frequencies combined.
         Csgm = "csgm",
-        /// The stochastic high-frequency component alone.
         Hfc = "hfc",
     }
 }

@@ -3,8 +3,7 @@
 //! ```text
 //! recorded_motion  a record as in its file, and options for reading files
 //! formats          from the bytes of a file to records, one module for each format
-//! pairs            horizontal components at right angles
-//! rotation         two horizontal components in another direction, and RotD
+//! rotation         pairs of horizontal components, in another direction, and RotD
 //! plausibility     checks that a motion can be of an earthquake
 //! signal           baseline, high-pass, time step, scale
 //! pulses           velocity pulses: indicator and fit
@@ -12,7 +11,6 @@
 //! ```
 
 pub mod formats;
-pub mod pairs;
 pub mod plausibility;
 pub mod processing;
 pub mod pulses;

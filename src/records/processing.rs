@@ -21,12 +21,11 @@ pub struct SourceFile {
 
 /// A record with its name and its file.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct NamedRecord {
     /// Unique among the imported records.
     pub motion_id: String,
-    /// Where it comes from.
     pub source: SourceFile,
-    /// The record.
     pub motion: RecordedMotion,
 }
 
@@ -52,18 +51,17 @@ pub enum ProcessingError {
 
 /// An imported motion.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct ImportedMotion {
     /// Unique in the file.
     pub motion_id: String,
     /// Record or residual.
     pub suite: Suite,
-    /// Where it comes from.
     pub source: SourceFile,
     /// The record, without its samples.
     pub record: RecordedMotion,
     /// Why it is implausible, if accepted all the same.
     pub warning: Option<Implausibility>,
-    /// Scale factor.
     pub scale: f64,
     /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
@@ -79,18 +77,17 @@ pub struct ImportedMotion {
 
 keywords! {
     /// Whether to search for pulses.
+    #[expect(missing_docs, reason = "the words say it")]
     pub enum PulseSearch {
-        /// Search for a pulse, and fit it.
         Find = "find",
-        /// Do not search.
         Skip = "skip",
     }
 }
 
 /// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct Processing {
-    /// Baseline that is removed.
     pub baseline: Baseline,
     /// Corner of a high-pass filter, Hz.
     pub high_pass_hz: Option<f64>,
@@ -98,15 +95,12 @@ pub struct Processing {
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
     pub direction: Option<Direction>,
-    /// Scale factors, or the peak to scale to.
     pub scaling: Scaling,
-    /// Whether to search for pulses.
     pub pulses: PulseSearch,
     /// Whether to add motions without their pulses.
     pub residual: bool,
     /// Whether implausible motions are imported, with a warning, or are errors.
     pub accept_implausible: bool,
-    /// The measures of the result.
     pub plan: MeasurePlan,
 }
 

@@ -1,11 +1,40 @@
-//! Rotation of two horizontal components, and their peaks over all directions.
+//! Pairs of horizontal components, their rotation, and their peaks over all directions.
 
+use std::collections::HashMap;
 use std::str::FromStr;
 
+use super::RecordedMotion;
 use crate::motion::measures::{peak, velocity};
 
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;
+
+/// Pairs each component with the first free earlier one of its event, station and time step at right angles;
+/// `T` identifies a component. Returns the pairs in the order of their first components, and the components
+/// left out: vertical, of unknown origin, or without a partner.
+pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> (Vec<[T; 2]>, Vec<T>) {
+    let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
+    let mut found = Vec::new();
+    for (place, (motion, _)) in components.iter().enumerate() {
+        let is_known = motion.event.is_some() || motion.station.is_some();
+        let Some(azimuth_deg) = motion.azimuth_deg.filter(|_| is_known) else { continue };
+        let others = waiting.entry((&motion.event, &motion.station, motion.dt_s.to_bits())).or_default();
+        match others.iter().position(|(_, other)| is_right_angle(*other, azimuth_deg)) {
+            Some(at) => found.push([others.remove(at).0, place]),
+            None => others.push((place, azimuth_deg)),
+        }
+    }
+    found.sort_unstable();
+    let mut left: Vec<Option<T>> = components.into_iter().map(|(_, component)| Some(component)).collect();
+    let both = |[first, second]: [usize; 2]| Some([left[first].take()?, left[second].take()?]);
+    let pairs = found.into_iter().filter_map(both).collect();
+    (pairs, left.into_iter().flatten().collect())
+}
+
+/// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
+fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
+    ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
+}
 
 /// Two horizontal components of one station at right angles, of equal length.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,11 +73,6 @@ impl RotD {
 }
 
 impl HorizontalPair {
-    /// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
-    pub fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
-        ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
-    }
-
     /// Makes a pair of accelerations that start together; the longer one is cut.
     pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
         let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);

@@ -18,13 +18,11 @@ const KAISER_BETA: f64 = 8.0;
 const CORNER: f64 = 0.9;
 
 keywords! {
-    /// Baseline to remove from an acceleration.
+    /// Baseline to remove from an acceleration: nothing, its mean, or its least-squares line.
+    #[expect(missing_docs, reason = "the words say it")]
     pub enum Baseline {
-        /// Nothing.
         None = "none",
-        /// Mean.
         Mean = "mean",
-        /// Least-squares line.
         Linear = "linear",
     }
 }

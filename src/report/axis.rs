@@ -123,10 +123,17 @@ impl<'a> Ruler<'a> {
             (&[1.0], 5),
         ];
         let mut fitting =
-            choices[if as_powers { 4 } else { 0 }..].iter().map(|&(factors, every)| at(factors, every));
+            choices[if as_powers { 2 } else { 0 }..].iter().map(|&(factors, every)| at(factors, every));
         let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
         let label = |value: f64| match as_powers {
-            true => format!("10^{{{}}}", minus(number::fixed(value.log10().round(), 0))),
+            true => {
+                let exponent = (value.log10() + 1e-9).floor();
+                let power = format!("10^{{{}}}", minus(number::fixed(exponent, 0)));
+                match (value / 10_f64.powf(exponent)).round() {
+                    1.0 => power,
+                    factor => format!("{factor}\u{b7}{power}"),
+                }
+            }
             false => number::plain(value),
         };
         let all = if self.high / self.low < 1e6 {

@@ -8,7 +8,7 @@ use super::text::{Level, escape, runs, words};
 
 /// Width of a figure across two columns of a journal, 180 mm.
 const WIDTH: f64 = 510.2;
-/// Height of the letters of titles, labels and legends; and of ticks and notes.
+/// Height of the letters of titles, labels and legends; and of ticks.
 const LETTERS: f64 = 8.0;
 const SMALL_LETTERS: f64 = 7.0;
 /// Mean width of a letter, of its height.
@@ -16,7 +16,7 @@ const LETTER_WIDTH: f64 = 0.52;
 /// Room around the area of the data of a panel: for ticks and label, at the right, for the title, for ticks
 /// and label.
 const LEFT: f64 = 40.0;
-const RIGHT: f64 = 9.0;
+const RIGHT: f64 = 12.0;
 const TITLE: f64 = 17.0;
 const BELOW: f64 = 28.0;
 /// Height of a row with a name, and bounds of the room for names.
@@ -201,9 +201,6 @@ fn write_panel(text: &mut String, panel: &Panel, area: Area) {
         marks(text, layer, panel.has_rows(), |[x_value, y_value]| {
             [width * x.fraction(x_value), height * (1.0 - y.fraction(y_value))]
         });
-    }
-    for (line, note) in panel.notes.iter().enumerate() {
-        label(text, [6.0, 10.0 + 9.0 * line as f64], SMALL_LETTERS, "", Ink::Muted, note);
     }
     text.push_str("</svg>\n");
     axes(text, panel, [&x, &y], area);

@@ -26,8 +26,6 @@ pub struct Panel {
     pub y: Axis,
     /// Each over those before.
     pub layers: Vec<Layer>,
-    /// Lines of text in the upper left corner.
-    pub notes: Vec<String>,
 }
 
 /// An axis; its range is that of the layers unless it is given.
@@ -171,7 +169,7 @@ impl Figure {
 
 impl Panel {
     pub fn new(title: &str, x: Axis, y: Axis, layers: Vec<Layer>) -> Panel {
-        Panel { title: title.to_string(), x, y, layers, notes: Vec::new() }
+        Panel { title: title.to_string(), x, y, layers }
     }
 }
 

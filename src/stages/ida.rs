@@ -359,7 +359,8 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
         let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
         let scaled = |point: &ScanPoint| {
             let Case { motion, unscaled, .. } = cases[point.case];
-            motion.acceleration_m_s2.iter().map(|sample| point.intensity / unscaled * sample).collect()
+            let scale = point.intensity / unscaled;
+            motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect()
         };
         let scaled: Vec<Vec<f64>> = block.iter().map(scaled).collect();
         let problems = block.iter().zip(&scaled).map(|(point, samples)| {

@@ -11,6 +11,7 @@ use crate::motion::{
     Difference, Epoch, LowCut, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
     SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
 };
+use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
@@ -133,8 +134,11 @@ impl Stage for SynthesizeMotions {
             },
             |batch| Ok(writer.append(&batch)?),
         )?;
-        let summary =
-            format!("{} motions of {} scenarios\n", scenarios.len() * suites.len(), scenarios.len());
+        let summary = format!(
+            "{} of {}\n",
+            counted(scenarios.len() * suites.len(), "motion"),
+            counted(scenarios.len(), "scenario")
+        );
         context.finish(writer, &summary)?;
         Ok(summary)
     }

@@ -1,4 +1,7 @@
-//! Standard errors for dependent cases in clusters: earthquakes, or cells of magnitude and distance.
+//! Standard errors and cross-validation for dependent cases in clusters: earthquakes, or cells of magnitude and
+//! distance.
+
+use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -48,4 +51,30 @@ pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
     let sums = cluster_sums(clusters, 1, |case, sum| sum[0] += values[case] - mean);
     let (g, squares) = (sums.len() as f64, sums.iter().map(|sum| sum[0] * sum[0]).sum::<f64>());
     (mean, (g / (g - 1.0) * squares).sqrt() / n)
+}
+
+/// Assignment of cases to folds, by cluster, since motions of one earthquake, or of one magnitude and
+/// distance, are alike (Roberts et al. 2017, Ecography 40, 913-929).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Folds {
+    /// Fold of each case.
+    of: Vec<usize>,
+    /// Number of folds.
+    pub count: usize,
+}
+
+impl Folds {
+    /// Deals the clusters to at most `most` folds in turn, so that neighbours are apart. None for one
+    /// cluster.
+    pub fn new(clusters: &[u32], most: usize) -> Option<Folds> {
+        let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
+        let count = distinct.len().min(most);
+        let fold = |cluster: &u32| distinct.partition_point(|other| other < cluster) % count;
+        (count > 1).then(|| Folds { of: clusters.iter().map(fold).collect(), count })
+    }
+
+    /// Returns the cases to fit, and those left out, for a fold.
+    pub fn split(&self, fold: usize) -> (Vec<usize>, Vec<usize>) {
+        (0..self.of.len()).partition(|&case| self.of[case] != fold)
+    }
 }

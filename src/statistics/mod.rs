@@ -6,8 +6,7 @@
 //! fit            coefficients, covariance and status of a regression
 //! design         design matrix
 //! newton         maximum of a log-likelihood
-//! clusters       standard errors for dependent cases
-//! folds          cross-validation by cluster
+//! clusters       standard errors and cross-validation for dependent cases
 //! scores         AUC, Brier and log score of probabilities
 //! normal         standard normal distribution
 //! distributions  t, F and chi squared
@@ -19,7 +18,6 @@ pub mod clusters;
 mod design;
 pub mod distributions;
 mod fit;
-mod folds;
 mod linear;
 pub mod newton;
 pub mod normal;
@@ -27,6 +25,6 @@ pub mod numerics;
 pub mod scores;
 
 pub use binary::{LEAST_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
+pub use clusters::Folds;
 pub use fit::{Estimate, Fit, FitStatus, Limits, independent_errors, predict, variance};
-pub use folds::Folds;
 pub use linear::{LinearFit, least_squares, tested_least_squares};

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use rockfrag::records::RecordedMotion;
-use rockfrag::records::pairs::pairs;
-use rockfrag::records::rotation::HorizontalPair;
+use rockfrag::records::rotation::{HorizontalPair, pairs};
 use rockfrag::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use rockfrag::units::Unit;
 

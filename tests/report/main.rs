@@ -86,7 +86,7 @@ fn figures(count: usize) -> Vec<Figure> {
     let object = ObjectRow { structure: "rack ".repeat(30), ..Default::default() };
     let objects = vec![(object, rates_of_object, DoubtsRow::default()); count];
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
-        "theta": 0.3, "beta": 0.5, "status": "ok" }]);
+        "theta": [0.3, null, null], "beta": [0.5, null, null], "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
         "capacity": "overturns", "overturning_intensity": 0.3 });
     let stripe =
@@ -160,7 +160,7 @@ fn values_stand_where_the_axes_say() {
     let panel =
         Panel { x, y, layers: vec![Layer::points("", Ink::Data(0), [[5.0, 10.0]])], ..Default::default() };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(svg(&figure, "").contains("M230.6 50h0"), "half of 510.2 - 40 - 9 points, and of 100");
+    assert!(svg(&figure, "").contains("M229.1 50h0"), "half of 510.2 - 40 - 12 points, and of 100");
 }
 
 #[test]

@@ -2,13 +2,11 @@
 //! quantities; options of the user must not contradict them.
 
 use super::error::RecordFileError;
-use super::header::{first_number, given_unit, time_step};
+use super::header::{expect_step, expect_unit, first_number, given_unit, time_step};
 use crate::records::{ReadOptions, RecordedMotion};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
 
-/// Accepted relative difference of a time step from the option.
-const SAME_STEP: f64 = 0.01;
 /// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
 
@@ -41,12 +39,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, Reco
         _ => notes.iter().find_map(step_of_note),
     };
     let expected = "a column of times, or a comment such as dt = 0.005 s";
-    let dt_s = match (found, options.dt_s) {
-        (Some(found), Some(given)) if (found - given).abs() > SAME_STEP * given => {
-            return Err(contradiction(line, "time step", format!("{found} s"), format!("{given} s")));
-        }
-        (found, given) => given.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?,
-    };
+    let dt_s = options.dt_s.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?;
+    expect_step(options, found.unwrap_or(dt_s), line)?;
     let component = heading.map(|heading| heading.text.clone());
     Ok(RecordedMotion { component, ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit) })
 }
@@ -133,14 +127,8 @@ fn unit(
     if found.quantity != Quantity::Acceleration {
         return Err(RecordFileError::value(line, "unit", found.name, "one of acceleration, such as m/s2"));
     }
-    match options.unit.filter(|given| given.si != found.si) {
-        Some(given) => Err(contradiction(line, "unit", found.name.to_string(), given.name.to_string())),
-        None => Ok(found),
-    }
-}
-
-fn contradiction(line: usize, field: &'static str, found: String, given: String) -> RecordFileError {
-    RecordFileError::Contradiction { line, field, found, given }
+    expect_unit(options, found, line)?;
+    Ok(found)
 }
 
 /// Reads the time step (s) in a comment such as `dt = 0.01 s`.

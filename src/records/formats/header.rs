@@ -4,6 +4,8 @@ use super::error::RecordFileError;
 use crate::records::{HeaderPga, ReadOptions};
 use crate::units::{Quantity, Unit};
 
+/// Accepted relative difference of a time step from the option.
+const SAME_STEP: f64 = 0.01;
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
@@ -25,6 +27,28 @@ pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
 /// Returns the given unit, for a file without one.
 pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
     options.unit.ok_or(RecordFileError::NoUnit { line })
+}
+
+/// Checks that a file has no other time step (s) than the given one.
+pub fn expect_step(options: &ReadOptions, dt_s: f64, line: usize) -> Result<(), RecordFileError> {
+    let (field, found) = ("time step", format!("{dt_s} s"));
+    match options.dt_s.filter(|given| (dt_s - given).abs() > SAME_STEP * given) {
+        Some(given) => {
+            Err(RecordFileError::Contradiction { line, field, found, given: format!("{given} s") })
+        }
+        None => Ok(()),
+    }
+}
+
+/// Checks that a file has no other unit than the given one.
+pub fn expect_unit(options: &ReadOptions, unit: Unit, line: usize) -> Result<(), RecordFileError> {
+    let (field, found) = ("unit", unit.name.to_string());
+    match options.unit.filter(|given| unit.si != given.si) {
+        Some(given) => {
+            Err(RecordFileError::Contradiction { line, field, found, given: given.name.to_string() })
+        }
+        None => Ok(()),
+    }
 }
 
 /// Reads the peak acceleration at the start of a text.

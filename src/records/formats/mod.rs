@@ -25,23 +25,6 @@ use crate::keyword::Keyword;
 use crate::motion::measures::peak;
 use crate::sheet::decode;
 
-/// Accepted relative difference of a time step from the option.
-const SAME_STEP: f64 = 0.01;
-
-/// Checks that the file states no other time step or unit than the options.
-fn contradicts(motion: &RecordedMotion, options: &ReadOptions) -> Result<(), RecordFileError> {
-    let error = |field, found, given| Err(RecordFileError::Contradiction { line: 1, field, found, given });
-    match (options.dt_s, options.unit) {
-        (Some(dt_s), _) if (motion.dt_s - dt_s).abs() > SAME_STEP * dt_s => {
-            error("time step", format!("{} s", motion.dt_s), format!("{dt_s} s"))
-        }
-        (_, Some(unit)) if unit.si != motion.unit.si => {
-            error("unit", motion.unit.name.to_string(), unit.name.to_string())
-        }
-        _ => Ok(()),
-    }
-}
-
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
 pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
     let text = decode(bytes)?;
@@ -64,7 +47,8 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     };
     for motion in &mut motions {
         motion.format = format.as_str();
-        contradicts(motion, options)?;
+        header::expect_step(options, motion.dt_s, 1)?;
+        header::expect_unit(options, motion.unit, 1)?;
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga

@@ -44,9 +44,9 @@ use self::object::{Answer, Prediction, Subject};
 pub use self::object::{DoubtsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
-pub use self::rates::RatesRow;
+pub use self::rates::{RatesRow, of_all};
 use self::target::Target;
-pub use self::words::{model_of_all, size};
+pub use self::words::{model_of_all, size, too_far};
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site

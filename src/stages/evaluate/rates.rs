@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, Predicted};
+use super::object::{Answer, ObjectRow, Predicted};
 use super::target::Target;
 use super::words::{
     friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
@@ -119,21 +119,20 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
 
 /// The expected number of a list, and the probability that one or more overturns: between that of the worst
 /// and that of independent ones.
-fn of_all(all: &[Answer<RatesRow>]) -> Option<String> {
-    let known: Vec<(f64, f64)> = all
-        .iter()
-        .filter_map(|answer| Some((answer.object.count.unwrap_or(1.0), answer.row.p_overturning[0]?)))
-        .collect();
+pub fn of_all<'a>(all: impl Iterator<Item = (&'a ObjectRow, &'a RatesRow)> + Clone) -> Option<String> {
+    let known =
+        all.clone().filter_map(|(object, row)| Some((object.count.unwrap_or(1.0), row.p_overturning[0]?)));
+    let known: Vec<(f64, f64)> = known.collect();
     let number: f64 = known.iter().map(|(count, _)| count).sum();
     let expected: f64 = known.iter().map(|(count, p)| count * p).sum();
     let worst = known.iter().filter(|(count, _)| *count > 0.0).map(|(_, p)| *p).fold(0.0, f64::max);
     let independent = -known.iter().map(|(count, p)| count * (-p).ln_1p()).sum::<f64>();
-    let years = in_years(&all.first()?.row);
+    let years = all.map(|(_, row)| in_years(row)).next()?;
     (number > 1.0).then(|| {
         let [low, high] = [worst, -(-independent).exp_m1()];
         let limits = PERCENT.value([None, Some(low), Some(high)]);
         format!(
-            "Of {} objects {} overturn {years} on average; at least one: {limits}.\n",
+            "Of {} objects {} overturn {years} on average; at least one: {limits}.",
             plain(number),
             significant(expected, 2)
         )
@@ -169,7 +168,7 @@ fn of_several(
         "{} overturns most often: {}\n{table}{}{}{}",
         worst.object.structure,
         how_often.trim_start_matches("overturns "),
-        of_all(all).unwrap_or_default(),
+        line([of_all(all.iter().map(|answer| (&answer.object, &answer.row)))]),
         about_limits(worst, site),
         line([Some(by), linear(all.iter().map(|answer| &answer.object))]),
     )

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::figures::common::by;
 use super::figures::common::label_of_scaled;
 use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
@@ -13,12 +14,12 @@ use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, model_of_all, size};
+use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, model_of_all, of_all, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::units::G_M_S2;
-use crate::warning::Warnings;
+use crate::warning::{UNNAMED, Warnings};
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
@@ -62,8 +63,11 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
     let mut joined = Warnings::default();
     made.for_each(|made| joined.join(&made.warnings));
-    let mut warnings = [tables.left_out.clone(), joined.lines()].concat();
-    let others = warnings.split_off(warnings.len().min(MOST_WARNINGS.max(tables.left_out.len())));
+    let (mut notes, mut others) = (tables.left_out.clone(), joined.lines());
+    match &tables.objects[..] {
+        [] => notes.extend(others.drain(..others.len().min(MOST_WARNINGS))),
+        objects => notes.extend(warnings_of(objects)),
+    }
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let is_shown =
         |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || tables.objects.is_empty());
@@ -83,7 +87,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
         sentence,
         facts: facts(tables),
         table: Some(first),
-        notes: warnings,
+        notes,
         figures: seen,
         sections,
         key,
@@ -104,9 +108,10 @@ fn facts(tables: &Tables) -> Vec<String> {
              {hazard}."
         ));
         facts.push(format!("By {}.", model_of_all(tables.objects.iter().map(|(object, ..)| object))));
+        facts.extend(of_all(tables.objects.iter().map(|(object, row, _)| (object, row))));
         let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
         let parts = doubts.words().join(", ");
-        facts.push(format!("The 95 % limits hold the errors of {parts}{without}."));
+        facts.push(format!("The 95 % limits contain the errors of {parts}{without}."));
         facts.extend(doubts.error_largest.map(|part| format!("Largest uncertainty: {}.", part.words())));
         return facts;
     }
@@ -154,31 +159,43 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     };
     let column = |field: &&str| Column {
         head: plain(field),
-        is_number: rows.iter().any(|row| is_number(&row[*field])),
+        is_number: *field != "size" && rows.iter().any(|row| is_number(&row[*field])),
     };
     let cells = |row: &Value| fields.iter().map(|field| cell(field, &row[*field])).collect();
     let columns = fields.iter().map(column).collect();
     Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
 }
 
+/// The warnings of objects, or why they have no rate: a line for those of the same words.
+fn warnings_of(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Vec<String> {
+    let warned = objects.iter().filter(|(.., doubts)| doubts.warnings.is_some());
+    let line = |same: Vec<&(ObjectRow, RatesRow, DoubtsRow)>| {
+        let names: Vec<&str> = same.iter().map(|(object, ..)| object.structure.as_str()).collect();
+        let words = same[0].2.warnings.as_deref().unwrap_or_default();
+        if names == [UNNAMED] {
+            words.to_string()
+        } else {
+            format!("{}: {words}", listed(&names, MOST_NAMED))
+        }
+    };
+    by(warned, |(.., doubts)| &doubts.warnings).into_iter().map(line).collect()
+}
+
 /// One row per object.
 fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Table {
     let years = objects.iter().find_map(|(_, row, _)| row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
-    let row = |(object, row, doubts): &(ObjectRow, RatesRow, DoubtsRow)| {
+    let row = |(object, row, _): &(ObjectRow, RatesRow, DoubtsRow)| {
         json!({
-            "object": object.structure,
+            "object": Some(&object.structure).filter(|name| *name != UNNAMED),
             "size": object.p_rad_s.map(|_| size(object)),
             "rocks a year": row.rocking_per_year.map(|rate| RATE.one(rate)),
-            "overturns a year": row.overturning_per_year[0].map(|rate| RATE.one(rate)),
             "once in years": row.return_period_years.map(number::period),
             (percent.as_str()): OF_HUNDRED.both(row.p_overturning, ""),
             "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
-            "warning": doubts.warnings.as_ref().filter(|_| row.rocking_per_year.is_none()),
         })
     };
-    let fields =
-        format!("object|once in years|{percent}|overturns a year|rocks a year|size|friction needed|warning");
+    let fields = format!("object|once in years|{percent}|rocks a year|size|friction needed");
     table("", objects.iter().map(row), &fields)
 }
 

@@ -2,14 +2,14 @@
 
 use super::common::{compare, demand_fits, demands, ends, equal_ratios, label, observed_shares};
 use super::common::{ratios, rocked, wilson};
-use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, Probability};
+use crate::fragility::{
+    Cases, CurveFit, DemandFit, DemandModel, Measure, Probability, hybrid_measure, lambda,
+};
 use crate::motion::IntensityMeasures;
 use crate::number;
-use crate::report::text::minus;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::stages::report::tables::Tables;
 use crate::statistics::scores::sample_quantile;
-use crate::studies::{log_score_on, measure_of, motion_at};
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;
@@ -19,15 +19,11 @@ const CASES: usize = 8;
 const SHARES: [f64; 3] = [0.1, 0.5, 0.9];
 const CONFIDENCE: f64 = 0.95;
 const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
-/// What the notes in a panel say.
-const SCORES: &str = "In the corner, for each structure: the mean log score of its own curve and of the \
-                      other's on its cases, the nearer to 0 the better.";
 
 /// The structures of a suite over one measure.
 struct Over<'a> {
     measure: &'static str,
     structures: Vec<Drawn<'a>>,
-    notes: Vec<String>,
 }
 
 /// What is drawn of a structure.
@@ -44,8 +40,7 @@ type Curve = (String, Vec<[f64; 2]>, Vec<[f64; 2]>);
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
     let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(tables, groups)).collect());
-    let caption =
-        "Probability of exceeding the limit state by the two planes, at quantiles of IM3, and by IM4 alone.";
+    let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by IM4 alone where it has a curve.";
     let caption = compare(caption, "Figure 10");
     Figure::new("exceedance", "Exceeding the limit state in safe rocking", caption, 2, 118.0, panels)
 }
@@ -55,7 +50,7 @@ pub fn overturning(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
     let over = |measure| suites.iter().map(move |groups| over(tables, groups, measure, None));
     let panels = panels("*P*_{ro}", over(Measure::Im4).chain(over(Measure::Im5)).collect());
     let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
-    let caption = compare(&format!("{caption} {SCORES}"), "Figure 11");
+    let caption = compare(caption, "Figure 11");
     Figure::new("overturning", "Overturning over single measures", caption, 2, 118.0, panels)
 }
 
@@ -65,7 +60,7 @@ pub fn hybrids(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
     let panels = panels("*P*_{ro}", suites.iter().map(hybrid).collect());
     let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
                    observed fractions with 95 % limits.";
-    let caption = compare(&format!("{caption} {SCORES}"), "Figure 12");
+    let caption = compare(caption, "Figure 12");
     Figure::new("overturning-hybrid", "Overturning over hybrid measures", caption, 2, 118.0, panels)
 }
 
@@ -79,7 +74,7 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
             names.push(name);
         }
     }
-    let panel = |Over { measure, structures, notes }: &Over| {
+    let panel = |Over { measure, structures }: &Over| {
         let ink = |cases: &Cases| {
             Ink::Data(names.iter().position(|name| *name == cases.structure.name).unwrap_or(0))
         };
@@ -103,8 +98,7 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
             layers.push(Layer::estimates("", ink(cases), shares.clone()));
         }
         let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
-        let panel = Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers);
-        Panel { notes: notes.clone(), ..panel }
+        Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers)
     };
     all.iter().map(panel).collect()
 }
@@ -149,15 +143,10 @@ fn exceeding<'a>(tables: &Tables, groups: &[&'a Cases]) -> Over<'a> {
         let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
         Drawn { cases, curves, shares: Vec::new() }
     };
-    Over {
-        measure: label(Measure::Im4),
-        structures: groups.iter().map(structure).collect(),
-        notes: Vec::new(),
-    }
+    Over { measure: label(Measure::Im4), structures: groups.iter().map(structure).collect() }
 }
 
-/// P_ro over a measure, or over a hybrid one at the median IM3, and how well the curves of two structures
-/// predict each other.
+/// P_ro over a measure, or over a hybrid one at the median IM3.
 fn over<'a>(tables: &Tables, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
     let fit = |cases: &Cases| {
         let its = tables.curves.iter().filter(|fit| fit.group() == cases.group());
@@ -175,17 +164,24 @@ fn over<'a>(tables: &Tables, groups: &[&'a Cases], im_x: Measure, im_y: Option<M
         let shares = observed_shares(&observed, bin, wilson);
         Drawn { cases, curves: vec![curve("", ratios(ends, STEPS), p)], shares }
     };
-    let mut notes = Vec::new();
-    if let [a, b] = groups
-        && let (Some(of_a), Some(of_b)) = (fit(a), fit(b))
-    {
-        let row = |cases: &Cases, own: &CurveFit, other: &CurveFit| {
-            let [own, other] = [own, other].map(|fit| minus(number::fixed(log_score_on(fit, cases), 2)));
-            format!("{}: {own}, {other}", cases.structure.name)
-        };
-        let head = "log score by own curve, by the other's".to_string();
-        notes = vec![head, row(a, of_a, of_b), row(b, of_b, of_a)];
-    }
     let measure = if im_y.is_some() { "hybrid measure" } else { label(im_x) };
-    Over { measure, structures: groups.iter().map(structure).collect(), notes }
+    Over { measure, structures: groups.iter().map(structure).collect() }
+}
+
+/// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.
+fn measure_of(fit: &CurveFit, measures: &IntensityMeasures) -> Option<f64> {
+    let x = fit.im_x.value_of(measures)?;
+    let Some(im_y) = fit.im_y else { return Some(x) };
+    Some(hybrid_measure(x, im_y.value_of(measures)?, lambda(&fit.coefficients).0))
+}
+
+/// The measures of a motion of this IM3 at which the measure of a curve of IM4, IM5 or the hybrid of
+/// IM4 and 1/IM3 has a value: the inverse of [`measure_of`].
+fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
+    let im4 = match (fit.im_x, &fit.coefficients[..]) {
+        (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
+        (Measure::Im5, _) => value * im3,
+        _ => value,
+    };
+    IntensityMeasures::of_peaks(im4, im4 / im3)
 }

@@ -7,7 +7,7 @@ use crate::fragility::{Z_95, grouped, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::rocking::{CapacityStatus, Outcome};
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow};
+use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, too_far};
 use crate::stages::ida::{CapacityFitRow, CapacityRow};
 use crate::stages::report::tables::title;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
@@ -30,14 +30,14 @@ pub fn list(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Figure {
 
 /// Annual rates of the limit states, if there is one object.
 pub fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Figure {
-    let states = |row: &RatesRow| {
-        vec![
+    let rates = match objects {
+        [(object, row, _)] => vec![
             ("rocks".to_string(), [row.rocking_per_year, None, None]),
-            ("rocks too far, or overturns".to_string(), row.failure_per_year),
+            (format!("{}, or overturns", too_far(object)), row.failure_per_year),
             ("overturns".to_string(), row.overturning_per_year),
-        ]
+        ],
+        _ => Vec::new(),
     };
-    let rates = if let [(_, row, _)] = objects { states(row) } else { Vec::new() };
     annual("rates", "How often it reaches each limit state", "annual rate", rates)
 }
 
