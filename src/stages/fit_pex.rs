@@ -11,10 +11,10 @@ use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, wa
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
 use crate::paper;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite};
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::Record;
 use crate::table::TableError;
