@@ -27,7 +27,7 @@ use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, Scaling};
 use crate::records::{Format, ReadOptions};
 use crate::units::{G_M_S2, Unit};
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 
 /// Files, or pairs of components, that are processed at once.
 const AT_ONCE: usize = 32;
@@ -168,7 +168,11 @@ impl Stage for ImportMotions {
                             anyhow::bail!("{file}: two motions are called '{id}'; rename the file");
                         }
                     }
-                    context.warn(warnings(&imported));
+                    let warning = |motion: &ImportedMotion| {
+                        let text = format!("{}: {}", motion.motion_id, motion.warning?);
+                        Some((Warning::ImplausibleRecord, text))
+                    };
+                    context.warn(imported.iter().filter_map(warning).collect());
                     summary.add(&imported);
                     writer.append(&batch(&imported, &periods)?)?;
                 }
@@ -219,12 +223,4 @@ impl ImportMotions {
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
         })
     }
-}
-
-/// What is implausible of imported motions.
-fn warnings(imported: &[ImportedMotion]) -> Warnings {
-    let warning = |motion: &ImportedMotion| {
-        Some((Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.warning?)))
-    };
-    imported.iter().filter_map(warning).collect()
 }
