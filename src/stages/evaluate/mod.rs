@@ -233,7 +233,7 @@ impl Evaluate {
     fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
             let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
-            return Ok(models.structures().into_iter().map(fitted).map(Object::new).collect());
+            return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
