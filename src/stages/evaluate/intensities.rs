@@ -12,14 +12,14 @@ use crate::pipeline::UsageError;
 use crate::plausibility::judge_peak;
 use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
-use crate::stages::shared::hazard::{Renamed, headings, peak, rename};
+use crate::stages::shared::hazard::{headings, peak, rename};
 use crate::stages::shared::object_list::describes_object;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
 
 /// Reads the rows of a table.
-pub fn read(path: &Path, renamed: &[Renamed]) -> anyhow::Result<Vec<Batch>> {
+pub fn read(path: &Path, renamed: &[(String, String)]) -> anyhow::Result<Vec<Batch>> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
         return Ok(vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }]);
     }
@@ -71,7 +71,7 @@ pub fn structures(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
 }
 
 /// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.
-fn read_csv(path: &Path, renamed: &[Renamed]) -> anyhow::Result<RecordBatch> {
+fn read_csv(path: &Path, renamed: &[(String, String)]) -> anyhow::Result<RecordBatch> {
     let mut sheet = Sheet::parse(&std::fs::read(path).map_err(|source| TableError::io(path, source))?)
         .map_err(|error| TableError::table(path, error.to_string()))?;
     rename(&mut sheet, renamed)?;

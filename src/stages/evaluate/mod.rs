@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args, ValueHint};
 
-use super::shared::hazard::{self, Renamed};
+use super::shared::hazard;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::Object;
 use super::shared::responses;
@@ -82,8 +82,8 @@ pub struct Evaluate {
           value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
     /// Column names for headings of --hazard or --in
-    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
-    columns: Vec<Renamed>,
+    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',', value_parser = hazard::renamed)]
+    columns: Vec<(String, String)>,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -205,7 +205,7 @@ impl Evaluate {
     /// Reads the hazard and what rates over it need.
     fn site(&self, context: &Context) -> anyhow::Result<Site> {
         let (mut hazard, unused) = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
-        context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
+        context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
                 *velocity = self.ratio.map(Velocity::given);

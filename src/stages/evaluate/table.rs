@@ -17,7 +17,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::plausibility::judge_peaks;
 use crate::rocking::Structure;
-use crate::stages::shared::hazard::Renamed;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
 use crate::stages::shared::objects::Object;
@@ -34,7 +33,7 @@ type Known = (Subject, Vec<Warning>);
 /// Reads intensities, and returns them with their probabilities, and what to print.
 pub fn evaluate(
     path: &Path,
-    renamed: &[Renamed],
+    renamed: &[(String, String)],
     structures: &StructureArgs,
     place: &Place,
     models: &Models,
