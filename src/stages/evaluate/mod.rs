@@ -5,14 +5,13 @@
 //! point        probabilities at one PGA and PGV
 //! rates        annual rates at a site
 //! target       the width of a base that meets a target
-//! table        probabilities at each intensity of a table; intensities reads it
+//! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
 //! explain      the model and the measures behind an answer
 //! output       what is printed and written
 //! ```
 
 mod explain;
-mod intensities;
 mod object;
 mod output;
 mod point;
@@ -21,11 +20,11 @@ mod table;
 mod target;
 mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueHint};
 
-use super::shared::hazard::{self, Renamed};
+use super::shared::hazard;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::Object;
 use super::shared::responses;
@@ -40,7 +39,7 @@ use crate::records::plausibility::rarity;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
-use self::object::{Answer, Prediction, Subject};
+use self::object::{Answer, Subject};
 pub use self::object::{DoubtsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
@@ -81,8 +80,8 @@ pub struct Evaluate {
           value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
     /// Column names for headings of --hazard or --in
-    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
-    columns: Vec<Renamed>,
+    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',', value_parser = hazard::renamed)]
+    columns: Vec<(String, String)>,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -115,13 +114,6 @@ pub struct Evaluate {
     place: Place,
 }
 
-/// What is evaluated.
-enum Question<'a> {
-    Motion(Motion),
-    Table(&'a Path),
-    Hazard,
-}
-
 impl Stage for Evaluate {
     fn outputs(&self) -> Vec<PathBuf> {
         self.output.path(self.input.as_deref()).into_iter().collect()
@@ -129,42 +121,44 @@ impl Stage for Evaluate {
 
     fn check(&self) -> anyhow::Result<()> {
         self.output.check()?;
-        self.question().map(|_| ())
+        if self.input.is_none() && self.hazard.is_empty() {
+            self.motion()?;
+        }
+        Ok(())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
-        match self.question()? {
-            Question::Motion(motion) => self.under_motion(&motion, &models, context),
-            Question::Hazard => self.over_hazard(&models, context),
-            Question::Table(path) => {
-                let (rows, text) =
-                    table::evaluate(path, &self.columns, &self.structures, &self.place, &models, context)?;
-                self.output.write(&rows, text, Some(path), context)
-            }
+        if let Some(path) = &self.input {
+            let (structures, place) = (&self.structures, &self.place);
+            let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
+            let (rows, text) = table::evaluate(path, &self.columns, &given, place, &models, context)?;
+            self.output.write(&rows, text, Some(path), context)
+        } else if self.hazard.is_empty() {
+            self.under_motion(&self.motion()?, &models, context)
+        } else {
+            self.over_hazard(&models, context)
         }
     }
 }
 
 impl Evaluate {
-    fn question(&self) -> anyhow::Result<Question<'_>> {
-        match (&self.input, self.pga, self.pgv) {
-            (Some(path), ..) => Ok(Question::Table(path)),
-            _ if !self.hazard.is_empty() => Ok(Question::Hazard),
-            (_, None, None) => Err(UsageError::because(
-                "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
-            )),
-            (_, pga_g, pgv_m_s) => {
-                if pga_g.and(pgv_m_s).and(self.vs30).is_some() {
-                    return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
-                }
-                let pga_m_s2 = pga_g.map(|pga| pga * G_M_S2);
-                if let (Some(pga), Some(pgv)) = (pga_m_s2, pgv_m_s) {
-                    judge_peaks(pga, pgv).map_err(UsageError::because)?;
-                }
-                Ok(Question::Motion(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 }))
+    /// The motion that is given.
+    fn motion(&self) -> anyhow::Result<Motion> {
+        let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
+        match pga_m_s2.zip(pgv_m_s) {
+            Some(_) if self.vs30.is_some() => {
+                return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
             }
+            Some((pga, pgv)) => judge_peaks(pga, pgv).map_err(UsageError::because)?,
+            None if pga_m_s2.or(pgv_m_s).is_none() => {
+                return Err(UsageError::because(
+                    "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
+                ));
+            }
+            None => {}
         }
+        Ok(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
     fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
@@ -172,7 +166,7 @@ impl Evaluate {
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let predict = |_: &Object, subject: &Subject| {
             let (row, budget) = TreeRow::new(motion, subject);
-            Prediction { row, budget, motion: motion.peaks(&subject.weaker().1), warnings: Vec::new() }
+            (row, budget, motion.peaks(&subject.weaker().1), Vec::new())
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
@@ -185,8 +179,7 @@ impl Evaluate {
             let rates = site.rates(&subject.directions, &subject.unknowns);
             let widths = |target| target::widths(object, models, &site, self.years, target);
             let row = RatesRow::new(&rates, self.years, self.target.map_or([None; 2], widths));
-            let budget = rates.budgets.overturning;
-            Prediction { row, budget, motion: rates.motion, warnings: rates.warnings }
+            (row, rates.budgets.overturning, rates.motion, rates.warnings)
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         let is_counted = |answer: &Answer<RatesRow>| answer.row.counted_motions.is_some();
@@ -204,7 +197,7 @@ impl Evaluate {
     /// Reads the hazard and what rates over it need.
     fn site(&self, context: &Context) -> anyhow::Result<Site> {
         let (mut hazard, unused) = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
-        context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
+        context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
                 *velocity = self.ratio.map(Velocity::given);
@@ -212,13 +205,11 @@ impl Evaluate {
             _ if self.ratio.or(self.vs30).is_some() => {
                 return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
             }
+            Hazard::Joint(_) if self.extrapolate || self.responses.is_some() => {
+                let option = if self.extrapolate { "extrapolate" } else { "responses" };
+                return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
+            }
             _ => {}
-        }
-        if let Hazard::Joint(_) = hazard
-            && (self.extrapolate || self.responses.is_some())
-        {
-            let option = if self.extrapolate { "extrapolate" } else { "responses" };
-            return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
         }
         Ok(Site {
             hazard,
@@ -236,29 +227,31 @@ impl Evaluate {
             return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
-        context.warn(unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect());
-        let is_held = |object: &Object| matches!(object.directions, Err(Reason::NotRocking(_)));
-        match objects.first().map_or(Ok(()), |object| object.structure().map(|_| ())) {
-            Err(reason) if !objects.iter().any(|object| object.directions.is_ok() || is_held(object)) => {
-                match &self.structures.structures {
-                    Some(path) => {
-                        anyhow::bail!("{}: {reason}; no other row can be right either", path.display())
-                    }
-                    None => Err(UsageError::because(reason)),
-                }
-            }
+        context.warn(unused);
+        let can_be = |object: &Object| !matches!(object.directions, Err(Reason::Implausible(_)));
+        match (objects.first().map(Object::structure), &self.structures.structures) {
+            (Some(Err(reason)), path) if !objects.iter().any(can_be) => match path {
+                Some(path) => anyhow::bail!("{}: {reason}; no other row can be right either", path.display()),
+                None => Err(UsageError::because(reason)),
+            },
             _ => Ok(objects),
         }
     }
 
-    /// Writes and prints the answers for all objects, and warns of them.
+    /// Writes and prints the answers for all objects, and warns of what their text does not state.
     fn finish<R: Predicted>(
         &self,
         all: &[Answer<R>],
         text: String,
         context: &Context,
     ) -> anyhow::Result<String> {
-        context.warn(object::warnings_of_all(all));
+        for answer in all {
+            let others = answer
+                .warnings
+                .iter()
+                .filter(|warning| !matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated));
+            context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
+        }
         self.output.write(&[object::batch(all)?], text, None, context)
     }
 }

@@ -16,9 +16,10 @@ use crate::stages::shared::model_args::{Models, words_of};
 use crate::stages::shared::objects::{Direction, Object};
 use crate::stages::shared::structures::warnings_of;
 use crate::table::rows::{self, Row};
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 
 /// What is predicted for an object.
+#[derive(Default)]
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
@@ -69,31 +70,26 @@ pub struct ObjectRow {
 }
 
 impl ObjectRow {
-    fn new(object: &Object, structure: &Structure, model: &Model, limit_state: f64) -> ObjectRow {
+    /// Of an object and, if it has an answer, of the structure and the model that predict for it.
+    fn new(object: &Object, by: Option<&(Structure, Model)>, limit_state: f64) -> ObjectRow {
+        let (spec, floor) = (&object.spec, object.floor());
+        let structure = by.map(|(structure, _)| structure);
         ObjectRow {
-            p_rad_s: Some(structure.p_rad_s),
-            alpha_rad: Some(structure.alpha_rad),
-            eta: Some(structure.eta),
-            friction: Some(structure.alpha_rad.tan()),
-            model: Some(words_of(model)),
-            limit_state: Some(limit_state),
-            ..ObjectRow::refused(object)
-        }
-    }
-
-    /// Of an object without an answer.
-    fn refused(object: &Object) -> ObjectRow {
-        ObjectRow {
-            structure: object.spec.name.clone(),
-            width_m: object.spec.shape.width,
-            depth_m: object.spec.shape.depth,
-            height_m: object.spec.shape.height,
-            floor_period_s: object.floor().map(|floor| floor.period_s),
-            floor_level: object.floor().map(|floor| floor.level),
-            count: object.spec.count.map(f64::from),
-            kind: object.spec.shape.kind(),
-            is_friction_known: object.spec.place.friction.is_some(),
-            ..ObjectRow::default()
+            structure: spec.name.clone(),
+            width_m: spec.shape.width,
+            depth_m: spec.shape.depth,
+            height_m: spec.shape.height,
+            floor_period_s: floor.map(|floor| floor.period_s),
+            floor_level: floor.map(|floor| floor.level),
+            count: spec.count.map(f64::from),
+            p_rad_s: structure.map(|structure| structure.p_rad_s),
+            alpha_rad: structure.map(|structure| structure.alpha_rad),
+            eta: structure.map(|structure| structure.eta),
+            friction: structure.map(|structure| structure.alpha_rad.tan()),
+            model: by.map(|(_, model)| words_of(model)),
+            limit_state: by.map(|_| limit_state),
+            kind: spec.shape.kind(),
+            is_friction_known: spec.place.friction.is_some(),
         }
     }
 }
@@ -168,28 +164,27 @@ impl Subject {
             warnings.extend(warnings_of(structure));
             on_ground.push(model);
         }
+        if object.floor().is_some() {
+            models.expect_ground()?;
+        }
         let on = |floor: Option<Floor>| -> anyhow::Result<Vec<Model>> {
             let problem = || UsageError::because("period: the paper's model is that of the ground");
             on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
         };
-        if object.floor().is_some() {
-            models.expect_ground()?;
-        }
         let models = on(object.floor())?;
         let structures = || found.iter().map(|direction| direction.structure.clone());
         let fewest = found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0);
         let unknown = |number: usize| {
-            let at = |end: fn(&Unknown<Structure>) -> &Structure| {
-                let structures = found.iter().map(|direction| end(&direction.unknowns[number]).clone());
+            let at = |end: usize| {
+                let structures = found.iter().map(|direction| direction.unknowns[number].1[end].clone());
                 structures.zip(models.iter().cloned()).collect()
             };
-            let part = found[0].unknowns[number].part;
-            Unknown { part, low: at(|unknown| &unknown.low), high: at(|unknown| &unknown.high) }
+            Unknown { part: found[0].unknowns[number].0, low: at(0), high: at(1) }
         };
         let mut unknowns: Vec<Unknown<Vec<(Structure, Model)>>> = (0..fewest).map(unknown).collect();
-        if let Some(Unknown { part, low, high }) = object.unknown_floor() {
+        if let Some([low, high]) = object.unknown_floor() {
             let at = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
-            unknowns.push(Unknown { part, low: at(low)?, high: at(high)? });
+            unknowns.push(Unknown { part: Part::Floor, low: at(low)?, high: at(high)? });
         }
         let directions = structures().zip(models.iter().cloned()).collect();
         Ok((Subject { directions, unknowns }, warnings))
@@ -210,45 +205,31 @@ impl Subject {
     }
 }
 
-/// What is predicted for one object.
-pub struct Prediction<R> {
-    pub row: R,
-    /// Errors of the logit of the probability of overturning, or of ln of its rate.
-    pub budget: Budget,
-    /// PGA and PGV (m/s2 and m/s) of the motion that matters.
-    pub motion: [f64; 2],
-    pub warnings: Vec<Warning>,
-}
-
-/// Predicts for all objects, the worst first.
+/// Predicts for all objects, the worst first. `predict` gives a row, the errors of the logit of the probability
+/// of overturning or of ln of its rate, PGA and PGV (m/s2 and m/s) of the motion that matters, and warnings.
 pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
-    predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
+    predict: impl Fn(&Object, &Subject) -> (R, Budget, [f64; 2], Vec<Warning>) + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         let (subject, mut warnings) = match &object.directions {
             Ok(found) => Subject::of(&object, found, models)?,
             Err(reason) => {
-                return Ok(Answer {
-                    object: ObjectRow::refused(&object),
-                    row: R::default(),
-                    doubts: DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() },
-                    warnings: Vec::new(),
-                    explained: String::new(),
-                    responses: 0,
-                });
+                let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
+                let object = ObjectRow::new(&object, None, models.limit_state());
+                return Ok(Answer { object, doubts, ..Answer::default() });
             }
         };
-        let Prediction { row, budget, motion, warnings: of_prediction } = predict(&object, &subject);
+        let (row, budget, motion, of_prediction) = predict(&object, &subject);
         warnings.extend(of_prediction);
         warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
-        let (structure, model) = subject.weaker();
+        let weaker @ (structure, model) = subject.weaker();
         Ok(Answer {
-            object: ObjectRow::new(&object, structure, model, models.limit_state()),
+            object: ObjectRow::new(&object, Some(weaker), models.limit_state()),
             row,
             doubts: DoubtsRow::new(&warnings, &budget),
             warnings,
@@ -262,18 +243,6 @@ pub fn answers<R: Predicted>(
     let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;
     all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
     Ok(all)
-}
-
-/// The warnings of all objects, each with the names of these, but for those that the text of an answer states.
-pub fn warnings_of_all<R>(all: &[Answer<R>]) -> Warnings {
-    let is_stated =
-        |warning: &Warning| matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
-    let warnings = |answer: &Answer<R>| {
-        let name = answer.object.structure.clone();
-        let others = answer.warnings.clone().into_iter().filter(move |warning| !is_stated(warning));
-        others.map(move |warning| (warning, name.clone()))
-    };
-    all.iter().flat_map(warnings).collect()
 }
 
 /// The rows of all objects.

@@ -1,13 +1,14 @@
-//! Probabilities at each intensity of a table.
+//! Probabilities at each intensity of a table, Parquet or CSV: peaks by their headings, structures by their
+//! columns.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
+use std::sync::Arc;
 
-use arrow_array::RecordBatch;
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use rayon::prelude::*;
 
-use super::intensities::{self, peaks};
 use super::object::{DoubtsRow, Subject};
 use super::point::TreeRow;
 use crate::fragility::Peak;
@@ -15,33 +16,38 @@ use crate::hazard::Motion;
 use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::plausibility::judge_peaks;
+use crate::plausibility::{judge_peak, judge_peaks};
 use crate::rocking::Structure;
-use crate::stages::shared::hazard::Renamed;
+use crate::sheet::{Heading, Sheet};
+use crate::stages::shared::hazard::{headings, peak, rename};
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
+use crate::stages::shared::object_list::describes_object;
 use crate::stages::shared::objects::Object;
 use crate::stages::shared::spec::{Place, Restitution, Spec};
-use crate::stages::shared::structures::StructureArgs;
 use crate::table::TableError;
 use crate::table::columns::Batch;
+use crate::table::file::Table;
 use crate::table::rows;
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 
 /// What is predicted for, and the warnings about it.
 type Known = (Subject, Vec<Warning>);
 
-/// Reads intensities, and returns them with their probabilities, and what to print.
+/// Reads intensities, and returns them with their probabilities, and what to print. Without a `given`
+/// structure each row has its own.
 pub fn evaluate(
     path: &Path,
-    renamed: &[Renamed],
-    structures: &StructureArgs,
+    renamed: &[(String, String)],
+    given: &[Object],
     place: &Place,
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
-    let batches = intensities::read(path, renamed)?;
-    let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
+    let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+        true => vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }],
+        false => Table::open(path)?.batches(&|_| true).collect::<Result<Vec<_>, TableError>>()?,
+    };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -57,10 +63,11 @@ pub fn evaluate(
         )));
     }
     let given = given.first().map(|object| subject(object, models)).transpose()?;
-    let mut of_rows = HashMap::new();
+    let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
+    let mut of_rows: HashMap<[u64; 3], Known> = HashMap::new();
     let mut evaluated = Vec::new();
     for batch in &batches {
-        let structures = if given.is_some() { Vec::new() } else { intensities::structures(batch)? };
+        let structures = if given.is_some() { Vec::new() } else { structures(batch)? };
         for structure in &structures {
             if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
                 let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
@@ -68,17 +75,12 @@ pub fn evaluate(
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
-        evaluated.push(of_batch(batch, of_row, context)?);
+        evaluated.push(with_probabilities(batch, of_row, context)?);
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
         rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
     }
-}
-
-/// What distinguishes structures.
-fn key(structure: &Structure) -> [u64; 3] {
-    [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits)
 }
 
 fn subject(object: &Object, models: &Models) -> anyhow::Result<Known> {
@@ -87,7 +89,7 @@ fn subject(object: &Object, models: &Models) -> anyhow::Result<Known> {
 }
 
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
-fn of_batch<'a>(
+fn with_probabilities<'a>(
     batch: &Batch,
     of_row: impl Fn(usize) -> &'a Known + Sync,
     context: &Context,
@@ -99,23 +101,107 @@ fn of_batch<'a>(
     let mw = batch.magnitudes()?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
-        let mut warnings = of_structure.clone();
-        warnings.extend(subject.warnings([pga[row], pgv[row]]));
+        let warnings = [of_structure.clone(), subject.warnings([pga[row], pgv[row]])].concat();
         let [pga_m_s2, pgv_m_s] = [pga[row], pgv[row]].map(Some);
         let motion = Motion { pga_m_s2, pgv_m_s, mw: known(mw[row]), vs30_m_s: None };
         let (tree, budget) = TreeRow::new(&motion, subject);
-        (tree, (DoubtsRow::new(&warnings, &budget), warnings))
+        (tree, DoubtsRow::new(&warnings, &budget), warnings)
     };
-    let (trees, others): (Vec<_>, Vec<_>) = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).unzip();
-    let (doubts, warnings): (Vec<DoubtsRow>, Vec<Vec<Warning>>) = others.into_iter().unzip();
+    let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
+    let (trees, doubts, warnings): (Vec<_>, Vec<_>, Vec<_>) = rows.into_iter().collect();
     for (row, warnings) in warnings.into_iter().enumerate() {
         let place = format!("row {}", batch.first_row + row as u64 + 1);
-        context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect::<Warnings>());
+        context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
     }
-    let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch(&doubts)?])?;
+    let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<DoubtsRow>(&doubts)?])?;
     let schema = batch.rows.schema();
-    let kept: Vec<usize> = (0..schema.fields().len())
-        .filter(|&at| own.schema().index_of(schema.field(at).name()).is_err())
-        .collect();
+    let is_kept = |at: &usize| own.schema().index_of(schema.field(*at).name()).is_err();
+    let kept: Vec<usize> = (0..schema.fields().len()).filter(is_kept).collect();
     rows::side_by_side(&[own, batch.rows.project(&kept)?])
+}
+
+/// A peak of each row, m/s2 or m/s.
+fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
+    let schema = batch.rows.schema();
+    let names = || schema.fields().iter().map(|field| field.name().as_str());
+    let unit = |name| peak(&Heading::of(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| unit);
+    let mut found: Vec<(&str, f64)> = names().filter_map(|name| Some((name, unit(name)?))).collect();
+    let (column, expected) = match wanted {
+        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
+        Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
+    };
+    if let Some(own) = found.iter().position(|(name, _)| *name == column) {
+        found = vec![found[own]];
+    }
+    let path = batch.path.display();
+    let (name, unit) = match found[..] {
+        [one] => one,
+        [] => {
+            return Err(UsageError::because(format!(
+                "{path}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
+                names().collect::<Vec<_>>().join(", ")
+            )));
+        }
+        [(first, _), (second, _), ..] => {
+            return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
+        }
+    };
+    let judged = |(row, value): (usize, f64)| match judge_peak(wanted == Peak::Pgv, value * unit) {
+        Ok(()) => Ok(value * unit),
+        Err(_) if value.is_nan() => Err(batch.value_error(row, column, "no value").into()),
+        Err(possible) => Err(batch.value_error(row, column, format!("expected {possible}")).into()),
+    };
+    batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
+}
+
+/// The structure of each row.
+fn structures(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
+    let (p, alpha) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
+    let eta = batch.required_numbers("eta")?;
+    let structure = |row: usize| Ok(batch.structure(row, "structure", [p[row], alpha[row], eta[row]])?);
+    (0..batch.rows.num_rows()).map(structure).collect()
+}
+
+/// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.
+fn read_csv(path: &Path, renamed: &[(String, String)]) -> anyhow::Result<RecordBatch> {
+    let refuse = |problem: String| TableError::table(path, problem);
+    let bytes = std::fs::read(path).map_err(|source| TableError::io(path, source))?;
+    let mut sheet = Sheet::parse(&bytes).map_err(|error| refuse(error.to_string()))?;
+    rename(&mut sheet, renamed)?;
+    if let Some(heading) = sheet.headings.iter().find(|heading| describes_object(heading)) {
+        let problem = format!(
+            "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \
+             object by options, or list objects in --structures",
+            heading.text
+        );
+        return Err(refuse(problem).into());
+    }
+    if sheet.headings.is_empty() || sheet.lines.is_empty() {
+        let (rows, headings) = (counted(sheet.lines.len(), "row"), headings(&sheet));
+        let problem = format!("{rows} under {headings}; expected intensities under pga_g and pgv_m_s");
+        return Err(refuse(problem).into());
+    }
+    let column = |(at, heading): (usize, &Heading)| -> anyhow::Result<(String, ArrayRef, bool)> {
+        let number = |row: usize| match sheet.cell(row, at) {
+            "" => Ok(None),
+            _ => sheet.number(row, at).map(Some),
+        };
+        let rows = 0..sheet.lines.len();
+        let array: ArrayRef = match rows.clone().map(number).collect::<Result<Vec<_>, _>>() {
+            Ok(values) => Arc::new(Float64Array::from(values)),
+            Err(error) if peak(heading).is_some() => return Err(refuse(error.to_string()).into()),
+            Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
+        };
+        let name = match heading.name.as_str() {
+            "m" | "magnitude" => "mw",
+            "p" => "p_rad_s",
+            "alpha" => "alpha_rad",
+            "tp" => "tp_s",
+            "tm" => "tm_s",
+            _ => &heading.text,
+        };
+        Ok((name.to_string(), array, true))
+    };
+    let columns = sheet.headings.iter().enumerate().map(column).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(RecordBatch::try_from_iter_with_nullable(columns)?)
 }

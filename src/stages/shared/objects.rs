@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use super::spec::{Place, Reason, Restitution, Shape, Spec};
 use crate::fragility::Z_95;
-use crate::hazard::{Part, Unknown};
+use crate::hazard::Part;
 use crate::motion::Floor;
 use crate::rocking::{Body, Structure};
 use crate::statistics::{normal, numerics};
@@ -22,7 +22,7 @@ pub struct Object {
 pub struct Direction {
     pub structure: Structure,
     /// What is not known of it: the structure at the 2.5 and 97.5 % quantiles.
-    pub unknowns: Vec<Unknown<Structure>>,
+    pub unknowns: Vec<(Part, [Structure; 2])>,
 }
 
 /// Standard deviation of the logarithm of a building's period that is not given.
@@ -55,10 +55,10 @@ impl Object {
     }
 
     /// The floor with the period of the building at its 2.5 and 97.5 % quantiles.
-    pub fn unknown_floor(&self) -> Option<Unknown<Floor>> {
+    pub fn unknown_floor(&self) -> Option<[Floor; 2]> {
         let (floor, sd) = (self.floor()?, self.spec.place.period_sd.unwrap_or(SD_OF_PERIOD));
-        let with = |ln: f64| Floor { period_s: floor.period_s * ln.exp(), ..floor };
-        Some(Unknown { part: Part::Floor, low: with(-Z_95 * sd), high: with(Z_95 * sd) })
+        let with = |off: f64| Floor { period_s: floor.period_s * (off * sd).exp(), ..floor };
+        Some([-Z_95, Z_95].map(with))
     }
 }
 
@@ -169,8 +169,7 @@ impl Spec {
                 Some([Z_95, -Z_95].map(|off| with(1.0 - loss(off))))
             }
         };
-        let unknown = limits.map(|[low, high]| Unknown { part: Part::Eta, low, high });
-        Direction { structure, unknowns: unknown.into_iter().collect() }
+        Direction { structure, unknowns: limits.map(|limits| (Part::Eta, limits)).into_iter().collect() }
     }
 
     /// Both directions of a body, or that of its width.
@@ -215,10 +214,10 @@ impl Spec {
         }
         let of_height = centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, middle)));
         let of_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
-        for [low, high] in [of_height, of_offset].into_iter().flatten() {
+        for bodies in [of_height, of_offset].into_iter().flatten() {
             // A body that is squat is no danger.
-            let [low, high] = [low, high].map(|body| structure(body).unwrap_or(direction.structure.clone()));
-            direction.unknowns.push(Unknown { part: Part::Object, low, high });
+            let ends = bodies.map(|body| structure(body).unwrap_or(direction.structure.clone()));
+            direction.unknowns.push((Part::Object, ends));
         }
         Ok(direction)
     }

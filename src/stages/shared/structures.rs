@@ -37,7 +37,7 @@ impl StructureArgs {
 
     /// All structures, each of the weaker direction of an object, and warnings about them and their list.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
-        let (objects, unused) = self.objects(&Place::default())?;
+        let (objects, mut warnings) = self.objects(&Place::default())?;
         let structure = |object: &Object| match object.floor() {
             Some(_) => {
                 let name = &object.spec.name;
@@ -49,44 +49,38 @@ impl StructureArgs {
         };
         let structures: Result<Vec<Structure>, String> = objects.iter().map(structure).collect();
         let structures = structures.map_err(UsageError::because)?;
-        let of_structure = |structure: &Structure| {
-            let name = structure.name.clone();
-            warnings_of(structure).into_iter().map(move |warning| (warning, name.clone()))
-        };
-        let unused = unused.into_iter().map(|heading| (Warning::UnusedColumns, heading));
-        let warnings = structures.iter().flat_map(of_structure).chain(unused).collect();
+        for structure in &structures {
+            let about = warnings_of(structure).into_iter().map(|warning| (warning, structure.name.clone()));
+            warnings.extend(about.collect());
+        }
         Ok((structures, warnings))
     }
 
-    /// All objects, each with what is wrong with it, and the columns of a list that say nothing of them.
-    pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Vec<String>)> {
-        let (specs, unused) = self.specs()?;
+    /// All objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
+    /// them.
+    pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Warnings)> {
+        let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
+        let (specs, unused) = match &self.structures {
+            Some(path) if path.as_os_str() == "paper" => {
+                (paper::structures().into_iter().map(of_paper).collect(), Vec::new())
+            }
+            Some(path) => object_list::read(path)?,
+            None if !self.structure.is_empty() => (self.structure.clone(), Vec::new()),
+            None if self.is_given() => (vec![Spec::from(self.one.clone())], Vec::new()),
+            None => {
+                return Err(UsageError::because(
+                    "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
+                ));
+            }
+        };
         let objects: Vec<Object> = specs.into_iter().map(|spec| Object::new(spec.at(place))).collect();
         let mut names: Vec<&str> = objects.iter().map(|object| object.spec.name.as_str()).collect();
         names.sort_unstable();
-        match names.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(UsageError::because(format!(
-                "two structures are called '{}'; expected distinct names",
-                pair[0]
-            ))),
-            None => Ok((objects, unused)),
+        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            let problem = format!("two structures are called '{}'; expected distinct names", pair[0]);
+            return Err(UsageError::because(problem));
         }
-    }
-
-    /// What is given.
-    fn specs(&self) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
-        let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
-        match &self.structures {
-            Some(path) if path.as_os_str() == "paper" => {
-                Ok((paper::structures().into_iter().map(of_paper).collect(), Vec::new()))
-            }
-            Some(path) => object_list::read(path),
-            None if !self.structure.is_empty() => Ok((self.structure.clone(), Vec::new())),
-            None if self.is_given() => Ok((vec![Spec::from(self.one.clone())], Vec::new())),
-            None => Err(UsageError::because(
-                "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
-            )),
-        }
+        Ok((objects, unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect()))
     }
 }
 

@@ -1,33 +1,21 @@
 //! What the headings of a hazard say: peaks and spectral accelerations by their units, rates, probabilities and
 //! return periods, means and fractiles.
 
-use std::str::FromStr;
-
 use anyhow::bail;
 
 use crate::fragility::Peak;
 use crate::sheet::{Heading, Sheet};
-use crate::units::{CM_PER_M, G_M_S2, Quantity};
+use crate::units::Quantity;
 
-/// Another heading for a column: `pga_g=PGA`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Renamed {
-    column: String,
-    pub heading: String,
-}
-
-impl FromStr for Renamed {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Renamed, String> {
-        let pair = text.split_once('=').ok_or("expected COLUMN=HEADING, such as pga_g=PGA")?;
-        Ok(Renamed { column: pair.0.trim().to_string(), heading: pair.1.trim().to_string() })
-    }
+/// Parses a column and another heading for it: `pga_g=PGA`.
+pub fn renamed(text: &str) -> Result<(String, String), String> {
+    let (column, heading) = text.split_once('=').ok_or("expected COLUMN=HEADING, such as pga_g=PGA")?;
+    Ok((column.trim().to_string(), heading.trim().to_string()))
 }
 
 /// Renames columns as the user requests.
-pub fn rename(sheet: &mut Sheet, renamed: &[Renamed]) -> anyhow::Result<()> {
-    for Renamed { column, heading } in renamed {
+pub fn rename(sheet: &mut Sheet, renamed: &[(String, String)]) -> anyhow::Result<()> {
+    for (column, heading) in renamed {
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
             bail!("no heading '{heading}' among {}", headings(sheet));
         };
@@ -48,26 +36,24 @@ pub fn headings(sheet: &Sheet) -> String {
     if texts.is_empty() { "no headings".to_string() } else { format!("headings {}", texts.join(", ")) }
 }
 
-/// Whether a heading has one of these words, and no others but those that may stand beside them: a word more
-/// may mean something else (`vertical PGA`, `monthly rate`).
-fn names(heading: &Heading, known: &[&str], beside: &[&str]) -> bool {
-    let is_known = |word: &str| known.contains(&word);
-    let mut words = heading.name.split('_');
-    words.clone().any(is_known) && words.all(|word| is_known(word) || beside.contains(&word))
+/// Whether one of the words of a list is among these.
+fn has(words: &[&str], list: &str) -> bool {
+    list.split(' ').any(|known| words.contains(&known))
 }
 
-/// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit.
+/// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
+/// word more, which may change the meaning: `vertical PGA`.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    const BESIDE: [&str; 11] =
-        ["peak", "ground", "g", "motion", "horizontal", "mean", "rotd50", "geomean", "h", "at", "site"];
+    const BESIDE: &str = "peak ground g motion horizontal mean rotd50 geomean h at site";
     let unit = heading.unit?;
-    match unit.quantity {
-        Quantity::Acceleration if names(heading, &["pga", "ag", "a", "acceleration", "motion"], &BESIDE) => {
-            Some((Peak::Pga, unit.si))
-        }
-        Quantity::Velocity if names(heading, &["pgv", "velocity"], &BESIDE) => Some((Peak::Pgv, unit.si)),
-        _ => None,
-    }
+    let (peak, names) = match unit.quantity {
+        Quantity::Acceleration => (Peak::Pga, "pga ag a acceleration motion"),
+        Quantity::Velocity => (Peak::Pgv, "pgv velocity"),
+        _ => return None,
+    };
+    let words: Vec<&str> = heading.name.split('_').collect();
+    let are_known = words.iter().all(|word| has(&[word], names) || has(&[word], BESIDE));
+    (are_known && has(&words, names)).then_some((peak, unit.si))
 }
 
 /// How a column expresses frequency.
@@ -89,72 +75,55 @@ const MOST_FREQUENT: f64 = 1000.0;
 impl Frequency {
     /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
     fn of(heading: &Heading, investigation_years: Option<f64>) -> Option<Frequency> {
-        const RATES: [&str; 6] = ["rate", "frequency", "frequenza", "afe", "afoe", "mafe"];
-        const PERIODS: [&str; 5] = ["return", "ritorno", "tr", "rp", "arp"];
-        const PROBABILITIES: [&str; 3] = ["probability", "poe", "aep"];
-        const BESIDE: [&str; 25] = [
-            "annual",
-            "annua",
-            "media",
-            "mean",
-            "of",
-            "occurrence",
-            "exceedance",
-            "exceedence",
-            "eccedenza",
-            "per",
-            "a",
-            "in",
-            "year",
-            "years",
-            "yr",
-            "yrs",
-            "period",
-            "recurrence",
-            "average",
-            "t",
-            "r",
-            "tempo",
-            "periodo",
-            "di",
-            "anni",
-        ];
+        const RATES: &str = "rate frequency frequenza afe afoe mafe";
+        const PERIODS: &str = "return ritorno tr rp arp";
+        const PROBABILITIES: &str = "probability poe aep";
+        const BESIDE: &str = "annual annua media mean of occurrence exceedance exceedence eccedenza per a in year \
+                              years yr yrs period recurrence average t r tempo periodo di anni";
         let words: Vec<&str> = heading.name.split('_').filter(|word| word.parse::<f64>().is_err()).collect();
-        let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
-        let is_known = |word: &&str| [&RATES[..], &PERIODS, &PROBABILITIES, &BESIDE].concat().contains(word);
+        let is_known =
+            |word: &&str| [RATES, PERIODS, PROBABILITIES, BESIDE].iter().any(|list| has(&[word], list));
         let mut numbers = heading.text.split(|sign: char| !sign.is_ascii_digit() && sign != '.');
         let years: Option<f64> = numbers.find_map(|number| number.parse().ok());
         if !words.iter().all(is_known) {
             None
-        } else if has(&PROBABILITIES) {
-            let annual = has(&["annual", "aep"]).then_some(1.0);
+        } else if has(&words, PROBABILITIES) {
+            let annual = has(&words, "annual aep").then_some(1.0);
             years.or(annual).or(investigation_years).map(Frequency::ProbabilityIn)
         } else if years.is_some_and(|years| years != 1.0) {
             None
-        } else if has(&["occurrence"]) {
+        } else if has(&words, "occurrence") {
             Some(Frequency::Occurrence)
-        } else if has(&PERIODS) || words.starts_with(&["t", "r"]) {
+        } else if has(&words, PERIODS) || words.starts_with(&["t", "r"]) {
             Some(Frequency::ReturnPeriod)
         } else {
-            has(&RATES).then_some(Frequency::Rate)
+            has(&words, RATES).then_some(Frequency::Rate)
         }
     }
 
-    /// Converts a number to an annual rate; none if the motion is certain, whose rate is unknown.
-    pub fn annual_rate(self, number: f64) -> Result<Option<f64>, &'static str> {
-        match self {
+    /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
+    pub fn annual_rate(self, sheet: &Sheet, row: usize, column: usize) -> anyhow::Result<Option<f64>> {
+        let is_percent = sheet.headings[column].text.contains('%');
+        let number = sheet.number(row, column)? * if is_percent { 0.01 } else { 1.0 };
+        let expected = match self {
+            Frequency::Rate | Frequency::Occurrence
+                if is_percent || sheet.cell(row, column).contains('%') =>
+            {
+                "a rate a year, such as 0.002; percent are probabilities"
+            }
             Frequency::Rate | Frequency::Occurrence if (0.0..=MOST_FREQUENT).contains(&number) => {
-                Ok(Some(number))
+                return Ok(Some(number));
             }
-            Frequency::Rate | Frequency::Occurrence => Err("a rate a year from 0 to 1000"),
-            Frequency::ReturnPeriod if number > 0.0 => Ok(Some(1.0 / number)),
-            Frequency::ReturnPeriod => Err("years above 0"),
+            Frequency::Rate | Frequency::Occurrence => "a rate a year from 0 to 1000",
+            Frequency::ReturnPeriod if number > 0.0 => return Ok(Some(1.0 / number)),
+            Frequency::ReturnPeriod => "years above 0",
             Frequency::ProbabilityIn(years) if (0.0..1.0).contains(&number) => {
-                Ok(Some(-(-number).ln_1p() / years))
+                return Ok(Some(-(-number).ln_1p() / years));
             }
-            Frequency::ProbabilityIn(_) if number == 1.0 => Ok(None),
-            Frequency::ProbabilityIn(_) => Err("a probability from 0 to 1, or with a percent sign"),
-        }
+            Frequency::ProbabilityIn(_) if number == 1.0 => return Ok(None),
+            Frequency::ProbabilityIn(_) => "a probability from 0 to 1, or with a percent sign",
+        };
+        Err(sheet.refusal(row, column, expected).into())
     }
 }
 
@@ -188,26 +157,6 @@ pub enum Content {
     Unknown,
 }
 
-impl Intensity {
-    pub fn name(self) -> &'static str {
-        match self {
-            Intensity::Peak(Peak::Pga) => "PGA",
-            Intensity::Peak(Peak::Pgv) => "PGV",
-            Intensity::Spectral => "SA(1.0 s)",
-        }
-    }
-
-    /// By the name that OpenQuake gives it, with its unit in m/s2 or m/s.
-    pub fn of_openquake(name: &str) -> Option<(Intensity, f64)> {
-        match name {
-            "PGA" => Some((Intensity::Peak(Peak::Pga), G_M_S2)),
-            "PGV" => Some((Intensity::Peak(Peak::Pgv), 1.0 / CM_PER_M)),
-            "SA(1.0)" => Some((Intensity::Spectral, G_M_S2)),
-            _ => None,
-        }
-    }
-}
-
 /// What a heading says of its column, and of which curve it is.
 pub fn content(heading: &Heading, investigation_years: Option<f64>) -> (Content, Statistic) {
     const STATISTICS: [(Statistic, &[&str]); 3] = [
@@ -226,25 +175,20 @@ pub fn content(heading: &Heading, investigation_years: Option<f64>) -> (Content,
         }
         None => (Statistic::Mean, heading.clone()),
     };
-    if let Some((peak, unit)) = peak(&heading) {
-        return (Content::Intensity(Intensity::Peak(peak), unit), statistic);
-    }
-    let content = match Frequency::of(&heading, investigation_years) {
-        Some(frequency) => Content::Frequency(frequency),
-        None => other_content(&heading),
-    };
-    (content, statistic)
-}
-
-fn other_content(heading: &Heading) -> Content {
     let name = heading.name.as_str();
     let rest = ["spectral_acceleration", "psa", "sa", "s"].iter().find_map(|start| name.strip_prefix(start));
+    let rest = rest.map(|rest| rest.trim_matches('_').trim_end_matches(['s', '_']));
     let acceleration = heading.unit.filter(|unit| unit.quantity == Quantity::Acceleration);
-    match (name, rest.map(|rest| rest.trim_matches('_').trim_end_matches(['s', '_'])), acceleration) {
-        ("mw" | "magnitude" | "m" | "mag", ..) => Content::Magnitude,
-        ("t" | "period" | "periods" | "periodo", ..) => Content::Period,
-        (_, Some("1" | "1_0" | "1_00"), Some(unit)) => Content::Intensity(Intensity::Spectral, unit.si),
-        (_, Some(_), Some(_)) => Content::OtherSpectral,
-        _ => Content::Unknown,
-    }
+    let content = match (peak(&heading), Frequency::of(&heading, investigation_years), name) {
+        (Some((peak, unit)), ..) => Content::Intensity(Intensity::Peak(peak), unit),
+        (None, Some(frequency), _) => Content::Frequency(frequency),
+        (.., "mw" | "magnitude" | "m" | "mag") => Content::Magnitude,
+        (.., "t" | "period" | "periods" | "periodo") => Content::Period,
+        _ => match rest.zip(acceleration) {
+            Some(("1" | "1_0" | "1_00", unit)) => Content::Intensity(Intensity::Spectral, unit.si),
+            Some(_) => Content::OtherSpectral,
+            None => Content::Unknown,
+        },
+    };
+    (content, statistic)
 }
