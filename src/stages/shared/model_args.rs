@@ -167,6 +167,7 @@ impl Models {
 
     fn names(&self) -> String {
         let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
+        names.sort_unstable();
         names.dedup();
         listed(&names, 8)
     }
