@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
     let ratio = Velocity::of_model(&model, Peak::Pga, None).ratio(6.5, 0.0);
     let directions = [(block.clone(), model.clone())];
-    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: None };
+    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: Some(6.5) };
     let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);
     println!("a year it rocks {rocks:.1e}, fails {fails:.1e} and overturns {overturns:.1e} times");
     Ok(())

@@ -1,7 +1,7 @@
 """Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON] [--update] [PAGE...]
 
     ```sh         run, and must end with exit code 0
-    ```text       after ```sh: an output, perhaps in part; its numbers must stand in what came out, in this order
+    ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
     ```python     run as one script a page by --python (a Python with the package), but for blocks that begin with "# not run"
     ```console    not run: what installs, compiles, or needs a cluster
 
@@ -23,9 +23,10 @@ NUMBER = re.compile(r"\d+(?:[.,]\d+)*(?:e-?\d+)?")
 
 
 def missing(shown, output):
-    """The first number shown that does not follow in the output; None if all do."""
-    found = iter(NUMBER.findall(output))
-    return next((number for number in NUMBER.findall(shown) if number not in found), None)
+    """The first line shown that does not follow in the output; None if all do."""
+    lines = lambda text: [" ".join(line.split()) for line in text.splitlines() if line.strip()]
+    found = iter(lines(output))
+    return next((line for line in lines(shown) if line not in found), None)
 
 
 def updated(shown, output):
@@ -55,11 +56,11 @@ def faults(page, environment, python, update):
                 if code:
                     yield f"line {line}: exit code {code}\n{output}"
             elif language == "text" and output is not None:
-                number = missing(content, output)
-                if number and update:
+                other = missing(content, output)
+                if other is not None and update:
                     page.write_text(page.read_text().replace(content, updated(content, output)))
-                elif number:
-                    yield f"line {line}: {number} is not in the output\n{output}"
+                elif other is not None:
+                    yield f"line {line}: '{other}' is not in the output\n{output}"
             if language not in ("sh", "text"):
                 output = None
         scripts = [content for language, content, _ in blocks if language == "python" and not content.startswith("# not run")]
@@ -83,7 +84,7 @@ def main():
     wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python, options.update)]
     if wrong:
         sys.exit("\n".join(wrong))
-    print(f"{len(pages)} pages: every command runs, and prints the numbers that are shown")
+    print(f"{len(pages)} pages: every command runs, and prints the lines that are shown")
 
 
 main()

@@ -1,11 +1,11 @@
 //! Free-standing structures in earthquakes: the probability that one rocks, rocks too far, or overturns, and
-//! how often it does at a site.
+//! how often this happens at a site.
 //!
 //! A cabinet, a statue or a frame on rocking columns stays on its base until the ground acceleration exceeds
-//! g tan *α*. Then it rocks, and either comes to rest or overturns. Three numbers of the structure decide: its
-//! frequency parameter *p* (rad/s; a large block is slow), its slenderness *α* (rad; width over height is tan
-//! *α*), and its coefficient of restitution *η* (the ratio of the velocities after and before an impact). Of a
-//! motion, PGA says whether it rocks, and PGV with it whether it overturns.
+//! g tan *α*. Then it rocks, and either comes to rest or overturns. Its response depends on three parameters:
+//! the frequency parameter *p* (rad/s; smaller for larger blocks), the slenderness *α* (rad; width over height
+//! is tan *α*), and the coefficient of restitution *η* (the ratio of the velocities after and before an
+//! impact). PGA decides whether it rocks; PGA and PGV together, whether it overturns.
 //!
 //! The method is that of Dimitrakopoulos & Paraskeva (2015), *Dimensionless fragility curves for rocking
 //! response to near-fault excitations* (Earthquake Engineering & Structural Dynamics), extended to recorded
@@ -13,7 +13,7 @@
 //!
 //! # The probability that a block overturns
 //!
-//! Without a simulation of one's own, by the universal surface, a fit to the responses of many structures:
+//! Without simulating, from the universal surface, a fit to the responses of many structures:
 //!
 //! ```
 //! use rockfrag::fragility::{Kind, Model, Scenarios};
@@ -33,7 +33,7 @@
 //! # Ok::<(), rockfrag::rocking::StructureError>(())
 //! ```
 //!
-//! [`hazard::rates_over_curve`] makes annual rates of it.
+//! [`hazard::Site::rates`] integrates it over the hazard of a site.
 //!
 //! # The response to a record
 //!
@@ -52,7 +52,7 @@
 //! ```
 //!
 //! [`rocking::trace`] gives the rotation over time. The folder `examples` has three whole programs: the
-//! probability and rate of a block, the response to a record of one's own, and the way from earthquake
+//! probability and rate of a block, the response to your own record, and the way from earthquake
 //! scenarios to a fragility curve.
 //!
 //! # What is where
@@ -62,29 +62,29 @@
 //! | [`motion`] | scenarios, synthetic motions, intensity measures | section 2.1, Eqs. 1 to 3 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
-//! | [`hazard`] | hazard curves, annual rates | beyond it |
-//! | [`records`] | recorded motions: formats, processing, pulses | beyond it |
+//! | [`hazard`] | hazard curves, annual rates | not in the paper |
+//! | [`records`] | recorded motions: formats, processing, pulses | not in the paper |
 //! | [`studies`] | ranking of measures, validation, the paper's numbers beside ours | Table II |
 //! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
 //! | [`paper`] | what the paper publishes | sections 2 and 3 |
 //!
-//! A reviewer begins with [`rocking::reference`]: the equation of motion, uplift and impact (Eqs. 4 to 6) as
+//! Reviewers: start with [`rocking::reference`], the equation of motion, uplift and impact (Eqs. 4 to 6) as
 //! they are printed.
 //!
 //! # Conventions
 //!
-//! Names end in their unit: `pga_m_s2`, `p_rad_s`. Quantities without a unit have none: demands are |*θ*|max /
-//! *α*, and IM1 to IM6 are those of Eq. 13. A fit takes columns of length n and has k coefficients, the
-//! intercept first; a covariance is k × k, row by row. An unknown number is `None`, and NaN in a slice of
-//! numbers. Limits hold 95 % unless a confidence is given. The same seed gives the same numbers for any
-//! number of threads.
+//! Names end in their unit: `pga_m_s2`, `p_rad_s`. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
+//! Eq. 13. A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k × k,
+//! row by row. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
+//! numbers for any number of threads.
 //!
 //! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
 //! Before 1.0, any version may change them.
 //!
 //! # The command
 //!
-//! The command `rockfrag` runs the stages of this diagram over Parquet files; [`table`] has their rows.
+//! The command `rockfrag` runs the stages of this diagram over Parquet files; `data/columns.csv` lists their
+//! columns.
 //!
 //! ```text
 //! sample-scenarios -> scenarios -> synthesize-motions -> motions
@@ -99,8 +99,6 @@
 //! run: all of pipeline.yaml, skipping what is up to date
 //! inspect: what a file holds and where it came from
 //! ```
-//!
-//! `docs/review/architecture.md` has the picture of the code.
 
 #![warn(missing_docs)]
 
@@ -110,6 +108,7 @@ pub mod cli;
 pub mod export;
 pub mod fragility;
 pub mod hazard;
+#[doc(hidden)]
 pub mod keyword;
 pub mod motion;
 #[doc(hidden)]
@@ -117,7 +116,9 @@ pub mod number;
 pub mod paper;
 #[doc(hidden)]
 pub mod pipeline;
+#[doc(hidden)]
 pub mod plausibility;
+#[doc(hidden)]
 pub mod random;
 pub mod records;
 #[doc(hidden)]

@@ -8,7 +8,7 @@ use crate::statistics::Limits;
 keywords! {
     /// What an error comes from.
     pub enum Part {
-        /// c and ln s of the calibration.
+        /// Parameters of the fragility model.
         Fit = "fit",
         /// Magnitude of the earthquakes.
         Magnitude = "magnitude",

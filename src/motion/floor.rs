@@ -37,8 +37,8 @@ const MODES: usize = 5;
 /// Share of the first mode's motion that is left where a floor's record ends.
 const LEFT: f64 = 0.05;
 
-/// How a peak of a floor depends on u = ln(T1/Tg), by scripts/floors/peaks.py: b, k, d, e, l, h of the rigid
-/// share of a mode, r = 1/(1 + exp(k (u - b))), and of its resonance, D = d/(exp(-l (u - e)) + exp(h (u - e))).
+/// How a peak of a floor depends on u = ln(T1/Tg), by scripts/floors/peaks.py: [b, k, d, e, l, h]. The rigid
+/// share of a mode is r = 1/(1 + exp(k (u - b))), its resonance D = d/(exp(-l (u - e)) + exp(h (u - e))).
 const OF_ACCELERATION: [f64; 6] = [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494];
 const OF_VELOCITY: [f64; 6] = [0.930, 3.199, 3.569, -0.225, 1.574, 0.637];
 /// Scatter s of both peaks, of a motion that is all resonance.

@@ -35,9 +35,11 @@ pub struct MotionMeasures {
     pub d5_75_s: f64,
     /// Significant duration, s: from 5 to 95 % of the Arias intensity.
     pub d5_95_s: f64,
+    /// Housner intensity, m, if it is requested.
+    pub housner_m: Option<f64>,
 }
 
-/// The measures to compute besides [`MotionMeasures`].
+/// The measures to compute besides those of every motion.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
     /// Whether to compute the Housner intensity, which takes as long as all others together.
@@ -49,10 +51,8 @@ pub struct MeasurePlan {
 /// The measures of one motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Those of every motion.
+    /// Those without a period.
     pub measures: MotionMeasures,
-    /// Housner intensity, m.
-    pub housner_m: Option<f64>,
     /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
     pub sa_m_s2: Vec<f64>,
 }
@@ -71,8 +71,10 @@ impl MeasurePlan {
     pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Measured {
         let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
-            measures: MotionMeasures::of(acceleration, dt_s, scratch),
-            housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
+            measures: MotionMeasures {
+                housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
+                ..MotionMeasures::of(acceleration, dt_s, scratch)
+            },
             sa_m_s2: self.sa_periods_s.iter().map(sa).collect(),
         }
     }
@@ -108,6 +110,7 @@ impl MotionMeasures {
             cav_m_s,
             d5_75_s: d75 - d5,
             d5_95_s: d95 - d5,
+            housner_m: None,
         }
     }
 }

@@ -19,16 +19,14 @@ const MARGIN_S: f64 = 2.0;
 
 /// The model of synthetic motions, with its options.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct MotionModel {
-    /// Time between samples, s.
     pub dt_s: f64,
     /// Treatment of the difference of the Fourier amplitudes of high frequencies and pulse.
     pub difference: Difference,
     /// When the pulse peaks.
     pub epoch: Epoch,
-    /// Model of the high frequencies.
     pub stochastic: StochasticModel,
-    /// Seed of the noise.
     pub seed: u64,
 }
 
@@ -112,14 +110,6 @@ impl Earthquake {
     }
 }
 
-/// The time axis of a motion.
-#[derive(Debug, Clone, Copy)]
-struct Timeline {
-    /// Sample at which the window begins.
-    onset: usize,
-    samples: usize,
-}
-
 impl Synthesizer {
     /// Makes a synthesizer of some suites.
     pub fn new(model: MotionModel, suites: &[SyntheticSuite]) -> Synthesizer {
@@ -141,22 +131,22 @@ impl Synthesizer {
             _ => Earthquake::new(mw, re_km, self.model.dt_s),
         };
         let pulse = Pulse::of(scenario);
-        let timeline = self.timeline(&earthquake.window, &pulse);
-        let transform = self.transforms.entry(timeline.samples);
-        let transform = transform.or_insert_with(|| Arc::new(Transform::new(timeline.samples))).clone();
+        let (onset, samples) = self.time_axis(&earthquake.window, &pulse);
+        let transform = self.transforms.entry(samples);
+        let transform = transform.or_insert_with(|| Arc::new(Transform::new(samples))).clone();
         let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
-            let mut noise = self.windowed_noise(scenario, &earthquake.weights, &timeline);
+            let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, samples);
             transform.forward(&mut noise, &mut spectrum, &mut self.scratch);
-            shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, timeline.samples), made.dt_s);
+            shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, samples), made.dt_s);
             if self.high_frequency {
                 transform.inverse(&mut spectrum.clone(), &mut noise, &mut self.scratch);
                 made.high_frequency = noise;
             }
         }
-        made.epoch_s = self.epoch_s(&earthquake.window, &timeline, &made.high_frequency);
-        made.pulse = pulse.sample(made.dt_s, made.epoch_s, timeline.samples);
+        made.epoch_s = self.epoch_s(&earthquake.window, onset, &made.high_frequency);
+        made.pulse = pulse.sample(made.dt_s, made.epoch_s, samples);
         if self.combined {
             let mut of_pulse = Vec::new();
             made.combined = made.pulse.clone();
@@ -168,9 +158,9 @@ impl Synthesizer {
         made
     }
 
-    /// Computes the time axis: padded at the start so that the pulse is never cut, and at the end to a fast
-    /// length of Fourier transforms. The window begins at a sample.
-    fn timeline(&self, window: &Window, pulse: &Pulse) -> Timeline {
+    /// Computes the sample at which the window begins, and the number of samples: padded at the start so that
+    /// the pulse is never cut, and at the end to a fast length of Fourier transforms.
+    fn time_axis(&self, window: &Window, pulse: &Pulse) -> (usize, usize) {
         let dt_s = self.model.dt_s;
         let half_pulse_s = 0.5 * pulse.duration_s();
         // Earliest and latest peak of the pulse, from the onset of the window.
@@ -181,23 +171,23 @@ impl Synthesizer {
         let onset = ((MARGIN_S + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
         let moving_s = window.duration_s.max(latest_s + half_pulse_s);
         let after = ((moving_s + MARGIN_S) / dt_s).ceil() as usize + 1;
-        Timeline { onset, samples: even_smooth_at_least(onset + after) }
+        (onset, even_smooth_at_least(onset + after))
     }
 
     /// Draws normal noise, times the window.
-    fn windowed_noise(&self, scenario: &Scenario, weights: &[f64], timeline: &Timeline) -> Vec<f64> {
-        let mut samples = vec![0.0; timeline.samples];
-        let noise = stream(self.model.seed, Purpose::Noise, scenario.scenario_id as u64);
+    fn windowed_noise(&self, of: &Scenario, weights: &[f64], onset: usize, samples: usize) -> Vec<f64> {
+        let mut samples = vec![0.0; samples];
+        let noise = stream(self.model.seed, Purpose::Noise, of.scenario_id as u64);
         let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
-        for ((sample, normal), weight) in samples[timeline.onset + 1..].iter_mut().zip(normals).zip(weights) {
+        for ((sample, normal), weight) in samples[onset + 1..].iter_mut().zip(normals).zip(weights) {
             *sample = normal * weight;
         }
         samples
     }
 
-    fn epoch_s(&self, window: &Window, timeline: &Timeline, high_frequency: &[f64]) -> f64 {
+    fn epoch_s(&self, window: &Window, onset: usize, high_frequency: &[f64]) -> f64 {
         let dt_s = self.model.dt_s;
-        let onset_s = timeline.onset as f64 * dt_s;
+        let onset_s = onset as f64 * dt_s;
         let from_onset = match self.model.epoch {
             Epoch::EnvelopePeak => PEAK_SHARE * window.duration_s,
             Epoch::Pga => index_of_peak(high_frequency) as f64 * dt_s - onset_s,

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgMatches, Command, FromArgMatches};
 
+use super::Stage;
 use super::context::{COMMON, Common};
 use super::files::{Role, files_of, role};
-use super::stage::Stage;
 use crate::table::TableError;
 use crate::table::file::Partition;
 use crate::table::keys::key_with;

@@ -8,14 +8,12 @@ const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "
 
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct RecordedMotion {
-    /// Time between samples, s.
     pub dt_s: f64,
-    /// Samples, m/s2.
     pub acceleration_m_s2: Vec<f64>,
     /// Earthquake, as named in the file.
     pub event: Option<String>,
-    /// Magnitude of the earthquake.
     pub mw: Option<f64>,
     /// Distance from the rupture, km.
     pub re_km: Option<f64>,
@@ -25,7 +23,6 @@ pub struct RecordedMotion {
     pub component: Option<String>,
     /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
     pub azimuth_deg: Option<f64>,
-    /// Peak acceleration in the header.
     pub header_pga: Option<HeaderPga>,
     /// Name of the file format.
     pub format: &'static str,

@@ -12,9 +12,8 @@ use crate::fragility::{GivenPeak, Peak, Scenarios};
 use crate::hazard::strongest;
 use crate::hazard::{Velocity, magnitude};
 use crate::keyword::keywords;
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::pipeline::stage::Stage;
+use crate::pipeline::{Stage, UsageError};
 use crate::rocking::Structure;
 use crate::table::writer::write_file;
 

@@ -11,10 +11,10 @@ use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, wa
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
 use crate::paper;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::Stage;
 use crate::statistics::FitStatus;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
@@ -42,7 +42,7 @@ pub struct FitPex {
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
-    /// Fit all six measures, not only IM4, IM5 and the planes
+    /// Also fit each of the six measures alone, and one plane over all cases
     #[arg(long)]
     all: bool,
 }

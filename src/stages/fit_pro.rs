@@ -8,11 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
 use super::shared::responses;
 use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::Stage;
+use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args)]

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite};
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::rocking::Record;
 use crate::table::TableError;
@@ -58,12 +58,6 @@ struct FloorRow {
     floor_level: f64,
 }
 
-/// The measure that only some files have.
-#[derive(Serialize, Deserialize)]
-struct HousnerRow {
-    housner_m: Option<f64>,
-}
-
 impl Stage for FloorMotions {
     fn outputs(&self) -> Vec<PathBuf> {
         vec![out_of_partition(&self.out, self.partition)]
@@ -76,13 +70,9 @@ impl Stage for FloorMotions {
                 TableError::table(&self.input, "motions of a floor; expected those of the ground").into()
             );
         }
-        let schema = table.schema();
-        let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
-        let housner = schema.index_of("housner_m").is_ok();
-        let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
-        let schema = self.filter(&none, &[], &plan, &mut MeasureScratch::default())?.schema();
+        let schema = self.filter(&none, &[], &mut MeasureScratch::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(table.rows());
@@ -94,7 +84,7 @@ impl Stage for FloorMotions {
         });
         let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
             bar.advance(part.rows.num_rows() as u64)?;
-            pool.with(|scratch| self.filter(&part, &samples, &plan, scratch))
+            pool.with(|scratch| self.filter(&part, &samples, scratch))
         };
         pipelined(
             batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
@@ -114,10 +104,13 @@ impl FloorMotions {
         &self,
         ground: &Batch,
         samples: &[Vec<f64>],
-        plan: &MeasurePlan,
         scratch: &mut MeasureScratch,
     ) -> anyhow::Result<RecordBatch> {
         let floor = Floor { period_s: self.period, level: self.level };
+        let schema = ground.rows.schema();
+        let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
+        let housner = ground.numbers("housner_m")?.iter().any(|value| !value.is_nan());
+        let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
         let dt = ground.required_numbers("dt_s")?;
         let (mut filtered, mut measured) = (Vec::new(), Vec::new());
         for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
@@ -136,12 +129,7 @@ impl FloorMotions {
         };
         let floors: Vec<FloorRow> = ground.texts("suite")?.into_iter().map(floor_row).collect();
         let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
-        let mut known = vec![others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
-        if plan.housner {
-            let housner: Vec<HousnerRow> =
-                measured.iter().map(|of| HousnerRow { housner_m: of.housner_m }).collect();
-            known.push(rows::batch(&housner)?);
-        }
+        let known = [others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
         let sa: Vec<&[f64]> = measured.iter().map(|of| of.sa_m_s2.as_slice()).collect();
         batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
     }
@@ -153,7 +141,6 @@ fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let is_measure = |name: &str| {
         name == ACCELERATION
             || name == "suite"
-            || name == "housner_m"
             || spectral_period_s(name).is_some()
             || measures.index_of(name).is_ok()
     };

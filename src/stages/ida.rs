@@ -15,12 +15,11 @@ use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::number::{Limited, THREE_DIGITS, counted, fixed, significant};
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::pipeline::{Stage, UsageError};
 use crate::rocking::{
     CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
 };

@@ -7,7 +7,7 @@ pub mod shared;
 
 use clap::{ArgMatches, Subcommand};
 
-use crate::pipeline::stage::Stage;
+use crate::pipeline::Stage;
 
 /// Declares the stages, in the order of a run: the file and the struct of each.
 macro_rules! stages {

@@ -7,10 +7,9 @@ use rayon::prelude::*;
 
 use crate::motion::{Design, Grid};
 use crate::number::counted;
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
-use crate::pipeline::stage::Stage;
+use crate::pipeline::{Stage, UsageError};
 use crate::warning::Warning;
 
 /// Sample earthquake scenarios on a magnitude-distance grid

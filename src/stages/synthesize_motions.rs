@@ -12,12 +12,11 @@ use crate::motion::{
     SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
 };
 use crate::number::counted;
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::{Pool, pipelined};
+use crate::pipeline::{Stage, UsageError};
 use crate::sheet::Sheet;
 use crate::table::file::Partition;
 use crate::table::{motions, rows};

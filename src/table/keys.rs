@@ -27,11 +27,10 @@ impl Provenance {
 pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
     let mut files = Vec::new();
     for path in paths {
-        if !path.is_dir() {
-            files.push(path.clone());
-            continue;
+        match path.is_dir() {
+            true => files.extend(files_below(&file::entries(path)?)?),
+            false => files.push(path.clone()),
         }
-        files.extend(files_below(&file::entries(path)?)?);
     }
     Ok(files)
 }

@@ -31,10 +31,9 @@ use super::shared::responses;
 use super::shared::spec::{Place, Reason, Restitution, Spec};
 use super::shared::structures::StructureArgs;
 use crate::hazard::{Hazard, Motion, PeakHazard, Site, Velocity};
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
-use crate::pipeline::stage::Stage;
+use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::plausibility::rarity;
 use crate::units::G_M_S2;
@@ -224,7 +223,7 @@ impl Evaluate {
     fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
             let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
-            return Ok(models.structures().into_iter().map(fitted).map(Object::new).collect());
+            return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused);

@@ -160,13 +160,15 @@ fn of_several(
         ];
         cells.into_iter().chain(target.map(|_| width())).collect()
     });
-    let how_often = how_often(&worst.row, site, "95 % limits ");
+    let (name, how_often) = (&worst.object.structure, how_often(&worst.row, site, "95 % limits "));
+    let first = match how_often.strip_prefix("overturns ") {
+        Some(often) => format!("{name} overturns most often: {often}"),
+        None => format!("{name} {how_often}"),
+    };
     let (model, usual) = (model_of_all(all.iter().map(|answer| &answer.object)), usual_motion(site));
     let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
     format!(
-        "{} overturns most often: {}\n{table}{}{}{}",
-        worst.object.structure,
-        how_often.trim_start_matches("overturns "),
+        "{first}\n{table}{}{}{}",
         line([of_all(all.iter().map(|answer| (&answer.object, &answer.row)))]),
         about_limits(worst, site),
         line([Some(by), linear(all.iter().map(|answer| &answer.object))]),

@@ -8,9 +8,14 @@ use crate::plausibility::MAGNITUDES;
 use crate::records::RecordedMotion;
 use crate::sheet::{Sheet, SheetError};
 
-/// What is known of each record, by the name of its file, with its ending or without.
+/// What a table says about records.
 #[derive(Default)]
-pub struct About(HashMap<String, Known>);
+pub struct About {
+    /// By the name of the file, with its ending or without.
+    known: HashMap<String, Known>,
+    /// Headings of other columns.
+    pub unused: Vec<String>,
+}
 
 #[derive(Clone, PartialEq)]
 struct Known {
@@ -60,7 +65,9 @@ impl About {
                 return Err(problem(format!("line {}: {file} again, with other values", sheet.lines[row])));
             }
         }
-        Ok(About(all))
+        let is_used = |at: usize| [Some(name), magnitude, distance, earthquake].contains(&Some(at));
+        let unused = sheet.headings.iter().enumerate().filter(|(at, _)| !is_used(*at));
+        Ok(About { known: all, unused: unused.map(|(_, heading)| heading.text.clone()).collect() })
     }
 
     /// Refuses a table that says nothing of any of these files.
@@ -74,7 +81,7 @@ impl About {
 
     fn of(&self, file: &Path) -> Option<&Known> {
         let names = [file.file_name(), file.file_stem()];
-        names.into_iter().flatten().find_map(|name| self.0.get(name.to_str()?))
+        names.into_iter().flatten().find_map(|name| self.known.get(name.to_str()?))
     }
 
     /// Adds to a record what the table says of its file.

@@ -31,7 +31,6 @@ struct SourceRow {
 /// What is known of the pair and the pulse of a motion.
 #[derive(Serialize, Deserialize)]
 struct PulseRow {
-    housner_m: Option<f64>,
     rotd50_pga_m_s2: Option<f64>,
     rotd100_pga_m_s2: Option<f64>,
     rotd50_pgv_m_s: Option<f64>,
@@ -82,7 +81,6 @@ fn pulse(motion: &ImportedMotion) -> PulseRow {
     let (rotd, indicator, fitted) = (motion.rotd, motion.indicator, motion.pulse);
     let pulse = fitted.map(|fitted| fitted.pulse);
     PulseRow {
-        housner_m: motion.measured.housner_m,
         rotd50_pga_m_s2: rotd.map(|rotd| rotd.pga50_m_s2),
         rotd100_pga_m_s2: rotd.map(|rotd| rotd.pga100_m_s2),
         rotd50_pgv_m_s: rotd.map(|rotd| rotd.pgv50_m_s),

@@ -18,17 +18,16 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::motion::MeasurePlan;
 use crate::number::counted;
-use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
-use crate::pipeline::stage::Stage;
 use crate::pipeline::stream::pipelined;
+use crate::pipeline::{Stage, UsageError};
 use crate::records::processing::{ImportedMotion, Processing, PulseSearch, SourceFile};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, Scaling};
 use crate::records::{Format, ReadOptions};
 use crate::units::{G_M_S2, Unit};
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 
 /// Files, or pairs of components, that are processed at once.
 const AT_ONCE: usize = 32;
@@ -126,6 +125,8 @@ impl Stage for ImportMotions {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
+        let unused = about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone()));
+        context.warn(unused.collect());
         let reading = ReadOptions {
             format: self.format,
             dt_s: self.dt,
@@ -167,7 +168,11 @@ impl Stage for ImportMotions {
                             anyhow::bail!("{file}: two motions are called '{id}'; rename the file");
                         }
                     }
-                    context.warn(warnings(&imported));
+                    let warning = |motion: &ImportedMotion| {
+                        let text = format!("{}: {}", motion.motion_id, motion.warning?);
+                        Some((Warning::ImplausibleRecord, text))
+                    };
+                    context.warn(imported.iter().filter_map(warning).collect());
                     summary.add(&imported);
                     writer.append(&batch(&imported, &periods)?)?;
                 }
@@ -218,12 +223,4 @@ impl ImportMotions {
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
         })
     }
-}
-
-/// What is implausible of imported motions.
-fn warnings(imported: &[ImportedMotion]) -> Warnings {
-    let warning = |motion: &ImportedMotion| {
-        Some((Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, motion.warning?)))
-    };
-    imported.iter().filter_map(warning).collect()
 }

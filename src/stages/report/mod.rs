@@ -11,10 +11,9 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use crate::number::counted;
-use crate::pipeline::UsageError;
 use crate::pipeline::cache::is_ours;
 use crate::pipeline::context::Context;
-use crate::pipeline::stage::Stage;
+use crate::pipeline::{Stage, UsageError};
 use crate::report::{Figure, Page, png, svg};
 use crate::table::writer::write_file;
 use tables::Tables;

@@ -3,8 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::common::by;
-use super::figures::common::label_of_scaled;
+use super::figures::common::{by, label_of_scaled};
 use super::tables::{Tables, name};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;

@@ -51,7 +51,7 @@ fn calibration_in_words(row: &Calibration) -> String {
     match (row.n, row.n_events) {
         (0, _) => "no case".to_string(),
         (_, 0) => format!("none of {} predicted", significant(row.expected, 2)),
-        (_, events) => format!("{:.2} times the predicted", events as f64 / row.expected),
+        (_, events) => format!("{:.2} times the prediction", events as f64 / row.expected),
     }
 }
 

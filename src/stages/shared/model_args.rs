@@ -136,7 +136,7 @@ impl Models {
     }
 
     /// All fitted structures, or the one named.
-    pub fn structures(&self) -> Vec<Structure> {
+    pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
         let mut structures: Vec<Structure> = Vec::new();
         for row in &self.overturning {
             let is_wanted = self.args.name.as_ref().is_none_or(|wanted| *wanted == row.structure);
@@ -144,7 +144,13 @@ impl Models {
                 structures.push(structure_of(row));
             }
         }
-        structures
+        match (&self.args.name, structures.is_empty()) {
+            (_, false) => Ok(structures),
+            (Some(name), true) => Err(self.not_fitted(name)),
+            (None, true) => {
+                Err(UsageError::because(format!("{}: no fits of overturning; run fit-pro", self.folder())))
+            }
+        }
     }
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
@@ -168,6 +174,11 @@ impl Models {
         listed(&names, 8)
     }
 
+    fn not_fitted(&self, name: &str) -> anyhow::Error {
+        let (folder, names) = (self.folder(), self.names());
+        UsageError::because(format!("{folder}: no structure '{name}'; expected one of {names}"))
+    }
+
     /// The rows of a structure, of one name.
     fn of_structure(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
         let named = |name: &str| self.overturning.iter().filter(|row| row.structure == name).collect();
@@ -178,9 +189,7 @@ impl Models {
         };
         let rows: Vec<&Calibration> = named(name);
         if rows.is_empty() {
-            let (folder, names) = (self.folder(), self.names());
-            let problem = format!("{folder}: no structure '{name}'; expected one of {names}");
-            return Err(UsageError::because(problem));
+            return Err(self.not_fitted(name));
         }
         Ok(rows)
     }
