@@ -1,6 +1,6 @@
 //! ida: every structure under every motion at rising intensity.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{DistinctIds, Measures, record, warnings};
+use super::shared::motions::{Measures, expect_distinct, record, warnings};
 use super::shared::structures::StructureArgs;
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
@@ -169,7 +169,7 @@ impl Stage for Ida {
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
-        let (mut ids, mut capacities) = (DistinctIds::default(), Vec::new());
+        let (mut ids, mut capacities) = (HashSet::new(), Vec::new());
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
@@ -187,7 +187,7 @@ impl Stage for Ida {
             },
             |analysed| {
                 for some in analysed {
-                    ids.add(&self.input, some.motion_ids)?;
+                    expect_distinct(&mut ids, &self.input, some.motion_ids)?;
                     stripes.append(&some.stripes)?;
                     capacities.extend(some.capacities);
                     context.warn(some.warnings);

@@ -1,12 +1,13 @@
 //! simulate: every structure through every motion.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
-use super::shared::motions::{DistinctIds, Measures, record, warnings};
+use super::shared::motions::{Measures, expect_distinct, record, warnings};
 use super::shared::structures::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
@@ -68,7 +69,7 @@ impl Stage for Simulate {
         let motions = motions::open(&self.input, self.partition)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
-        let (mut ids, mut traces) = (DistinctIds::default(), Vec::new());
+        let (mut ids, mut traces) = (HashSet::new(), Vec::new());
         let mut overturning = vec![Overturning::default(); structures.len()];
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
@@ -85,7 +86,7 @@ impl Stage for Simulate {
             |parts| parts.into_par_iter().map(simulate_part).collect::<anyhow::Result<Vec<_>>>(),
             |responded| {
                 for some in responded.into_iter().flatten() {
-                    ids.add(&self.input, some.motion_ids)?;
+                    expect_distinct(&mut ids, &self.input, some.motion_ids)?;
                     for (structure, motion) in some.overturned {
                         let (count, named) = &mut overturning[structure];
                         *count += 1;

@@ -1,7 +1,5 @@
 //! What predicts, the motion and its measures, and what other kinds of motion would give.
 
-use std::fmt::Write;
-
 use crate::fragility::{Calibration, Kind, Measure, Model, Scenarios};
 use crate::hazard::{Budget, Part};
 use crate::keyword::Keyword;
@@ -14,60 +12,56 @@ use crate::units::G_M_S2;
 /// Explains the answer for a structure; `motion` is the PGA and PGV (m/s2 and m/s) that matters.
 pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget: &Budget) -> String {
     let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
-    let mut text = format!("\n{}\n", structure.name);
-    match model {
+    let mut lines = Vec::new();
+    let limit_state = match model {
         Model::Calibrated { overturning, exceeding, .. } => {
-            let _ = writeln!(text, "overturning: {}", calibration(overturning));
-            let _ = writeln!(text, "too far:     {}", calibration(exceeding));
-            let Calibration { pga_low, pga_high, ratio_low, ratio_high, .. } = overturning;
+            lines.push(("overturning:", calibration(overturning)));
+            lines.push(("too far:", calibration(exceeding)));
+            let Calibration { pga_low, pga_high, ratio_low, ratio_high, .. } = *overturning;
             if let (Some(low), Some(high), Some(least), Some(most)) =
                 (pga_low, pga_high, ratio_low, ratio_high)
             {
                 let [low, high, least, most] =
-                    [low / G_M_S2, high / G_M_S2, *least, *most].map(|value| significant(value, 3));
-                let _ =
-                    writeln!(text, "fitted to:   PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
+                    [low / G_M_S2, high / G_M_S2, least, most].map(|value| significant(value, 3));
+                let words = format!("PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
+                lines.push(("fitted to:", words));
             }
+            exceeding.limit_state
         }
-        Model::Paper { demand, overturning, .. } => {
+        Model::Paper { demand, overturning, limit_state, .. } => {
             let forms: Vec<String> = demand.iter().map(|fit| fit.model.to_string()).collect();
             let (status, im_x, forms) = (overturning.status, overturning.im_x, forms.join(", "));
-            let _ = writeln!(text, "overturning: {status} over {im_x}; too far: {forms}");
+            lines.push(("overturning:", format!("{status} over {im_x}; too far: {forms}")));
+            Some(*limit_state)
         }
-    }
+    };
     let [pga, pgv] = [motion[0] / G_M_S2, motion[1]].map(|peak| significant(peak, 3));
-    let _ = writeln!(text, "motion:      PGA {pga} g, PGV {pgv} m/s");
-    let named = |measure: &Measure| {
+    lines.push(("motion:", format!("PGA {pga} g, PGV {pgv} m/s")));
+    let measure = |measure: &Measure| {
         let value = measure.raw_value_of(&measures)?;
         Some(format!("{} {}", measure.as_str().to_uppercase(), significant(value, 3)))
     };
-    let named = Measure::SCALAR.iter().filter_map(named);
-    let _ = writeln!(text, "measures:    {}", named.collect::<Vec<_>>().join(", "));
-    let limit_state = match model {
-        Model::Calibrated { exceeding, .. } => exceeding.limit_state,
-        Model::Paper { limit_state, .. } => Some(*limit_state),
-    };
+    lines.push(("measures:", Measure::SCALAR.iter().filter_map(measure).collect::<Vec<_>>().join(", ")));
+    let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
+    let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
+    if !parts.is_empty() {
+        let ([down, up], parts) = (budget.sds().map(|sd| significant(sd, 2)), parts.join(", "));
+        lines.push(("errors:", format!("{parts}; all -{down} +{up} (sd of ln rate, or of logit)")));
+    }
     let other = |&kind: &Kind| {
         let shipped = Model::shipped(kind, structure, limit_state?);
         let given = shipped.probabilities(structure, &measures, None, Scenarios::One).given_rocking?;
         Some(format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(kind)))
     };
-    let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
-    let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
-    if !parts.is_empty() {
-        let [down, up] = budget.sds().map(|sd| significant(sd, 2));
-        let parts = parts.join(", ");
-        let _ = writeln!(text, "errors:      {parts}; all -{down} +{up} (sd of ln rate, or of logit)");
-    }
     let others: Vec<String> = Kind::ALL.iter().filter_map(other).collect();
     if !others.is_empty() {
-        let _ = writeln!(text, "overturning: {}", others.join(", "));
+        lines.push(("overturning:", others.join(", ")));
     }
-    text
+    let lines: String = lines.iter().map(|(name, words)| format!("{name:12} {words}\n")).collect();
+    format!("\n{}\n{lines}", structure.name)
 }
 
 fn calibration(of: &Calibration) -> String {
-    let kind = words_of_kind(of.kind);
     let fit = match of.n {
         0 => String::new(),
         _ => {
@@ -75,11 +69,6 @@ fn calibration(of: &Calibration) -> String {
             format!("; {events} events in {n} responses of {clusters} clusters")
         }
     };
-    format!(
-        "logit P = {:.2} + {:.2} logit P of the surface ({kind}) + {:.2} (M - 6.9); tau {:.2}{fit}",
-        of.c,
-        of.ln_s.exp(),
-        of.m,
-        of.tau
-    )
+    let (c, s, kind, m, tau) = (of.c, of.ln_s.exp(), words_of_kind(of.kind), of.m, of.tau);
+    format!("logit P = {c:.2} + {s:.2} logit P of the surface ({kind}) + {m:.2} (M - 6.9); tau {tau:.2}{fit}")
 }

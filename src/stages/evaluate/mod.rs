@@ -44,7 +44,6 @@ pub use self::object::{DoubtsRow, ObjectRow, Predicted};
 use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::{RatesRow, of_all};
-use self::target::Target;
 pub use self::words::{model_of_all, size, too_far};
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
@@ -90,8 +89,8 @@ pub struct Evaluate {
           value_parser = number(0.005..=0.5, "PGV/PGA in s, from 0.005 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
-    #[arg(long, value_name = "P", requires = "hazard", group = "site")]
-    target: Option<Target>,
+    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::target)]
+    target: Option<f64>,
     /// Responses to count overturning in, beside the rate
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard", group = "site")]
     responses: Option<PathBuf>,

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted};
-use super::target::Target;
 use super::words::{
     friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
@@ -71,7 +70,7 @@ impl Predicted for RatesRow {
 }
 
 /// The answer for all objects, in words.
-pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<Target>, sentence: bool) -> String {
+pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, sentence: bool) -> String {
     let sentence = sentence.then_some(|Answer { object, row: rates, .. }: &Answer<RatesRow>| {
         let how_often = how_often(rates, site, "95 % confidence limits ");
         let extended = extrapolated(rates).map_or(String::new(), |text| format!(" ({text})"));
@@ -82,7 +81,7 @@ pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<Target>, sente
     super::words::text(all, of_one, |worst| of_several(worst, all, site, target), sentence)
 }
 
-fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> String {
+fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String {
     let Answer { object, row: rates, .. } = answer;
     let years = rates.years.unwrap_or(f64::NAN);
     let cells = |name: String, rate: Limited| {
@@ -102,7 +101,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<Target>) -> Str
     let widths = target.map_or(String::new(), |target| {
         let width = |width: Option<f64>| width.map_or("none".to_string(), |width| format!("{width:.2} m"));
         let (target, by) =
-            (PERCENT.one(target.0), [rates.target_width_m, rates.target_width_m_high].map(width));
+            (PERCENT.one(target), [rates.target_width_m, rates.target_width_m_high].map(width));
         format!("Width for {target} {}: {}; {} by the upper limit.\n", in_years(rates), by[0], by[1])
     });
     format!(
@@ -143,10 +142,10 @@ fn of_several(
     worst: &Answer<RatesRow>,
     all: &[Answer<RatesRow>],
     site: &Site,
-    target: Option<Target>,
+    target: Option<f64>,
 ) -> String {
     let years = in_years(&worst.row);
-    let width = target.map(|target| format!("width for {}", PERCENT.one(target.0)));
+    let width = target.map(|target| format!("width for {}", PERCENT.one(target)));
     let headings = ["rocks", "overturns", "once in years", &years, "", "friction"];
     let headings: Vec<&str> = headings.into_iter().chain(width.as_deref()).collect();
     let table = table(&headings, all, |Answer { object, row: rates, .. }| {

@@ -1,7 +1,5 @@
 //! The width of a base that meets a target: all else of the object the same.
 
-use std::str::FromStr;
-
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
@@ -11,18 +9,11 @@ use crate::number::Limited;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::Object;
 
-/// A probability of overturning in the time of exposure, such as 1%.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Target(pub f64);
-
-impl FromStr for Target {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Target, String> {
-        match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
-            Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(Target(0.01 * percent)),
-            _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
-        }
+/// Parses a probability of overturning in the time of exposure, such as 1%.
+pub fn target(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
+        Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(0.01 * percent),
+        _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
     }
 }
 
@@ -36,46 +27,21 @@ const HALVINGS: usize = 8;
 /// Probabilities count as no less.
 const LEAST: f64 = 1e-12;
 
-/// ln of the probability by its estimate or upper limit over the target, of a width.
-struct Excess<F> {
-    in_years: F,
-    /// Which of estimate, lower and upper limit.
-    which: usize,
-    target: f64,
-}
+/// A function of the width, where it has a value.
+struct OfWidth<F>(F);
 
-impl<F: Fn(f64) -> Option<Limited>> Excess<F> {
-    fn of(&self, width: f64) -> Option<f64> {
-        Some(((self.in_years)(width)?[self.which]?.max(LEAST) / self.target).ln())
-    }
-
-    /// The least width between two that meets the target; none if not even the larger does.
-    fn root(self, [least, most]: [f64; 2]) -> Option<f64> {
-        if self.of(most)? > 0.0 {
-            return None;
-        }
-        if self.of(least)? <= 0.0 {
-            return Some(least);
-        }
-        let solver = BrentRoot::new(least, most, ACCURACY);
-        let search = Executor::new(self, solver).timer(false);
-        let search = search.configure(|state| state.param(0.5 * (least + most)).max_iters(MOST_STEPS));
-        search.run().ok()?.state.best_param
-    }
-}
-
-impl<F: Fn(f64) -> Option<Limited>> CostFunction for Excess<F> {
+impl<F: Fn(f64) -> Option<f64>> CostFunction for OfWidth<F> {
     type Param = f64;
     type Output = f64;
 
     fn cost(&self, width: &f64) -> Result<f64, Error> {
-        self.of(*width).ok_or_else(|| Error::msg("no rate"))
+        (self.0)(*width).ok_or_else(|| Error::msg("no rate"))
     }
 }
 
 /// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
 /// eta and relative offset; none where none within the domain of the surface does.
-pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: Target) -> [Option<f64>; 2] {
+pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: f64) -> [Option<f64>; 2] {
     let shape = &object.spec.shape;
     let Some((width, height)) = shape.width.zip(shape.height) else { return [None; 2] };
     let centre_height = shape.centre_height.unwrap_or(0.5 * height);
@@ -97,7 +63,19 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     };
     let most = if is_known(end) { end } else { (0..HALVINGS).fold((least, end), halve).0 };
     [0, 2].map(|which| {
-        let in_years = |width_m: f64| in_years(width_m, which == 2);
-        Excess { in_years, which, target: target.0 }.root([least, most])
+        // ln of the probability by its estimate or upper limit over the target.
+        let excess = |width_m: f64| {
+            let p = in_years(width_m, which == 2)?[which]?;
+            Some((p.max(LEAST) / target).ln())
+        };
+        if excess(most)? > 0.0 {
+            return None;
+        }
+        if excess(least)? <= 0.0 {
+            return Some(least);
+        }
+        let search = Executor::new(OfWidth(excess), BrentRoot::new(least, most, ACCURACY)).timer(false);
+        let search = search.configure(|state| state.param(0.5 * (least + most)).max_iters(MOST_STEPS));
+        search.run().ok()?.state.best_param
     })
 }

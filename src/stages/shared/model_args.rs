@@ -7,13 +7,14 @@ use clap::{Args, ValueHint};
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
-use crate::motion::Suite;
 use crate::number;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number as number_in};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::verdict;
-use crate::table::rows;
+use crate::stages::shared::responses::is_floor;
+use crate::table::TableError;
+use crate::table::rows::{self, Row};
 use crate::warning::Warning;
 
 keywords! {
@@ -65,14 +66,15 @@ impl ModelArgs {
         if is_paper && self.fits.is_none() {
             return Err(UsageError::because("--model paper needs --fits, the folder of fit-pex and fit-pro"));
         }
-        let file = |name: &str| self.fits.as_ref().map(|folder| folder.join(name));
-        let of_paper = |name: &str| file(name).filter(|_| is_paper);
-        let calibrations = |name: &str| file(name).map_or(Ok(Vec::new()), |file| rows::read(&file));
+        fn read<R: Row>(folder: Option<&PathBuf>, name: &str) -> Result<Vec<R>, TableError> {
+            folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
+        }
+        let (fits, of_paper) = (self.fits.as_ref(), self.fits.as_ref().filter(|_| is_paper));
         Ok(Models {
-            overturning: calibrations("pro.calibration.parquet")?,
-            exceeding: calibrations("pex.calibration.parquet")?,
-            curves: of_paper("pro.parquet").map_or(Ok(Vec::new()), |file| rows::read(&file))?,
-            demand: of_paper("pex.parquet").map_or(Ok(Vec::new()), |file| rows::read(&file))?,
+            overturning: read(fits, "pro.calibration.parquet")?,
+            exceeding: read(fits, "pex.calibration.parquet")?,
+            curves: read(of_paper, "pro.parquet")?,
+            demand: read(of_paper, "pex.parquet")?,
             args: self.clone(),
         })
     }
@@ -94,15 +96,16 @@ impl Models {
         }
         let Some(overturning) = self.of_suite(fitted)? else {
             let kind = match suite {
-                Some(kind) => kind,
-                None => {
-                    self.of_suite(self.overturning.iter().collect())?.map_or(Kind::Recorded, |row| row.kind)
-                }
+                Some(kind) => Some(kind),
+                None => self.of_suite(self.overturning.iter().collect())?.map(|row| row.kind),
             };
+            let kind = kind.unwrap_or(Kind::Recorded);
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         };
         let exceeding = self.exceeding(overturning)?;
+        let is_plane =
+            |fit: &DemandFit| fit.model == DemandModel::Biplanar && fit.group() == overturning.group();
         let model = match model {
             ModelName::Calibrated => Model::Calibrated {
                 overturning: overturning.clone(),
@@ -110,7 +113,7 @@ impl Models {
                 floor: None,
             },
             ModelName::Paper => Model::Paper {
-                demand: self.planes(overturning),
+                demand: self.demand.iter().filter(|fit| is_plane(fit)).cloned().collect(),
                 overturning: self.curve(overturning)?,
                 limit_state,
                 peaks: overturning.peaks(),
@@ -198,17 +201,16 @@ impl Models {
         suites.sort_unstable();
         suites.dedup();
         let (folder, names) = (self.folder(), suites.join(", "));
-        match (self.args.suite, suites.len()) {
-            (_, 0) => Ok(None),
-            (None, 1) => Ok(rows.first().copied()),
-            (None, _) => Err(UsageError::because(format!(
-                "{folder}: fits of {names}; expected --suite with one of them"
-            ))),
-            (Some(kind), _) => match rows.iter().find(|row| row.kind == kind) {
-                Some(row) => Ok(Some(row)),
-                None => Err(UsageError::because(format!("{folder}: no fits of {kind}, only of {names}"))),
+        let problem = match self.args.suite {
+            _ if rows.is_empty() => return Ok(None),
+            None if suites.len() == 1 => return Ok(Some(rows[0])),
+            None => format!("{folder}: fits of {names}; expected --suite with one of them"),
+            Some(kind) => match rows.iter().find(|row| row.kind == kind) {
+                Some(row) => return Ok(Some(row)),
+                None => format!("{folder}: no fits of {kind}, only of {names}"),
             },
-        }
+        };
+        Err(UsageError::because(problem))
     }
 
     /// The row of P_ex beside one of P_ro.
@@ -234,12 +236,6 @@ impl Models {
             overturning.structure,
             fitted.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
         )
-    }
-
-    /// The two planes of the paper.
-    fn planes(&self, row: &Calibration) -> Vec<DemandFit> {
-        let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
-        planes.filter(|fit| fit.group() == row.group()).cloned().collect()
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
@@ -289,10 +285,6 @@ pub fn words_of(model: &Model) -> String {
             format!("rockfrag's fit of the paper's curve and planes to {n} of {name} to {motions}")
         }
     }
-}
-
-fn is_floor(suite: &Option<String>) -> bool {
-    suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
 }
 
 /// A kind of motion, in words.

@@ -100,21 +100,17 @@ pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     implausible.into_iter().chain(other_peak).collect()
 }
 
-/// The names of all motions so far, which must differ.
-#[derive(Default)]
-pub struct DistinctIds(HashSet<String>);
-
-impl DistinctIds {
-    /// Adds those of the file at `path`.
-    pub fn add(&mut self, path: &Path, ids: impl IntoIterator<Item = String>) -> Result<(), TableError> {
-        for id in ids {
-            if let Some(id) = self.0.replace(id) {
-                return Err(TableError::table(
-                    path,
-                    format!("two motions are called '{id}'; expected distinct motion_id"),
-                ));
-            }
+/// Adds the names of motions of the file at `path` to those so far, which must differ.
+pub fn expect_distinct(
+    known: &mut HashSet<String>,
+    path: &Path,
+    names: impl IntoIterator<Item = String>,
+) -> Result<(), TableError> {
+    match names.into_iter().find_map(|name| known.replace(name)) {
+        None => Ok(()),
+        Some(name) => {
+            let problem = format!("two motions are called '{name}'; expected distinct motion_id");
+            Err(TableError::table(path, problem))
         }
-        Ok(())
     }
 }

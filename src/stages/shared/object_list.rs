@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use clap::CommandFactory;
 
 use super::hazard::headings;
-use super::spec::{Reason, Shape, Spec};
+use super::spec::{Reason, Spec};
 use crate::sheet::{Heading, Sheet};
-use crate::units::Quantity;
+use crate::units::{Quantity, Unit};
 
 /// What a column is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,37 +43,29 @@ const FREE: [&str; 10] = ["", "no", "n", "none", "false", "0", "-", "free", "una
 
 /// Reads a list: the objects of its rows, and the headings of columns that say nothing of them.
 pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
-    let place = || path.display().to_string();
-    let sheet = Sheet::parse(&std::fs::read(path).with_context(place)?).with_context(place)?;
+    let objects = || objects(&Sheet::parse(&std::fs::read(path)?)?);
+    objects().with_context(|| path.display().to_string())
+}
+
+fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
     let columns: Vec<Column> = sheet.headings.iter().map(meaning).collect();
     let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
-    let texts = || sheet.headings.iter().map(|heading| heading.text.clone());
     if !(has("height") || has("p")) {
-        anyhow::bail!(
-            "{}: {}; expected name, width, depth and height, or p, alpha and eta",
-            place(),
-            headings(&sheet)
-        );
+        bail!("{}; expected name, width, depth and height, or p, alpha and eta", headings(sheet));
     }
     if sheet.lines.is_empty() {
-        anyhow::bail!("{}: no rows; expected one per object", place());
+        bail!("no rows; expected one per object");
     }
-    let unclear = |heading: &&Heading| {
-        heading.unit.is_none()
-            && heading.text.contains(['(', '[', '"', '\'', '%'])
-            && meaning(heading) != Column::Unused
+    let is_unclear = |(heading, column): &(&Heading, &Column)| {
+        let has_sign = heading.text.contains(['(', '[', '"', '\'', '%']);
+        heading.unit.is_none() && has_sign && **column != Column::Unused
     };
-    if let Some(heading) = sheet.headings.iter().find(unclear) {
-        anyhow::bail!(
-            "{}: heading '{}': expected m, cm or mm in brackets, or no unit",
-            place(),
-            heading.text
-        );
+    if let Some((heading, _)) = sheet.headings.iter().zip(&columns).find(is_unclear) {
+        bail!("heading '{}': expected m, cm or mm in brackets, or no unit", heading.text);
     }
-    let option = |column: &Column| matches!(column, Column::Option(..)).then(|| column.clone());
-    for (at, column) in columns.iter().enumerate().filter_map(|(at, column)| Some((at, option(column)?))) {
-        if columns[..at].contains(&column) {
-            anyhow::bail!("{}: two columns '{}'; keep one", place(), sheet.headings[at].text);
+    for (at, column) in columns.iter().enumerate() {
+        if matches!(column, Column::Option(..)) && columns[..at].contains(column) {
+            bail!("two columns '{}'; keep one", sheet.headings[at].text);
         }
     }
     let named = NAMES.iter().find_map(|name| sheet.column(&[name]));
@@ -81,28 +73,27 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
         "" => format!("line {}", sheet.lines[row]),
         name => name.to_string(),
     };
-    let rows = 0..sheet.lines.len();
-    let names: Vec<String> = rows.clone().map(name).collect();
-    let spec = |row: usize| {
-        let name = match names.iter().filter(|name| **name == names[row]).count() {
-            1 => names[row].clone(),
-            _ => format!("{} (line {})", names[row], sheet.lines[row]),
+    let names: Vec<String> = (0..sheet.lines.len()).map(name).collect();
+    let spec = |(row, name): (usize, &String)| {
+        let is_total = TOTALS.contains(&name.to_lowercase().as_str());
+        let name = match names.iter().filter(|other| *other == name).count() {
+            1 => name.clone(),
+            _ => format!("{name} (line {})", sheet.lines[row]),
         };
         let held = columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
         let held = held.filter_map(|(at, _)| held_by(&sheet.headings[at].text, sheet.cell(row, at))).next();
-        match spec(&sheet, &columns, row) {
-            Ok(_) if TOTALS.contains(&names[row].to_lowercase().as_str()) => {
-                let refused = Some(Reason::Implausible("a row of totals, not an object".to_string()));
-                Spec { name, refused, ..Spec::from(Shape::default()) }
-            }
-            Ok(spec) => Spec { name, refused: held, ..spec },
-            Err(problem) => {
-                Spec { name, refused: Some(Reason::Implausible(problem)), ..Spec::from(Shape::default()) }
+        match spec(sheet, &columns, row) {
+            Ok(spec) if !is_total => Spec { name, refused: held, ..spec },
+            given => {
+                let problem = given.err().unwrap_or("a row of totals, not an object".to_string());
+                Spec { name, refused: Some(Reason::Implausible(problem)), ..Spec::default() }
             }
         }
     };
-    let unused = texts().enumerate().filter(|(at, _)| columns[*at] == Column::Unused && Some(*at) != named);
-    Ok((rows.map(spec).collect(), unused.map(|(_, text)| text).collect()))
+    let is_unused = |(at, column): &(usize, &Column)| **column == Column::Unused && Some(*at) != named;
+    let unused = columns.iter().enumerate().filter(is_unused);
+    let unused = unused.map(|(at, _)| sheet.headings[at].text.clone()).collect();
+    Ok((names.iter().enumerate().map(spec).collect(), unused))
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
@@ -118,12 +109,9 @@ fn meaning(heading: &Heading) -> Column {
     let name = if is_count { "count" } else { synonym.unwrap_or(&name) };
     let command = Spec::command();
     let option = command.get_arguments().find(|option| option.get_long() == Some(name) && name != "name");
-    match option.and_then(|option| option.get_value_names()).map(|names| names[0].as_str()) {
-        Some("M") => Column::Option(name.to_string(), Some(Quantity::Length)),
-        Some("S") => Column::Option(name.to_string(), Some(Quantity::Time)),
-        Some("RAD") => Column::Option(name.to_string(), Some(Quantity::Angle)),
-        Some("RAD/S") => Column::Option(name.to_string(), Some(Quantity::AngularFrequency)),
-        Some(_) => Column::Option(name.to_string(), None),
+    match option.and_then(|option| option.get_value_names()) {
+        // An option with a unit has it as the name of its value.
+        Some(of) => Column::Option(name.to_string(), Unit::parse(&of[0]).map(|unit| unit.quantity)),
         None if HELD.iter().any(|start| name.starts_with(start)) => Column::Held,
         None => Column::Unused,
     }
@@ -149,11 +137,10 @@ fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
         pairs.push((name.clone(), number.unwrap_or(cell.to_string())));
     }
     // Of one side alone it is the width.
-    if pairs.iter().all(|(name, _)| name != "width") {
-        pairs
-            .iter_mut()
-            .filter(|(name, _)| name == "depth")
-            .for_each(|(name, _)| *name = "width".to_string());
+    if pairs.iter().all(|(name, _)| name != "width")
+        && let Some((depth, _)) = pairs.iter_mut().find(|(name, _)| name == "depth")
+    {
+        *depth = "width".to_string();
     }
     Spec::of_pairs(pairs.into_iter())
 }

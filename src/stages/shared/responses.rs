@@ -12,20 +12,8 @@ use crate::table::file::Table;
 use crate::table::frame;
 
 /// What is read of a response besides the measures of Eq. 13.
-const COLUMNS: [&str; 12] = [
-    "suite",
-    "structure",
-    "p_rad_s",
-    "alpha_rad",
-    "eta",
-    "outcome",
-    "edp",
-    "mw",
-    "re_km",
-    "earthquake",
-    "pga_m_s2",
-    "pgv_m_s",
-];
+const COLUMNS: &str =
+    "suite structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
 /// Gives further measures by name, a column each, of the motions of these names and a structure.
 pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>>;
@@ -39,39 +27,42 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
 /// The same of motions of the ground.
 pub fn read_of_ground(path: &Path) -> anyhow::Result<Vec<Cases>> {
     let all = read(path)?;
-    let is_floor = |cases: &Cases| cases.suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR));
-    match all.iter().any(is_floor) {
-        true => {
-            Err(TableError::table(path, "responses to motions of a floor; expected those of the ground")
-                .into())
-        }
-        false => Ok(all),
+    if all.iter().any(|cases| is_floor(&cases.suite)) {
+        let problem = "responses to motions of a floor; expected those of the ground";
+        return Err(TableError::table(path, problem).into());
     }
+    Ok(all)
+}
+
+/// Whether a suite is of motions of a floor.
+pub fn is_floor(suite: &Option<String>) -> bool {
+    suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
 }
 
 /// The same with candidate measures.
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     let is_wanted = |name: &str| {
-        COLUMNS.contains(&name) || is_measure(name) || (candidates.is_some() && name == "motion_id")
+        COLUMNS.split(' ').any(|column| column == name)
+            || is_measure(name)
+            || (candidates.is_some() && name == "motion_id")
     };
     let table = Table::open(path)?;
     let mut all: Vec<Cases> = Vec::new();
     for batch in table.batches(&is_wanted) {
         add(&mut all, &batch?, candidates)?;
     }
-    all.iter_mut().for_each(Cases::sort_clusters);
-    match all.is_empty() {
-        true => Err(TableError::table(path, "no responses; expected at least one").into()),
-        false => Ok(all),
+    if all.is_empty() {
+        return Err(TableError::table(path, "no responses; expected at least one").into());
     }
+    all.iter_mut().for_each(Cases::sort_clusters);
+    Ok(all)
 }
 
 /// Adds the responses of a batch to the cases of their suites and structures.
 fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
-    let p_rad_s = batch.required_numbers("p_rad_s")?;
-    let alpha_rad = batch.required_numbers("alpha_rad")?;
+    let (p_rad_s, alpha_rad) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
     let eta = batch.required_numbers("eta")?;
     let outcomes = batch.required_words::<Outcome>("outcome")?;
     let edp = demands(batch, &outcomes)?;
@@ -84,23 +75,22 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
     let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
     let group = |row: usize| Group { suite: suites[row].as_deref(), structure: &names[row] };
+    let parameters = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
     for rows in frame::groups((0..names.len()).map(group))? {
         let group = group(rows[0]);
-        let of = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
         let place = match all.iter().position(|cases| cases.group() == group) {
             Some(place) => place,
             None => {
-                all.push(Cases::new(group.suite, batch.structure(rows[0], group.structure, of(rows[0]))?));
+                let structure = batch.structure(rows[0], group.structure, parameters(rows[0]))?;
+                all.push(Cases::new(group.suite, structure));
                 all.len() - 1
             }
         };
         let cases = &mut all[place];
-        expect_same(batch, &cases.structure, rows.iter().map(|&row| (row, of(row))))?;
+        expect_same(batch, &cases.structure, &rows, parameters)?;
         if cases.len() + rows.len() > MOST_CASES {
-            let problem = format!(
-                "more than {MOST_CASES} responses of '{}'; take a sample of the rows",
-                group.structure
-            );
+            let name = group.structure;
+            let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
             return Err(TableError::table(&batch.path, problem).into());
         }
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
@@ -148,16 +138,18 @@ fn demands(batch: &Batch, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> 
 fn expect_same(
     batch: &Batch,
     structure: &Structure,
-    mut rows: impl Iterator<Item = (usize, [f64; 3])>,
+    rows: &[usize],
+    parameters: impl Fn(usize) -> [f64; 3],
 ) -> Result<(), TableError> {
-    let Structure { name, p_rad_s, alpha_rad, eta } = structure;
-    let first = [*p_rad_s, *alpha_rad, *eta];
-    let Some((row, of)) = rows.find(|(_, of)| *of != first) else { return Ok(()) };
-    batch.structure(row, name, of)?;
-    let others = ["p_rad_s", "alpha_rad", "eta"].into_iter().zip(of).zip(first);
-    let mut others = others.filter(|((_, value), first)| value != first);
-    let ((column, value), first) = others.next().unwrap_or((("p_rad_s", of[0]), first[0]));
-    let problem =
-        format!("{value}; structure '{name}' has {first} in another row: give each structure its own name");
-    Err(batch.value_error(row, column, problem))
+    let name = &structure.name;
+    let known = [structure.p_rad_s, structure.alpha_rad, structure.eta];
+    let Some(&row) = rows.iter().find(|&&row| parameters(row) != known) else { return Ok(()) };
+    let found = parameters(row);
+    batch.structure(row, name, found)?;
+    let other = (0..3).find(|&k| found[k] != known[k]).unwrap_or(0);
+    let problem = format!(
+        "{}; structure '{name}' has {} in another row: give each structure its own name",
+        found[other], known[other]
+    );
+    Err(batch.value_error(row, ["p_rad_s", "alpha_rad", "eta"][other], problem))
 }

@@ -10,7 +10,7 @@ use crate::rocking::{Structure, StructureError, housner_eta};
 use crate::warning::UNNAMED;
 
 /// An object as it is given.
-#[derive(Debug, Clone, PartialEq, Parser)]
+#[derive(Debug, Clone, Default, PartialEq, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true, args_override_self = true)]
 pub struct Spec {
     #[arg(long, default_value = UNNAMED)]
@@ -172,12 +172,6 @@ impl FromStr for Spec {
     }
 }
 
-impl From<Shape> for Spec {
-    fn from(shape: Shape) -> Spec {
-        Spec { name: UNNAMED.to_string(), count: None, shape, place: Place::default(), refused: None }
-    }
-}
-
 impl Spec {
     /// Reads names and values as the options that they are.
     pub fn of_pairs(pairs: impl Iterator<Item = (String, String)>) -> Result<Spec, String> {
@@ -190,7 +184,7 @@ impl Spec {
         let Structure { name, p_rad_s, alpha_rad, eta: value } = structure;
         let shape =
             Shape { p: Some(p_rad_s), alpha: Some(alpha_rad), eta: Some(eta(value)), ..Shape::default() };
-        Spec { name, ..Spec::from(shape) }
+        Spec { name, shape, ..Spec::default() }
     }
 
     /// Where it does not say itself where it stands, it stands in this place.

@@ -11,7 +11,7 @@ use crate::paper;
 use crate::pipeline::UsageError;
 use crate::plausibility::LEAST_P_RAD_S;
 use crate::rocking::Structure;
-use crate::warning::{Warning, Warnings};
+use crate::warning::{UNNAMED, Warning, Warnings};
 
 /// The structures of a call.
 #[derive(Debug, Clone, Default, Args)]
@@ -66,7 +66,10 @@ impl StructureArgs {
             }
             Some(path) => object_list::read(path)?,
             None if !self.structure.is_empty() => (self.structure.clone(), Vec::new()),
-            None if self.is_given() => (vec![Spec::from(self.one.clone())], Vec::new()),
+            None if self.is_given() => (
+                vec![Spec { name: UNNAMED.to_string(), shape: self.one.clone(), ..Spec::default() }],
+                Vec::new(),
+            ),
             None => {
                 return Err(UsageError::because(
                     "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
