@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
-use super::shared::structures::StructureArgs;
+use super::shared::objects::StructureArgs;
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
 use crate::fragility::{GivenPeak, Peak, Scenarios};
-use crate::hazard::strongest;
-use crate::hazard::{Velocity, magnitude};
+use crate::hazard::{Velocity, magnitude, strongest};
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
 use crate::pipeline::{Stage, UsageError};
@@ -49,16 +48,14 @@ const TOLERANCE: f64 = 4e-6;
 impl Stage for Export {
     fn outputs(&self) -> Vec<PathBuf> {
         let out = self.out.clone().unwrap_or_else(|| Path::new("fragility").with_extension(self.ending()));
-        match self.to {
-            Program::OpenQuake => vec![out],
-            Program::Pelicun => vec![out.with_extension("json"), out],
-        }
+        let json = (self.to == Program::Pelicun).then(|| out.with_extension("json"));
+        json.into_iter().chain([out]).collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let is_right = |out: &PathBuf| out.extension().is_some_and(|ending| ending == self.ending());
-        if let Some(out) = self.out.as_ref().filter(|out| !is_right(out)) {
-            let (out, ending) = (out.display(), self.ending());
+        let ending = self.ending();
+        if let Some(out) = self.out.as_ref().filter(|out| out.extension() != Some(ending.as_ref())) {
+            let out = out.display();
             return Err(UsageError::because(format!("out is {out}; expected a name that ends in .{ending}")));
         }
         self.structures.resolve().map(|_| ())
@@ -94,10 +91,9 @@ impl Stage for Export {
                 write_file(&files[1], parameters(&functions)?.as_bytes())?;
             }
         }
+        let (file, number, im) = (files[files.len() - 1].display(), functions.len(), self.im);
         let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-        let file = files[files.len() - 1].display();
-        let number = functions.len();
-        Ok(format!("{file}: {number} structure(s) over {}, up to {most} levels each\n", self.im))
+        Ok(format!("{file}: {number} structure(s) over {im}, up to {most} levels each\n"))
     }
 }
 
@@ -115,10 +111,7 @@ impl Export {
         let reaching = |intensity: f64| {
             given_peak.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
         };
-        let tolerance = match self.to {
-            Program::OpenQuake => TOLERANCE,
-            Program::Pelicun => PELICUN_TOLERANCE,
-        };
+        let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let [uplift, _] = given_peak.uplift();
         let most = strongest(self.im).max(2.0 * uplift);
         let end = whole_curve_end(uplift, tolerance, reaching).min(most);

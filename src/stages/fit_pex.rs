@@ -84,7 +84,7 @@ impl Stage for FitPex {
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let summary = format!(
             "{}\n{}",
-            calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration"))?,
+            calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration")),
             planes_text(&fits, &self.out)?
         );
         context.warn(warnings(&calibrations));

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings, with_limits};
+use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
 use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
+use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::number;
@@ -67,7 +68,7 @@ impl Stage for FitPro {
         let calibration = part(&self.out, "calibration");
         let mut summary = curves_text(&fits, self.confidence, &self.out)?;
         if !calibrations.is_empty() {
-            let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration)?;
+            let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration);
             summary = format!("{calibrated}\n{summary}");
         }
         context.warn(warnings(&calibrations));
@@ -93,7 +94,7 @@ fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> anyhow::Result
         let parameters = fit.parameters(confidence);
         let of = |wanted: Parameter| {
             let row = parameters.iter().find(|row| row.parameter == wanted)?;
-            Some(with_limits(row.value, row.low, row.high))
+            Some(THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""))
         };
         CurveLine {
             suite: suite_name(&fit.suite),

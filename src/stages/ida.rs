@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, expect_distinct, record, warnings};
-use super::shared::structures::StructureArgs;
+use super::shared::objects::StructureArgs;
 use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};

@@ -45,30 +45,28 @@ impl Stage for SampleScenarios {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let is_within = |steps: &Steps, low, high| steps.0.iter().all(|value| (low..=high).contains(value));
-        if !is_within(&self.mw, 3.0, 10.0) {
+        if !self.mw.0.iter().all(|mw| (3.0..=10.0).contains(mw)) {
             return Err(UsageError::because("mw: expected moment magnitudes from 3 to 10"));
         }
-        if !is_within(&self.re, 0.0, 1000.0) {
+        if !self.re.0.iter().all(|re_km| (0.0..=1000.0).contains(re_km)) {
             return Err(UsageError::because("re: expected distances from 0 to 1000 km"));
         }
         Ok(())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let SampleScenarios { mw, re, samples, design, seed, .. } = self;
-        let grid =
-            Grid { mw: mw.0.clone(), re_km: re.0.clone(), samples: *samples, design: *design, seed: *seed };
-        let cells: Vec<_> =
-            (0..grid.cells()).into_par_iter().map(|cell| grid.scenarios_of_cell(cell)).collect();
-        let scenarios = cells.concat();
+        let SampleScenarios { samples, design, seed, .. } = *self;
+        let (mw, re_km) = (self.mw.0.clone(), self.re.0.clone());
+        let grid = Grid { mw, re_km, samples, design, seed };
+        let scenarios: Vec<_> =
+            (0..grid.cells()).into_par_iter().flat_map(|cell| grid.scenarios_of_cell(cell)).collect();
         let summary =
             format!("{} in {}\n", counted(scenarios.len(), "scenario"), counted(grid.cells(), "cell"));
         let unusual = |name: &str, values: &[f64], [low, high]: [f64; 2]| {
             let value = values.iter().find(|value| !(low..=high).contains(*value))?;
             Some((Warning::UnusualScenario, format!("{name} {value}")))
         };
-        let both = [unusual("mw", &mw.0, PAPER_MW), unusual("re", &re.0, PAPER_RE_KM)];
+        let both = [unusual("mw", &grid.mw, PAPER_MW), unusual("re", &grid.re_km, PAPER_RE_KM)];
         context.warn(both.into_iter().flatten().collect());
         context.write(&self.out, &scenarios, &summary)?;
         Ok(summary)

@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
 use super::shared::motions::{Measures, expect_distinct, record, warnings};
-use super::shared::structures::StructureArgs;
+use super::shared::objects::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
 use crate::pipeline::Stage;

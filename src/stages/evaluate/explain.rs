@@ -18,9 +18,7 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
             lines.push(("overturning:", calibration(overturning)));
             lines.push(("too far:", calibration(exceeding)));
             let Calibration { pga_low, pga_high, ratio_low, ratio_high, .. } = *overturning;
-            if let (Some(low), Some(high), Some(least), Some(most)) =
-                (pga_low, pga_high, ratio_low, ratio_high)
-            {
+            if let Some(((low, high), (least, most))) = pga_low.zip(pga_high).zip(ratio_low.zip(ratio_high)) {
                 let [low, high, least, most] =
                     [low / G_M_S2, high / G_M_S2, least, most].map(|value| significant(value, 3));
                 let words = format!("PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");

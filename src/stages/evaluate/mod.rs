@@ -8,40 +8,40 @@
 //! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
 //! explain      the model and the measures behind an answer
-//! output       what is printed and written
 //! ```
 
 mod explain;
 mod object;
-mod output;
 mod point;
 mod rates;
 mod table;
 mod target;
 mod words;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args, ValueHint};
 
 use super::shared::hazard;
 use super::shared::model_args::{ModelArgs, Models};
-use super::shared::objects::Object;
+use super::shared::objects::{Object, StructureArgs};
 use super::shared::responses;
 use super::shared::spec::{Place, Reason, Restitution, Spec};
-use super::shared::structures::StructureArgs;
 use crate::hazard::{Hazard, Motion, PeakHazard, Site, Velocity};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::plausibility::rarity;
+use crate::table::frame::{self, Format};
+use crate::table::rows;
+use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
 use self::object::{Answer, Subject};
 pub use self::object::{DoubtsRow, ObjectRow, Predicted};
-use self::output::Output;
 pub use self::point::TreeRow;
 pub use self::rates::{RatesRow, of_all};
 pub use self::words::{model_of_all, size, too_far};
@@ -103,8 +103,12 @@ pub struct Evaluate {
     /// Also print a sentence for a report
     #[arg(long)]
     sentence: bool,
-    #[command(flatten)]
-    output: Output,
+    /// text, csv or json
+    #[arg(long, default_value = "text")]
+    format: Format,
+    /// File to write: .parquet, .csv or .json [default: none; with --in, evaluated.parquet beside it]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
+    out: Option<PathBuf>,
     #[command(flatten)]
     model: ModelArgs,
     #[command(flatten)]
@@ -115,11 +119,12 @@ pub struct Evaluate {
 
 impl Stage for Evaluate {
     fn outputs(&self) -> Vec<PathBuf> {
-        self.output.path(self.input.as_deref()).into_iter().collect()
+        let beside = || Some(self.input.as_ref()?.with_file_name("evaluated.parquet"));
+        self.out.clone().or_else(beside).into_iter().collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.output.check()?;
+        self.out.as_deref().map_or(Ok(None), file_format)?;
         if self.input.is_none() && self.hazard.is_empty() {
             self.motion()?;
         }
@@ -132,7 +137,7 @@ impl Stage for Evaluate {
             let (structures, place) = (&self.structures, &self.place);
             let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
             let (rows, text) = table::evaluate(path, &self.columns, &given, place, &models, context)?;
-            self.output.write(&rows, text, Some(path), context)
+            self.write(&rows, text, context)
         } else if self.hazard.is_empty() {
             self.under_motion(&self.motion()?, &models, context)
         } else {
@@ -145,17 +150,17 @@ impl Evaluate {
     /// The motion that is given.
     fn motion(&self) -> anyhow::Result<Motion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
-        match pga_m_s2.zip(pgv_m_s) {
-            Some(_) if self.vs30.is_some() => {
-                return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
-            }
-            Some((pga, pgv)) => judge_peaks(pga, pgv).map_err(UsageError::because)?,
-            None if pga_m_s2.or(pgv_m_s).is_none() => {
+        match (pga_m_s2, pgv_m_s) {
+            (None, None) => {
                 return Err(UsageError::because(
                     "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
                 ));
             }
-            None => {}
+            (Some(_), Some(_)) if self.vs30.is_some() => {
+                return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
+            }
+            (Some(pga), Some(pgv)) => judge_peaks(pga, pgv).map_err(UsageError::because)?,
+            _ => {}
         }
         Ok(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
@@ -251,6 +256,51 @@ impl Evaluate {
                 .filter(|warning| !matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated));
             context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
         }
-        self.output.write(&[object::batch(all)?], text, None, context)
+        let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
+        let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
+        let doubts: Vec<&DoubtsRow> = all.iter().map(|answer| &answer.doubts).collect();
+        let rows = rows::side_by_side(&[
+            rows::batch_of::<ObjectRow, _>(&objects)?,
+            rows::batch_of::<R, _>(&predicted)?,
+            rows::batch_of::<DoubtsRow, _>(&doubts)?,
+        ])?;
+        self.write(&[rows], text, context)
+    }
+
+    /// Writes rows of one schema, if they go to a file, and returns what to print.
+    fn write(&self, rows: &[RecordBatch], text: String, context: &Context) -> anyhow::Result<String> {
+        let show = |format: Format| -> anyhow::Result<String> {
+            let mut whole = frame::of_batch(&rows[0])?;
+            for more in &rows[1..] {
+                whole.vstack_mut(&frame::of_batch(more)?)?;
+            }
+            frame::show(&whole, format)
+        };
+        let printed = if self.format == Format::Text { text } else { show(self.format)? };
+        for out in self.outputs() {
+            match file_format(&out)? {
+                Some(format) => write_file(&out, show(format)?.as_bytes())?,
+                None => {
+                    let mut writer = context.create(&out, &rows[0].schema())?;
+                    rows.iter().try_for_each(|rows| writer.append(rows))?;
+                    context.finish(writer, &printed)?;
+                }
+            }
+        }
+        Ok(printed)
+    }
+}
+
+/// How a file is written, by how its name ends; none as Parquet.
+fn file_format(out: &Path) -> anyhow::Result<Option<Format>> {
+    match out.extension().and_then(|ending| ending.to_str()) {
+        Some("parquet") => Ok(None),
+        Some("csv") => Ok(Some(Format::Csv)),
+        Some("json") => Ok(Some(Format::Json)),
+        _ => {
+            let out = out.display();
+            let expected = "expected a name that ends in .parquet, .csv or .json";
+            Err(UsageError::because(format!("out is {out}; {expected}")))
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! What is predicted for each object of a call, the worst first.
 
-use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -13,9 +12,8 @@ use crate::number::Limited;
 use crate::pipeline::UsageError;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::objects::{Direction, Object};
-use crate::stages::shared::structures::warnings_of;
-use crate::table::rows::{self, Row};
+use crate::stages::shared::objects::{Direction, Object, warnings_of};
+use crate::table::rows::Row;
 use crate::warning::Warning;
 
 /// What is predicted for an object.
@@ -151,12 +149,10 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// An object that rocks in these directions, on its floor, and the warnings about the models.
-    pub fn of(
-        object: &Object,
-        found: &[Direction],
-        models: &Models,
-    ) -> anyhow::Result<(Subject, Vec<Warning>)> {
+    /// An object on its floor, and the warnings about the models.
+    pub fn of(object: &Object, models: &Models) -> anyhow::Result<(Subject, Vec<Warning>)> {
+        object.structure().map_err(UsageError::because)?;
+        let found = object.directions.as_deref().unwrap_or_default();
         let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
         for Direction { structure, .. } in found {
             let (model, of_model) = models.model(structure)?;
@@ -173,15 +169,16 @@ impl Subject {
         };
         let models = on(object.floor())?;
         let structures = || found.iter().map(|direction| direction.structure.clone());
-        let fewest = found.iter().map(|direction| direction.unknowns.len()).min().unwrap_or(0);
-        let unknown = |number: usize| {
+        // The directions of an object have the same parts unknown.
+        let unknown = |(number, (part, _)): (usize, &(Part, [Structure; 2]))| {
             let at = |end: usize| {
                 let structures = found.iter().map(|direction| direction.unknowns[number].1[end].clone());
                 structures.zip(models.iter().cloned()).collect()
             };
-            Unknown { part: found[0].unknowns[number].0, low: at(0), high: at(1) }
+            Unknown { part: *part, low: at(0), high: at(1) }
         };
-        let mut unknowns: Vec<Unknown<Vec<(Structure, Model)>>> = (0..fewest).map(unknown).collect();
+        let mut unknowns: Vec<Unknown<Vec<(Structure, Model)>>> =
+            found[0].unknowns.iter().enumerate().map(unknown).collect();
         if let Some([low, high]) = object.unknown_floor() {
             let at = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
             unknowns.push(Unknown { part: Part::Floor, low: at(low)?, high: at(high)? });
@@ -205,8 +202,8 @@ impl Subject {
     }
 }
 
-/// Predicts for all objects, the worst first. `predict` gives a row, the errors of the logit of the probability
-/// of overturning or of ln of its rate, PGA and PGV (m/s2 and m/s) of the motion that matters, and warnings.
+/// Predicts for all objects, the worst first. `predict` gives a row, the errors of the logit of the
+/// probability of overturning or of ln of its rate, the PGA and PGV (m/s2 and m/s) that matter, and warnings.
 pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
@@ -214,22 +211,20 @@ pub fn answers<R: Predicted>(
     predict: impl Fn(&Object, &Subject) -> (R, Budget, [f64; 2], Vec<Warning>) + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
-        let (subject, mut warnings) = match &object.directions {
-            Ok(found) => Subject::of(&object, found, models)?,
-            Err(reason) => {
-                let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
-                let object = ObjectRow::new(&object, None, models.limit_state());
-                return Ok(Answer { object, doubts, ..Answer::default() });
-            }
-        };
+        if let Err(reason) = &object.directions {
+            let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
+            let object = ObjectRow::new(&object, None, models.limit_state());
+            return Ok(Answer { object, doubts, ..Answer::default() });
+        }
+        let (subject, mut warnings) = Subject::of(&object, models)?;
         let (row, budget, motion, of_prediction) = predict(&object, &subject);
         warnings.extend(of_prediction);
         warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
-        let weaker @ (structure, model) = subject.weaker();
+        let (structure, model) = subject.weaker();
         Ok(Answer {
-            object: ObjectRow::new(&object, Some(weaker), models.limit_state()),
+            object: ObjectRow::new(&object, Some(subject.weaker()), models.limit_state()),
             row,
             doubts: DoubtsRow::new(&warnings, &budget),
             warnings,
@@ -243,16 +238,4 @@ pub fn answers<R: Predicted>(
     let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;
     all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
     Ok(all)
-}
-
-/// The rows of all objects.
-pub fn batch<R: Predicted>(all: &[Answer<R>]) -> anyhow::Result<RecordBatch> {
-    let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
-    let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
-    let doubts: Vec<&DoubtsRow> = all.iter().map(|answer| &answer.doubts).collect();
-    rows::side_by_side(&[
-        rows::batch_of::<ObjectRow, _>(&objects)?,
-        rows::batch_of::<R, _>(&predicted)?,
-        rows::batch_of::<DoubtsRow, _>(&doubts)?,
-    ])
 }

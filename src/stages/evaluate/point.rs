@@ -79,7 +79,7 @@ pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
         };
         format!("{overturns} {}, by {}", words_of_peaks(tree), model(object))
     });
-    super::words::text(all, of_one, |worst| of_several(worst, all), sentence)
+    super::words::text(all, of_one, || of_several(all), sentence)
 }
 
 fn of_one(answer: &Answer<TreeRow>) -> String {
@@ -101,7 +101,8 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
     format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(object))
 }
 
-fn of_several(worst: &Answer<TreeRow>, all: &[Answer<TreeRow>]) -> String {
+fn of_several(all: &[Answer<TreeRow>]) -> String {
+    let worst = &all[0];
     let first = match worst.row.overturning() {
         [None | Some(0.0), ..] => "nothing overturns".to_string(),
         p => {

@@ -36,11 +36,7 @@ pub struct RatesRow {
 }
 
 impl RatesRow {
-    pub fn new(
-        rates: &SiteRates,
-        years: f64,
-        [target_width_m, target_width_m_high]: [Option<f64>; 2],
-    ) -> RatesRow {
+    pub fn new(rates: &SiteRates, years: f64, target_widths_m: [Option<f64>; 2]) -> RatesRow {
         let in_years = |rate: f64| probability_in_years(rate, years);
         let counted = rates.counted.as_ref();
         let of_count = |rate: &CountedRate| [rate.value, rate.limits.low, rate.limits.high].map(Some);
@@ -57,8 +53,8 @@ impl RatesRow {
             share_extrapolated: rates.beyond,
             counted_motions: counted.map(|rate| rate.motions as i64),
             counted_per_year: counted.map_or([None; 3], of_count),
-            target_width_m,
-            target_width_m_high,
+            target_width_m: target_widths_m[0],
+            target_width_m_high: target_widths_m[1],
         }
     }
 }
@@ -78,7 +74,7 @@ pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, sentence
         format!("{how_often}{extended}, by {}{without}", model(object))
     });
     let of_one = |answer: &Answer<RatesRow>| of_one(answer, site, target);
-    super::words::text(all, of_one, |worst| of_several(worst, all, site, target), sentence)
+    super::words::text(all, of_one, || of_several(all, site, target), sentence)
 }
 
 fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String {
@@ -138,12 +134,8 @@ pub fn of_all<'a>(all: impl Iterator<Item = (&'a ObjectRow, &'a RatesRow)> + Clo
     })
 }
 
-fn of_several(
-    worst: &Answer<RatesRow>,
-    all: &[Answer<RatesRow>],
-    site: &Site,
-    target: Option<f64>,
-) -> String {
+fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>) -> String {
+    let worst = &all[0];
     let years = in_years(&worst.row);
     let width = target.map(|target| format!("width for {}", PERCENT.one(target)));
     let headings = ["rocks", "overturns", "once in years", &years, "", "friction"];

@@ -62,7 +62,7 @@ pub fn evaluate(
             "{path}: column {column} and options of a structure; leave out the one or the other"
         )));
     }
-    let given = given.first().map(|object| subject(object, models)).transpose()?;
+    let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
     let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
     let mut of_rows: HashMap<[u64; 3], Known> = HashMap::new();
     let mut evaluated = Vec::new();
@@ -71,7 +71,7 @@ pub fn evaluate(
         for structure in &structures {
             if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
                 let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
-                entry.insert(subject(&Object::new(spec), models)?);
+                entry.insert(Subject::of(&Object::new(spec), models)?);
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
@@ -81,11 +81,6 @@ pub fn evaluate(
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
         rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
     }
-}
-
-fn subject(object: &Object, models: &Models) -> anyhow::Result<Known> {
-    object.structure().map_err(UsageError::because)?;
-    Subject::of(object, object.directions.as_deref().unwrap_or_default(), models)
 }
 
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.

@@ -50,7 +50,7 @@ pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target:
     // What is not known does not matter to an estimate, and takes most of the time.
     let in_years = |width_m: f64, with_unknowns: bool| -> Option<Limited> {
         let resized = Object::new(object.spec.resized(width_m / width));
-        let (subject, _) = Subject::of(&resized, resized.directions.as_ref().ok()?, models).ok()?;
+        let (subject, _) = Subject::of(&resized, models).ok()?;
         let unknowns = if with_unknowns { &subject.unknowns[..] } else { &[] };
         let rates = site.rates(&subject.directions, unknowns).overturning;
         Some(rates.map(|rate| Some(probability_in_years(rate?, years))))

@@ -3,33 +3,34 @@
 use super::object::{Answer, ObjectRow};
 use crate::hazard::Part;
 use crate::number;
-use crate::warning::UNNAMED;
+use crate::warning::{UNNAMED, Warning};
 
-/// The answer for all objects, the worst of which is the first, and the sentences for a report, if requested. A
-/// sentence goes on after the name.
+/// The answer for all objects, the worst of which is the first, and the sentences for a report, if requested.
+/// A sentence goes on after the name.
 pub fn text<R>(
     all: &[Answer<R>],
-    of_one: impl Fn(&Answer<R>) -> String,
-    of_several: impl Fn(&Answer<R>) -> String,
+    of_one: impl FnOnce(&Answer<R>) -> String,
+    of_several: impl FnOnce() -> String,
     sentence: Option<impl Fn(&Answer<R>) -> String>,
 ) -> String {
-    let mut text = match all {
-        [] => String::new(),
-        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
+    let answered: Vec<&Answer<R>> = all.iter().filter(|answer| answer.object.p_rad_s.is_some()).collect();
+    let mut text = match (&answered[..], all) {
+        ([], _) => {
             all.iter().map(|answer| format!("{}: {}\n", title(&answer.object), brief(answer))).collect()
         }
-        [answer] => of_one(answer),
-        [worst, ..] => of_several(worst),
+        (_, [answer]) => of_one(answer),
+        _ => of_several(),
     };
-    for answer in all.iter().filter(|answer| answer.object.p_rad_s.is_some()) {
-        let Some(sentence) = sentence.as_ref().map(|sentence| sentence(answer)) else { break };
-        let title = title(&answer.object);
-        let comma = if title.contains(", ") { "," } else { "" };
-        let friction = match answer.object.is_friction_known {
-            true => String::new(),
-            false => format!(", if its friction is above {}", friction(&answer.object)),
-        };
-        text += &format!("\n{title}{comma} {sentence}{friction}.\n");
+    if let Some(sentence) = sentence {
+        for answer in answered {
+            let (title, sentence) = (title(&answer.object), sentence(answer));
+            let comma = if title.contains(", ") { "," } else { "" };
+            let friction = match answer.object.is_friction_known {
+                true => String::new(),
+                false => format!(", if its friction is above {}", friction(&answer.object)),
+            };
+            text += &format!("\n{title}{comma} {sentence}{friction}.\n");
+        }
     }
     text + &all.iter().map(|answer| answer.explained.as_str()).collect::<String>()
 }
@@ -113,10 +114,7 @@ pub fn mostly_unknown<R>(answer: &Answer<R>, of_velocity: &str) -> Option<String
 fn brief<R>(answer: &Answer<R>) -> String {
     match &answer.doubts.warnings {
         Some(reason) if answer.object.p_rad_s.is_none() => reason.clone(),
-        _ => {
-            let words = answer.warnings.iter().map(|warning| warning.to_string().replace('_', " "));
-            words.collect::<Vec<_>>().join(", ")
-        }
+        _ => answer.warnings.iter().map(Warning::to_string).collect::<Vec<_>>().join(", ").replace('_', " "),
     }
 }
 

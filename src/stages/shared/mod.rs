@@ -8,4 +8,3 @@ pub mod object_list;
 pub mod objects;
 pub mod responses;
 pub mod spec;
-pub mod structures;

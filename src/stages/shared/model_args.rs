@@ -1,5 +1,6 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use anyhow::bail;
@@ -87,11 +88,9 @@ impl Models {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
         let fitted = self.of_structure(structure)?;
         if fitted.is_empty() && model == ModelName::Paper {
+            let (folder, name, names) = (self.folder(), &structure.name, self.names());
             bail!(
-                "{}: no structure like '{}' (p, alpha and eta within 1 %); expected one of {} by --name",
-                self.folder(),
-                structure.name,
-                self.names()
+                "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of {names} by --name"
             );
         }
         let Some(overturning) = self.of_suite(fitted)? else {
@@ -137,13 +136,12 @@ impl Models {
 
     /// All fitted structures, or the one named.
     pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
-        let mut structures: Vec<Structure> = Vec::new();
-        for row in &self.overturning {
-            let is_wanted = self.args.name.as_ref().is_none_or(|wanted| *wanted == row.structure);
-            if is_wanted && structures.iter().all(|other| other.name != row.structure) {
-                structures.push(structure_of(row));
-            }
-        }
+        let is_wanted =
+            |row: &&Calibration| self.args.name.as_ref().is_none_or(|name| *name == row.structure);
+        let mut structures: Vec<Structure> =
+            self.overturning.iter().filter(is_wanted).map(structure_of).collect();
+        let mut known = HashSet::new();
+        structures.retain(|structure| known.insert(structure.name.clone()));
         match (&self.args.name, structures.is_empty()) {
             (_, false) => Ok(structures),
             (Some(name), true) => Err(self.not_fitted(name)),
@@ -265,24 +263,22 @@ fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &C
 
 /// What predicts, in words.
 pub fn words_of(model: &Model) -> String {
-    let responses = |n: i64| number::counted(n as usize, "response");
     match model {
-        Model::Calibrated { overturning, .. } => {
-            let floor = if is_floor(&overturning.suite) { " of a floor" } else { "" };
-            let motions = words_of_kind(overturning.kind).to_string() + floor;
-            match overturning.n {
-                0 => format!("rockfrag's universal surface for {motions}"),
-                n => {
-                    let (responses, name) = (responses(n), &overturning.structure);
-                    format!("rockfrag's universal surface, calibrated on {responses} of {name} to {motions}")
-                }
-            }
+        Model::Calibrated { overturning: Calibration { n, structure, kind, suite, .. }, .. } => {
+            let of_floor = if is_floor(suite) { " of a floor" } else { "" };
+            let (responses, motions) = (number::counted(*n as usize, "response"), words_of_kind(*kind));
+            let calibrated = match n {
+                0 => " for".to_string(),
+                _ => format!(", calibrated on {responses} of {structure} to"),
+            };
+            format!("rockfrag's universal surface{calibrated} {motions}{of_floor}")
         }
-        Model::Paper { overturning, .. } => {
-            let kind = Kind::of_word(overturning.suite.as_deref());
-            let (n, motions) = (responses(overturning.n), words_of_kind(kind));
-            let name = &overturning.structure;
-            format!("rockfrag's fit of the paper's curve and planes to {n} of {name} to {motions}")
+        Model::Paper { overturning: CurveFit { n, structure, suite, .. }, .. } => {
+            let responses = number::counted(*n as usize, "response");
+            let motions = words_of_kind(Kind::of_word(suite.as_deref()));
+            format!(
+                "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
+            )
         }
     }
 }

@@ -24,17 +24,14 @@ enum Column {
 const NAMES: [&str; 6] = ["name", "equipment", "object", "item", "tag", "description"];
 /// Names of rows that are no objects.
 const TOTALS: [&str; 6] = ["total", "totals", "sum", "subtotal", "mean", "average"];
-/// Other headings of numbers.
-const SYNONYMS: [(&str, &str); 9] = [
-    ("qty", "count"),
-    ("quantity", "count"),
-    ("number", "count"),
-    ("pieces", "count"),
-    ("t1", "period"),
-    ("inertia-m2", "inertia"),
-    ("mu", "friction"),
-    ("w", "width"),
-    ("h", "height"),
+/// Other headings of options.
+const SYNONYMS: [(&str, &str); 6] = [
+    ("count", "qty quantity number pieces"),
+    ("period", "t1"),
+    ("inertia", "inertia-m2"),
+    ("friction", "mu"),
+    ("width", "w"),
+    ("height", "h"),
 ];
 /// Beginnings of headings of what holds an object: anchors, anchored, bracing, castors, ...
 const HELD: [&str; 7] = ["anchor", "brac", "fix", "restrain", "castor", "caster", "wheel"];
@@ -104,8 +101,9 @@ pub fn describes_object(heading: &Heading) -> bool {
 
 fn meaning(heading: &Heading) -> Column {
     let name = heading.name.replace('_', "-").replace("center", "centre");
-    let synonym = SYNONYMS.iter().find(|(other, _)| *other == name).map(|(_, name)| *name);
+    let is_synonym = |(_, others): &&(&str, &str)| others.split(' ').any(|other| other == name);
     let is_count = heading.unit.is_some_and(|unit| unit.quantity == Quantity::Counts);
+    let synonym = SYNONYMS.iter().find(is_synonym).map(|(option, _)| *option);
     let name = if is_count { "count" } else { synonym.unwrap_or(&name) };
     let command = Spec::command();
     let option = command.get_arguments().find(|option| option.get_long() == Some(name) && name != "name");
@@ -122,14 +120,13 @@ fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
     for (at, column) in columns.iter().enumerate() {
         let (cell, unit) = (sheet.cell(row, at), sheet.headings[at].unit);
         let Column::Option(name, quantity) = column else { continue };
+        let refuse = |unit: Unit, expected| Err(format!("{name} is in {}; expected {expected}", unit.name));
         let size = match (quantity, unit) {
             _ if cell.is_empty() => continue,
             (Some(quantity), Some(unit)) if unit.quantity == *quantity => unit.si,
-            (Some(Quantity::Length), Some(unit)) => {
-                return Err(format!("{name} is in {}; expected m, cm or mm", unit.name));
-            }
+            (Some(Quantity::Length), Some(unit)) => return refuse(unit, "m, cm or mm"),
             (_, Some(unit)) if unit.quantity != Quantity::Counts => {
-                return Err(format!("{name} is in {}; expected another unit, or none", unit.name));
+                return refuse(unit, "another unit, or none");
             }
             _ => 1.0,
         };

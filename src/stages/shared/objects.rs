@@ -1,13 +1,102 @@
-//! An object as the structures that it rocks like, and what is not known of it.
+//! The objects of a call, as the structures that they rock like, and what is not known of them.
 
 use std::f64::consts::FRAC_PI_4;
+use std::path::PathBuf;
 
+use clap::{Args, ValueHint};
+
+use super::object_list;
 use super::spec::{Place, Reason, Restitution, Shape, Spec};
 use crate::fragility::Z_95;
 use crate::hazard::Part;
 use crate::motion::Floor;
-use crate::rocking::{Body, Structure};
+use crate::paper;
+use crate::pipeline::UsageError;
+use crate::plausibility::LEAST_P_RAD_S;
+use crate::rocking::{Body, Structure, housner_eta};
 use crate::statistics::{normal, numerics};
+use crate::warning::{UNNAMED, Warning, Warnings};
+
+/// The structures of a call.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "Structure")]
+pub struct StructureArgs {
+    #[command(flatten)]
+    pub one: Shape,
+    /// A structure; may be repeated: name=frame,p=1.0,alpha=0.15,eta=0.92 or
+    /// name=cabinet,width=0.8,height=2.2
+    #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
+    pub structure: Vec<Spec>,
+    /// CSV list with a name and these options as columns (m, cm or mm by the heading), or the word paper for
+    /// the paper's two
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
+    pub structures: Option<PathBuf>,
+}
+
+impl StructureArgs {
+    /// Whether any is given.
+    pub fn is_given(&self) -> bool {
+        self.structures.is_some() || !self.structure.is_empty() || self.one != Shape::default()
+    }
+
+    /// All structures, each of the weaker direction of an object, and warnings about them and their list.
+    pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
+        let (objects, mut warnings) = self.objects(&Place::default())?;
+        let mut structures = Vec::new();
+        for object in &objects {
+            let name = &object.spec.name;
+            if object.floor().is_some() {
+                return Err(UsageError::because(format!(
+                    "{name} stands on a floor: leave out level and period; floor-motions makes its motions"
+                )));
+            }
+            let structure = object.structure().map_err(UsageError::because)?.clone();
+            let about = warnings_of(&structure).into_iter().map(|warning| (warning, name.clone()));
+            warnings.extend(about.collect());
+            structures.push(structure);
+        }
+        Ok((structures, warnings))
+    }
+
+    /// All objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
+    /// them.
+    pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Warnings)> {
+        let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
+        let (mut specs, mut unused) = (self.structure.clone(), Vec::new());
+        match &self.structures {
+            Some(path) if path.as_os_str() == "paper" => {
+                specs = paper::structures().into_iter().map(of_paper).collect();
+            }
+            Some(path) => (specs, unused) = object_list::read(path)?,
+            None if self.one != Shape::default() => {
+                specs = vec![Spec { name: UNNAMED.to_string(), shape: self.one.clone(), ..Spec::default() }];
+            }
+            None if specs.is_empty() => {
+                return Err(UsageError::because(
+                    "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
+                ));
+            }
+            None => {}
+        }
+        let objects: Vec<Object> = specs.into_iter().map(|spec| Object::new(spec.at(place))).collect();
+        let mut names: Vec<&str> = objects.iter().map(|object| object.spec.name.as_str()).collect();
+        names.sort_unstable();
+        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            let problem = format!("two structures are called '{}'; expected distinct names", pair[0]);
+            return Err(UsageError::because(problem));
+        }
+        Ok((objects, unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect()))
+    }
+}
+
+/// Below this a coefficient of restitution is more likely a typing error.
+const LOW_ETA: f64 = 0.5;
+
+/// Warnings about the parameters of a structure.
+pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
+    let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
+    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
+}
 
 /// An object: the structures that it rocks like, or why there is no answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,22 +165,22 @@ impl Spec {
         if let Some(reason) = &self.refused {
             return Err(reason.clone());
         }
-        match self.place {
-            Place { level: Some(level), period: None, .. } if level > 0.0 => {
-                return Err(Reason::Implausible(
-                    "level needs period, the first of the building (s)".to_string(),
-                ));
-            }
-            Place { level: None, period: Some(_), .. } => {
-                let text = "period needs level, the height of the floor over that of the roof";
-                return Err(Reason::Implausible(text.to_string()));
-            }
-            _ => {}
+        let missing = match (self.place.level, self.place.period) {
+            (Some(level), None) if level > 0.0 => Some("level needs period, the first of the building (s)"),
+            (None, Some(_)) => Some("period needs level, the height of the floor over that of the roof"),
+            _ => None,
+        };
+        if let Some(missing) = missing {
+            return Err(Reason::Implausible(missing.to_string()));
         }
         let Shape { p, alpha, eta, width, height, beam_mass_ratio, .. } = self.shape;
         let mut directions = match (p, alpha, eta, width, height) {
             (Some(p), Some(alpha), Some(eta), None, None) => {
-                vec![self.known(Structure::new(&self.name, p, alpha, eta.value(alpha))?)]
+                let eta = match eta {
+                    Restitution::Number(eta) | Restitution::Fitted(eta) => eta,
+                    Restitution::Housner => housner_eta(alpha),
+                };
+                vec![self.known(Structure::new(&self.name, p, alpha, eta)?)]
             }
             (None, None, _, Some(width), Some(height)) => {
                 self.check(width, height)?;
@@ -174,15 +263,13 @@ impl Spec {
 
     /// Both directions of a body, or that of its width.
     fn sides(&self, width: f64, height: f64) -> Result<Vec<Direction>, Reason> {
-        let of_width = self.side([width, width, height], self.shape.centre_offset.unwrap_or(0.0));
-        let of_depth = self.shape.depth.map(|depth| self.side([width, depth, height], 0.0));
-        let sides: Vec<Result<Direction, Reason>> =
-            [Some(of_width), of_depth].into_iter().flatten().collect();
-        match sides.iter().any(Result::is_ok) {
+        let mut sides = vec![self.side([width, width, height], self.shape.centre_offset.unwrap_or(0.0))];
+        sides.extend(self.shape.depth.map(|depth| self.side([width, depth, height], 0.0)));
+        if sides.iter().any(Result::is_ok) {
             // A direction that is squat is no danger beside one that is not.
-            true => Ok(sides.into_iter().flatten().collect()),
-            false => sides.into_iter().collect(),
+            sides.retain(Result::is_ok);
         }
+        sides.into_iter().collect()
     }
 
     /// The direction of a side of the base; the inertia about the other axis differs by that of a solid

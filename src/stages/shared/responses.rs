@@ -93,13 +93,14 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
             let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
             return Err(TableError::table(&batch.path, problem).into());
         }
+        let some = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
-        cases.edp.extend(of_rows(&rows, &edp));
-        cases.pga_m_s2.extend(of_rows(&rows, &pga));
-        cases.pgv_m_s.extend(of_rows(&rows, &pgv));
-        cases.mw.extend(of_rows(&rows, &mw));
+        cases.edp.extend(some(&edp));
+        cases.pga_m_s2.extend(some(&pga));
+        cases.pgv_m_s.extend(some(&pgv));
+        cases.mw.extend(some(&mw));
         for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
-            cases.column_mut(measure).extend(of_rows(&rows, column));
+            cases.column_mut(measure).extend(some(column));
         }
         for &row in &rows {
             cases.push_cluster(Cluster::of(earthquakes[row].as_deref(), mw[row], re_km[row]));
@@ -114,11 +115,6 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
         }
     }
     Ok(())
-}
-
-/// Some rows of a column.
-fn of_rows<'a>(rows: &'a [usize], column: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-    rows.iter().map(|&row| column[row])
 }
 
 /// The demands, which only overturned structures lack.

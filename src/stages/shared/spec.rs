@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::{Args, Parser};
 
 use crate::pipeline::options::{in_one_line, number};
-use crate::rocking::{Structure, StructureError, housner_eta};
+use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
 /// An object as it is given.
@@ -146,16 +146,6 @@ impl FromStr for Restitution {
             Ok(eta) if eta > 0.0 && eta <= 1.0 => Ok(Restitution::Number(eta)),
             Err(_) if text == "housner" => Ok(Restitution::Housner),
             _ => Err("expected a number above 0 and up to 1, or housner".to_string()),
-        }
-    }
-}
-
-impl Restitution {
-    /// Its value for a slenderness.
-    pub fn value(self, alpha_rad: f64) -> f64 {
-        match self {
-            Restitution::Number(eta) | Restitution::Fitted(eta) => eta,
-            Restitution::Housner => housner_eta(alpha_rad),
         }
     }
 }
