@@ -106,7 +106,7 @@ pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCur
 }
 
 impl Velocity {
-    /// One that is the same (s) in all motions.
+    /// Makes a ratio (s) that is the same in all motions.
     pub fn given(ratio_s: f64) -> Velocity {
         Velocity {
             ratio: RatioGiven::exactly(ratio_s),
@@ -116,7 +116,7 @@ impl Velocity {
         }
     }
 
-    /// That of the motions that a model stands for: those that it was fitted to, or sites in general, of this
+    /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in general, of this
     /// Vs30 (m/s) if it is known.
     pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> Velocity {
         let [level, slope, sd, per_magnitude, sd_of_level] = match given {
