@@ -17,7 +17,7 @@ pub fn renamed(text: &str) -> Result<(String, String), String> {
 pub fn rename(sheet: &mut Sheet, renamed: &[(String, String)]) -> anyhow::Result<()> {
     for (column, heading) in renamed {
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
-            bail!("no heading '{heading}' among {}", headings(sheet));
+            bail!("no heading '{heading}'; found {}", headings(sheet));
         };
         let renamed = Heading::of(column);
         if let (Some(old), Some(new)) = (found.unit, renamed.unit)
