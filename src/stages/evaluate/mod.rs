@@ -170,7 +170,7 @@ impl Evaluate {
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let predict = |_: &Object, subject: &Subject| {
             let (row, budget) = TreeRow::new(motion, subject);
-            (row, budget, motion.peaks(&subject.weaker().1), Vec::new())
+            (row, budget, motion.peaks(&subject.directions[0].1), Vec::new())
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
