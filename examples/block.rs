@@ -1,7 +1,7 @@
 //! Probability that a block overturns in one motion, and its annual rate at a site.
 
 use rockfrag::fragility::{GivenPeak, Kind, Model, Peak, Scenarios};
-use rockfrag::hazard::{HazardCurve, Velocity, rates_over_curve};
+use rockfrag::hazard::{HazardCurve, PgvPgaRatio, rates_over_curve};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rates = [(0.1, 1e-2), (0.2, 3e-3), (0.5, 5e-4), (1.0, 8e-5), (2.0, 8e-6), (4.0, 4e-7)];
     let hazard = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
     // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
-    let ratio = Velocity::of_model(&model, Peak::Pga, None).ratio(6.5, 0.0);
+    let ratio = PgvPgaRatio::of_model(&model, Peak::Pga, None).at(6.5, 0.0);
     let directions = [(block.clone(), model.clone())];
     let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: Some(6.5) };
     let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);

@@ -36,7 +36,7 @@ keywords! {
 }
 
 impl Warning {
-    /// In at most 15 words.
+    /// Returns the text of the warning, at most 15 words.
     pub fn text(self) -> &'static str {
         use Warning::*;
         match self {

@@ -17,16 +17,17 @@ use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::{independent_errors, variance};
 use crate::warning::Warning;
 
-/// Over which magnitudes and distances a probability is meant.
+/// Whether the limits of a probability contain the scatter between earthquakes (tau); its value is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scenarios {
-    /// One: what sets it apart from others (tau) is in the limits.
+    /// One earthquake: they do.
     One,
-    /// Many, among which this averages out, as over a hazard.
+    /// Many, as over a hazard: the scatter averages out.
     Many,
 }
 
-/// The calibration of a structure: a row of pro.calibration.parquet or pex.calibration.parquet.
+/// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
+/// the uplift term g of the [predictor](Predictor), and the magnitude M.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Calibration {

@@ -14,11 +14,11 @@ use crate::statistics::normal::ln_cdf_and_slope;
 /// What is known of a capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KnownCapacity {
-    /// It is this.
+    /// Known exactly.
     At(f64),
-    /// It is less.
+    /// Below this intensity.
     Below(f64),
-    /// It is more.
+    /// Above this intensity.
     Above(f64),
 }
 

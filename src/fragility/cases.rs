@@ -238,7 +238,7 @@ impl Cases {
         Measure::gather(|measure| self.column(measure)[case])
     }
 
-    /// Returns whether an event happened in a case; none where the case does not count.
+    /// Returns whether an event happened in a case; `None` if it is undefined for this outcome.
     pub fn happened(&self, case: usize, event: Event, limit_state: f64) -> Option<bool> {
         event.happened(self.outcome[case], self.edp[case], limit_state)
     }

@@ -19,7 +19,7 @@ pub struct GivenPeak<'a> {
     pub peak: Peak,
     /// PGV / PGA of the motions, given the peak.
     pub ratio: RatioGiven,
-    /// Magnitude of the motions; none where that is what PGV / PGA tells.
+    /// Magnitude of the motions; `None`: inferred from PGV / PGA.
     pub mw: Option<f64>,
 }
 

@@ -27,7 +27,7 @@ pub enum Model {
 const CONFIDENCE: f64 = 0.95;
 
 impl Model {
-    /// That of a structure without fits: the surface for this kind of motion.
+    /// Makes the model of a structure without fits: the surface for this kind of motion.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
         Model::Calibrated {
             overturning: Calibration::shipped(kind, structure, None),
@@ -130,7 +130,7 @@ impl Model {
         }
     }
 
-    /// Ground accelerations that uplift a structure: the least, and a usual one, m/s2.
+    /// Ground accelerations that uplift a structure, the least possible and a typical one, m/s2.
     pub fn uplift_m_s2(&self, structure: &Structure) -> [f64; 2] {
         match self {
             Model::Calibrated { floor: Some(_), .. } => on_floor::uplift_m_s2(structure),

@@ -57,7 +57,7 @@ pub struct Predictor {
     pub added: f64,
 }
 
-/// That of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of magnitude `mw`, where it
+/// Computes the predictor of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of magnitude `mw`, where it
 /// is known; none where a measure is missing.
 pub fn predictor(
     kind: Kind,

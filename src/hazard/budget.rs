@@ -44,7 +44,7 @@ impl Part {
 /// its 16 and 84 % fractiles, as agencies give them. Its median is in the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown<T> {
-    /// Whose it is.
+    /// Source of the error.
     pub part: Part,
     /// Lower quantile.
     pub low: T,
@@ -80,7 +80,7 @@ impl Budget {
         Some(0.5 * (down + up)).filter(|sd| *sd > 0.0)
     }
 
-    /// Those of all parts together.
+    /// Standard deviations of all parts combined.
     pub fn sds(&self) -> [f64; 2] {
         [0, 1].map(|side| self.variances.iter().map(|part| part[side]).sum::<f64>().sqrt())
     }

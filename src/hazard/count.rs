@@ -34,7 +34,7 @@ pub struct CountedMotion {
 pub struct CountedRate {
     /// The rate.
     pub value: f64,
-    /// Of 95 %.
+    /// 95 % limits.
     pub limits: Limits,
     /// How many motions were counted.
     pub motions: usize,

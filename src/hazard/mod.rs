@@ -3,7 +3,7 @@
 //! ```text
 //! curve     annual rate of exceedance of one intensity; the convolution integral
 //! joint     annual rate of occurrence of pairs of PGA and PGV; the sum over them
-//! velocity  PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
+//! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
 //! rates     annual rates of the limit states of a structure, by a model
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
@@ -16,18 +16,18 @@ mod count;
 mod curve;
 mod joint;
 mod motion;
+mod pgv_pga;
 mod rates;
 mod site;
-mod velocity;
 
 pub use budget::{Budget, Budgets, Part, Unknown};
 pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use joint::{JointHazard, PairOfPeaks};
 pub use motion::{Motion, MotionProbabilities};
+pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
 pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
-pub use velocity::{MatchError, Velocity, VelocitySource, magnitude, velocity_of_spectrum};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

@@ -1,7 +1,7 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::{Budgets, Part, Unknown};
-use super::velocity::{Velocity, magnitude};
+use super::pgv_pga::{PgvPgaRatio, magnitude};
 use crate::fragility::{GivenPeak, Model, Peak, Probability, Scenarios, Z_95, limit_states_at};
 use crate::rocking::Structure;
 use crate::statistics::Limits;
@@ -31,8 +31,8 @@ impl Motion {
     /// PGA and PGV (m/s2 and m/s); the one that is not known is the median.
     pub fn peaks(&self, model: &Model) -> [f64; 2] {
         let ratio = |peak: Peak, intensity: f64| {
-            let velocity = Velocity::of_model(model, peak, self.vs30_m_s);
-            velocity.ratio(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
+            let velocity = PgvPgaRatio::of_model(model, peak, self.vs30_m_s);
+            velocity.at(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
         };
         match (self.pga_m_s2, self.pgv_m_s) {
             (Some(pga), Some(pgv)) => [pga, pgv],
@@ -55,13 +55,13 @@ impl Motion {
             (Some(pga), None) => Some((Peak::Pga, pga)),
             (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
         };
-        let velocity = one.map(|(peak, _)| Velocity::of_model(model, peak, self.vs30_m_s));
+        let velocity = one.map(|(peak, _)| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
         let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
             let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
                 return limit_states_at(directions, peaks, self.mw, scenarios);
             };
-            let (ratio, mw) = (velocity.ratio(mw, ln), velocity.magnitude(self.mw, mw));
+            let (ratio, mw) = (velocity.at(mw, ln), velocity.magnitude(self.mw, mw));
             GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
         };
         let logits = |directions: &[(Structure, Model)], mw: f64, ln: f64| {

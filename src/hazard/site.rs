@@ -5,8 +5,8 @@ use super::budget::{Budget, Budgets, Part, Unknown};
 use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::joint::JointHazard;
+use super::pgv_pga::{PgvPgaRatio, VelocitySource, magnitude};
 use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
-use super::velocity::{Velocity, VelocitySource, magnitude};
 use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -33,7 +33,7 @@ pub struct PeakHazard {
     /// The 16 and 84 % fractiles, if they are given.
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it.
-    pub velocity: Option<Velocity>,
+    pub velocity: Option<PgvPgaRatio>,
 }
 
 /// Fraction of a rate that stronger motions than the last may add before it is no value.
@@ -118,11 +118,11 @@ impl Site {
         unknowns: &[Unknown<Vec<(Structure, Model)>>],
     ) -> SiteRates {
         let (peak, model) = (hazard.peak, &directions[0].1);
-        let velocity = hazard.velocity.unwrap_or_else(|| Velocity::of_model(model, peak, self.vs30_m_s));
+        let velocity = hazard.velocity.unwrap_or_else(|| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
         let (mw, of_magnitude) = magnitude(self.mw);
         let given = |mw: f64, ln: f64| {
             let of_motions = velocity.magnitude(self.mw, mw);
-            GivenPeak { directions, peak, ratio: velocity.ratio(mw, ln), mw: of_motions }
+            GivenPeak { directions, peak, ratio: velocity.at(mw, ln), mw: of_motions }
         };
         let middle = given(mw, 0.0);
         let as_given = rates_over_curve(&middle, &hazard.curve);

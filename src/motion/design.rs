@@ -31,7 +31,7 @@ pub struct Grid {
     pub samples: usize,
     /// How a cell is sampled.
     pub design: Design,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 

@@ -17,6 +17,7 @@
 mod combine;
 mod design;
 pub mod floor;
+#[doc(hidden)]
 pub mod fourier;
 mod intensity_measures;
 pub mod measures;

@@ -9,7 +9,7 @@ use super::shared::objects::StructureArgs;
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
 use crate::fragility::{GivenPeak, Peak, Scenarios};
-use crate::hazard::{Velocity, magnitude, strongest};
+use crate::hazard::{PgvPgaRatio, magnitude, strongest};
 use crate::keyword::keywords;
 use crate::pipeline::context::Context;
 use crate::pipeline::{Stage, UsageError};
@@ -69,8 +69,8 @@ impl Stage for Export {
         for structure in &structures {
             let (model, warnings) = models.model(structure)?;
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let (velocity, median) = (Velocity::of_model(&model, self.im, None), magnitude(None).0);
-            let (ratio, mw) = (velocity.ratio(median, 0.0), velocity.magnitude(None, median));
+            let (velocity, median) = (PgvPgaRatio::of_model(&model, self.im, None), magnitude(None).0);
+            let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
             let directions = [(structure.clone(), model.clone())];
             let given_peak = GivenPeak { directions: &directions, peak: self.im, ratio, mw };
             functions.push(self.function(structure, &given_peak));

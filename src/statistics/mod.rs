@@ -19,8 +19,10 @@ mod design;
 pub mod distributions;
 mod fit;
 mod linear;
+#[doc(hidden)]
 pub mod newton;
 pub mod normal;
+#[doc(hidden)]
 pub mod numerics;
 pub mod scores;
 

@@ -4,8 +4,8 @@ use rockfrag::fragility::{
     Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard, Site,
-    Unknown, Velocity, VelocitySource, probability_in_years, rates_over_curve, velocity_of_spectrum,
+    Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard,
+    PgvPgaRatio, Site, Unknown, VelocitySource, probability_in_years, rates_over_curve, velocity_of_spectrum,
 };
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
@@ -134,7 +134,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let pga = power_law(1e-3, k, 9);
     let (slope, sd) = (0.1, 0.45);
     let pgv = curve_of_velocity(k, -2.9, slope, sd);
-    let velocity = Velocity::of_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
+    let velocity = PgvPgaRatio::of_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard = PeakHazard { peak: Peak::Pga, curve: pga, fractiles, velocity: Some(velocity) };
     let site = Site {
@@ -159,10 +159,10 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
 fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
     let model = Model::shipped(Kind::Recorded, &equipment(), 0.1);
     for (vs30, mw, ln_ratio) in read::<(f64, f64, f64)>("site_levels.csv") {
-        let velocity = Velocity::of_model(&model, Peak::Pga, Some(vs30));
-        let ours = velocity.ratio(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
+        let velocity = PgvPgaRatio::of_model(&model, Peak::Pga, Some(vs30));
+        let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
         assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
-        assert!(velocity.unknown().high < Velocity::of_model(&model, Peak::Pga, None).unknown().high);
+        assert!(velocity.unknown().high < PgvPgaRatio::of_model(&model, Peak::Pga, None).unknown().high);
     }
 }
 
@@ -187,14 +187,15 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
     let pga = power_law(1e-3, 2.2, 33);
     for (level, slope) in [(-2.9, 0.0), (-2.2, -0.3), (-3.3, 0.2)] {
         let pgv = curve_of_velocity(2.2, level, slope, 0.42);
-        let velocity = Velocity::of_curves(&pga, &pgv, VelocitySource::Velocity).unwrap();
+        let velocity = PgvPgaRatio::of_curves(&pga, &pgv, VelocitySource::Velocity).unwrap();
         for pga_m_s2 in [1.0, 5.0] {
-            let ratio = velocity.ratio(6.5, 0.0).ratio(pga_m_s2, 0.0);
+            let ratio = velocity.at(6.5, 0.0).ratio(pga_m_s2, 0.0);
             let expected = (level + slope * f64::ln(pga_m_s2)).exp();
             assert!((ratio / expected - 1.0).abs() < 1e-4, "{ratio} for {expected}");
         }
     }
-    let matched = |pgv: &HazardCurve| Velocity::of_curves(&pga, pgv, VelocitySource::Velocity).unwrap_err();
+    let matched =
+        |pgv: &HazardCurve| PgvPgaRatio::of_curves(&pga, pgv, VelocitySource::Velocity).unwrap_err();
     assert!(matches!(matched(&curve_of_velocity(2.2, 1.0, 0.0, 0.42)), MatchError::ImpossibleRatio { .. }));
     let kinked = HazardCurve::new(vec![(0.05, 0.1), (0.1, 1e-4), (0.5, 5e-5), (2.0, 1e-6)]).unwrap();
     assert!(matches!(matched(&kinked), MatchError::Unlike(_)));

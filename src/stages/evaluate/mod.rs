@@ -28,7 +28,7 @@ use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{Object, StructureArgs};
 use super::shared::responses;
 use super::shared::spec::{Place, Reason, Restitution, Spec};
-use crate::hazard::{Hazard, Motion, PeakHazard, Site, Velocity};
+use crate::hazard::{Hazard, Motion, PeakHazard, Site, PgvPgaRatio};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
@@ -204,7 +204,7 @@ impl Evaluate {
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
-                *velocity = self.ratio.map(Velocity::given);
+                *velocity = self.ratio.map(PgvPgaRatio::given);
             }
             _ if self.ratio.or(self.vs30).is_some() => {
                 return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));

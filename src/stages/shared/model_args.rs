@@ -168,6 +168,7 @@ impl Models {
 
     fn names(&self) -> String {
         let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
+        names.sort_unstable();
         names.dedup();
         listed(&names, 8)
     }
@@ -216,6 +217,7 @@ impl Models {
         let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
         if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
+            // Fits to the same responses have the same line, to the last bit.
             if row.ratio_given_pga != overturning.ratio_given_pga {
                 let (folder, name) = (self.folder(), &overturning.structure);
                 bail!(

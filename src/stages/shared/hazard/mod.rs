@@ -12,7 +12,7 @@ use self::columns::{Content, Frequency, Intensity, Statistic, content};
 pub use self::columns::{headings, peak, rename, renamed};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, JointHazard, PairOfPeaks, PeakHazard};
-use crate::hazard::{Velocity, VelocitySource, velocity_of_spectrum};
+use crate::hazard::{PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use crate::plausibility::judge_hazard;
 use crate::sheet::{Heading, Sheet};
 use crate::units::{CM_PER_M, G_M_S2};
@@ -77,11 +77,11 @@ fn joined(curves: &[Curve]) -> anyhow::Result<PeakHazard> {
         .map(|intensity| of(intensity, Statistic::Mean).or(of(intensity, Statistic::Median)));
     let (peak, curve, velocity) = match (pga, pgv, spectral) {
         (Some(pga), Some(pgv), _) => {
-            (Peak::Pga, pga, Some(Velocity::of_curves(pga, pgv, VelocitySource::Velocity)?))
+            (Peak::Pga, pga, Some(PgvPgaRatio::of_curves(pga, pgv, VelocitySource::Velocity)?))
         }
         (Some(pga), None, Some(spectral)) => {
             let pgv = velocity_of_spectrum(pga, spectral);
-            (Peak::Pga, pga, Some(Velocity::of_curves(pga, &pgv, VelocitySource::Spectrum)?))
+            (Peak::Pga, pga, Some(PgvPgaRatio::of_curves(pga, &pgv, VelocitySource::Spectrum)?))
         }
         (Some(pga), None, None) => (Peak::Pga, pga, None),
         (None, _, Some(_)) => bail!("SA(1.0 s) without PGA; expected the curve of PGA too"),

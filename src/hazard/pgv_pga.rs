@@ -26,7 +26,7 @@ keywords! {
 
 /// PGV / PGA of the motions of a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Velocity {
+pub struct PgvPgaRatio {
     /// Given the peak of the hazard, at the magnitude [`MIDDLE`].
     ratio: RatioGiven,
     /// By how much ln(PGV / PGA) rises with magnitude.
@@ -105,10 +105,10 @@ pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCur
     sa_1s.map(|sa, rate| factor * sa.powf(1.0 - of_pga) * pga.intensity(rate).powf(of_pga))
 }
 
-impl Velocity {
-    /// One that is the same (s) in all motions.
-    pub fn given(ratio_s: f64) -> Velocity {
-        Velocity {
+impl PgvPgaRatio {
+    /// Makes a ratio (s) that is the same in all motions.
+    pub fn given(ratio_s: f64) -> PgvPgaRatio {
+        PgvPgaRatio {
             ratio: RatioGiven::exactly(ratio_s),
             per_magnitude: 0.0,
             sd: 0.0,
@@ -116,9 +116,9 @@ impl Velocity {
         }
     }
 
-    /// That of the motions that a model stands for: those that it was fitted to, or sites in general, of this
+    /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in general, of this
     /// Vs30 (m/s) if it is known.
-    pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> Velocity {
+    pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
         let [level, slope, sd, per_magnitude, sd_of_level] = match given {
             Peak::Pga => GIVEN_PGA,
             Peak::Pgv => GIVEN_PGV,
@@ -133,9 +133,9 @@ impl Velocity {
                 });
                 let at = LEVEL_AT[given as usize];
                 let ratio = RatioGiven::line(level + of_vs30 - slope * at.ln(), slope, sd);
-                Velocity { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }
+                PgvPgaRatio { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }
             }
-            _ => Velocity {
+            _ => PgvPgaRatio {
                 ratio: model.peaks().given(given),
                 per_magnitude: 0.0,
                 sd: sd_of_level,
@@ -153,7 +153,7 @@ impl Velocity {
         pga: &HazardCurve,
         pgv: &HazardCurve,
         source: VelocitySource,
-    ) -> Result<Velocity, MatchError> {
+    ) -> Result<PgvPgaRatio, MatchError> {
         let [[(_, first), (_, last)], [(_, first_v), (_, last_v)]] = [pga.ends(), pgv.ends()];
         let most = MATCHED[1].min(0.5 * first).min(first_v);
         let least = MATCHED[0].max(2.0 * last).max(last_v);
@@ -181,7 +181,7 @@ impl Velocity {
         }
         let is_spectrum = source == VelocitySource::Spectrum;
         let per_magnitude = if is_spectrum { BY_SPECTRUM[2] } else { 0.0 };
-        Ok(Velocity { ratio: line, per_magnitude, sd: SD_BY_CURVES[usize::from(is_spectrum)], source })
+        Ok(PgvPgaRatio { ratio: line, per_magnitude, sd: SD_BY_CURVES[usize::from(is_spectrum)], source })
     }
 
     /// What is not known of it: ln of a factor.
@@ -199,7 +199,7 @@ impl Velocity {
     }
 
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
-    pub fn ratio(&self, mw: f64, ln: f64) -> RatioGiven {
+    pub fn at(&self, mw: f64, ln: f64) -> RatioGiven {
         self.ratio.raised(self.per_magnitude * (mw - MIDDLE) + ln)
     }
 }
