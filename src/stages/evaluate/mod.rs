@@ -28,7 +28,7 @@ use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{Object, StructureArgs};
 use super::shared::responses;
 use super::shared::spec::{Place, Reason, Restitution, Spec};
-use crate::hazard::{Hazard, Motion, PeakHazard, Site, PgvPgaRatio};
+use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
@@ -134,9 +134,8 @@ impl Stage for Evaluate {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         if let Some(path) = &self.input {
-            let (structures, place) = (&self.structures, &self.place);
-            let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
-            let (rows, text) = table::evaluate(path, &self.columns, &given, place, &models, context)?;
+            let (columns, structures) = (&self.columns, &self.structures);
+            let (rows, text) = table::evaluate(path, columns, structures, &self.place, &models, context)?;
             self.write(&rows, text, context)
         } else if self.hazard.is_empty() {
             self.under_motion(&self.motion()?, &models, context)
@@ -170,7 +169,7 @@ impl Evaluate {
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let predict = |_: &Object, subject: &Subject| {
             let (row, budget) = TreeRow::new(motion, subject);
-            (row, budget, motion.peaks(&subject.weaker().1), Vec::new())
+            (row, budget, motion.peaks(&subject.directions[0].1), Vec::new())
         };
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         self.finish(&all, point::text(&all, self.sentence), context)
@@ -249,11 +248,9 @@ impl Evaluate {
         text: String,
         context: &Context,
     ) -> anyhow::Result<String> {
+        let is_stated = |of: &Warning| matches!(of, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
         for answer in all {
-            let others = answer
-                .warnings
-                .iter()
-                .filter(|warning| !matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated));
+            let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
             context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
         }
         let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();

@@ -187,11 +187,6 @@ impl Subject {
         Ok((Subject { directions, unknowns }, warnings))
     }
 
-    /// The weaker direction.
-    pub fn weaker(&self) -> &(Structure, Model) {
-        &self.directions[0]
-    }
-
     /// Warnings about predictions at a motion (m/s2 and m/s).
     pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
         let warnings = |(structure, model): &(Structure, Model)| {
@@ -222,9 +217,10 @@ pub fn answers<R: Predicted>(
         warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
-        let (structure, model) = subject.weaker();
+        let weaker = &subject.directions[0];
+        let (structure, model) = weaker;
         Ok(Answer {
-            object: ObjectRow::new(&object, Some(subject.weaker()), models.limit_state()),
+            object: ObjectRow::new(&object, Some(weaker), models.limit_state()),
             row,
             doubts: DoubtsRow::new(&warnings, &budget),
             warnings,

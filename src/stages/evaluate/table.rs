@@ -23,7 +23,7 @@ use crate::stages::shared::hazard::{headings, peak, rename};
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::motions::known;
 use crate::stages::shared::object_list::describes_object;
-use crate::stages::shared::objects::Object;
+use crate::stages::shared::objects::{Object, StructureArgs};
 use crate::stages::shared::spec::{Place, Restitution, Spec};
 use crate::table::TableError;
 use crate::table::columns::Batch;
@@ -31,15 +31,12 @@ use crate::table::file::Table;
 use crate::table::rows;
 use crate::warning::Warning;
 
-/// What is predicted for, and the warnings about it.
-type Known = (Subject, Vec<Warning>);
-
-/// Reads intensities, and returns them with their probabilities, and what to print. Without a `given`
-/// structure each row has its own.
+/// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
+/// is given each row has its own.
 pub fn evaluate(
     path: &Path,
     renamed: &[(String, String)],
-    given: &[Object],
+    structures: &StructureArgs,
     place: &Place,
     models: &Models,
     context: &Context,
@@ -48,6 +45,7 @@ pub fn evaluate(
         true => vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }],
         false => Table::open(path)?.batches(&|_| true).collect::<Result<Vec<_>, TableError>>()?,
     };
+    let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -64,10 +62,10 @@ pub fn evaluate(
     }
     let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
     let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
-    let mut of_rows: HashMap<[u64; 3], Known> = HashMap::new();
+    let mut of_rows = HashMap::new();
     let mut evaluated = Vec::new();
     for batch in &batches {
-        let structures = if given.is_some() { Vec::new() } else { structures(batch)? };
+        let structures = if given.is_some() { Vec::new() } else { structures_of_rows(batch)? };
         for structure in &structures {
             if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
                 let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
@@ -86,7 +84,7 @@ pub fn evaluate(
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn with_probabilities<'a>(
     batch: &Batch,
-    of_row: impl Fn(usize) -> &'a Known + Sync,
+    of_row: impl Fn(usize) -> &'a (Subject, Vec<Warning>) + Sync,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
@@ -150,7 +148,7 @@ fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
 }
 
 /// The structure of each row.
-fn structures(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
+fn structures_of_rows(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
     let (p, alpha) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
     let eta = batch.required_numbers("eta")?;
     let structure = |row: usize| Ok(batch.structure(row, "structure", [p[row], alpha[row], eta[row]])?);

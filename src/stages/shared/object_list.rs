@@ -9,6 +9,7 @@ use super::hazard::headings;
 use super::spec::{Reason, Spec};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
+use crate::warning::{Warning, Warnings};
 
 /// What a column is about.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,13 +39,13 @@ const HELD: [&str; 7] = ["anchor", "brac", "fix", "restrain", "castor", "caster"
 /// Cells that say that nothing does.
 const FREE: [&str; 10] = ["", "no", "n", "none", "false", "0", "-", "free", "unanchored", "free-standing"];
 
-/// Reads a list: the objects of its rows, and the headings of columns that say nothing of them.
-pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
+/// Reads a list: the objects of its rows, and warnings about columns that say nothing of them.
+pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Warnings)> {
     let objects = || objects(&Sheet::parse(&std::fs::read(path)?)?);
     objects().with_context(|| path.display().to_string())
 }
 
-fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
+fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Warnings)> {
     let columns: Vec<Column> = sheet.headings.iter().map(meaning).collect();
     let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
     if !(has("height") || has("p")) {
@@ -89,7 +90,7 @@ fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Vec<String>)> {
     };
     let is_unused = |(at, column): &(usize, &Column)| **column == Column::Unused && Some(*at) != named;
     let unused = columns.iter().enumerate().filter(is_unused);
-    let unused = unused.map(|(at, _)| sheet.headings[at].text.clone()).collect();
+    let unused = unused.map(|(at, _)| (Warning::UnusedColumns, sheet.headings[at].text.clone())).collect();
     Ok((names.iter().enumerate().map(spec).collect(), unused))
 }
 

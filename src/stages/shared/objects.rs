@@ -62,7 +62,7 @@ impl StructureArgs {
     /// them.
     pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
-        let (mut specs, mut unused) = (self.structure.clone(), Vec::new());
+        let (mut specs, mut unused) = (self.structure.clone(), Warnings::default());
         match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
                 specs = paper::structures().into_iter().map(of_paper).collect();
@@ -85,7 +85,7 @@ impl StructureArgs {
             let problem = format!("two structures are called '{}'; expected distinct names", pair[0]);
             return Err(UsageError::because(problem));
         }
-        Ok((objects, unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect()))
+        Ok((objects, unused))
     }
 }
 

@@ -51,7 +51,7 @@ pub fn read(
         (Some(_), _) => bail!("a hazard of PGA and PGV together among others; expected it alone"),
         (None, _) => Hazard::Curve(joined(&found.curves)?),
     };
-    Ok((hazard, found.unused.into_iter().map(|heading| (Warning::UnusedColumns, heading)).collect()))
+    Ok((hazard, found.unused))
 }
 
 /// The hazard of one peak, with what the other curves tell of it.
@@ -106,8 +106,8 @@ struct Curve {
 struct Found {
     curves: Vec<Curve>,
     joint: Vec<JointHazard>,
-    /// Headings of columns that say nothing of the curves.
-    unused: Vec<String>,
+    /// About columns that say nothing of the curves.
+    unused: Warnings,
 }
 
 impl Found {
@@ -181,7 +181,7 @@ impl Found {
                 && !PLACES.contains(&sheet.headings[*at].name.as_str())
         };
         let unused = others.iter().filter(is_unused).map(|(at, _)| sheet.headings[*at].text.clone());
-        self.unused.extend(unused);
+        self.unused.extend(unused.map(|heading| (Warning::UnusedColumns, heading)).collect());
         Ok(())
     }
 }
