@@ -1,5 +1,7 @@
 //! The responses of each suite and structure, as the fits take them.
 
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
@@ -13,7 +15,7 @@ use crate::table::frame;
 
 /// What is read of a response besides the measures of Eq. 13.
 const COLUMNS: &str =
-    "suite structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
+    "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
 /// Gives further measures by name, a column each, of the motions of these names and a structure.
 pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>>;
@@ -42,15 +44,13 @@ pub fn is_floor(suite: &Option<String>) -> bool {
 /// The same with candidate measures.
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
-    let is_wanted = |name: &str| {
-        COLUMNS.split(' ').any(|column| column == name)
-            || is_measure(name)
-            || (candidates.is_some() && name == "motion_id")
-    };
+    let is_wanted = |name: &str| COLUMNS.split(' ').any(|column| column == name) || is_measure(name);
     let table = Table::open(path)?;
-    let mut all: Vec<Cases> = Vec::new();
+    let (mut all, mut known) = (Vec::new(), HashSet::new());
     for batch in table.batches(&is_wanted) {
-        add(&mut all, &batch?, candidates)?;
+        let batch = batch?;
+        expect_once(&batch, &mut known)?;
+        add(&mut all, &batch, candidates)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
@@ -112,6 +112,24 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
                 Some((_, column)) => column.extend(values),
                 None => cases.candidates.push((name, values)),
             }
+        }
+    }
+    Ok(())
+}
+
+/// Checks that no response is there twice, as in a folder with the files of two runs. `known` has hashes of all
+/// responses so far.
+fn expect_once(batch: &Batch, known: &mut HashSet<u64>) -> Result<(), TableError> {
+    let (suites, motions) = (batch.texts("suite")?, batch.texts("motion_id")?);
+    let (structures, pga) = (batch.required_texts("structure")?, batch.required_numbers("pga_m_s2")?);
+    for (row, motion) in motions.iter().enumerate() {
+        let Some(motion) = motion else { continue };
+        let (suite, structure) = (&suites[row], &structures[row]);
+        let mut hash = DefaultHasher::new();
+        (suite, structure, motion, pga[row].to_bits()).hash(&mut hash);
+        if !known.insert(hash.finish()) {
+            let problem = format!("the response of '{structure}' to '{motion}' is there twice; keep one");
+            return Err(batch.value_error(row, "motion_id", problem));
         }
     }
     Ok(())
