@@ -67,8 +67,8 @@ fn responses_that_cannot_be_right_are_named() {
     let text = |word: &str| -> ArrayRef { Arc::new(StringArray::from(vec!["safe_rocking", word])) };
     let numbers = |first: f64, second: f64| -> ArrayRef { Arc::new(Float64Array::from(vec![first, second])) };
     let write = |column: &str, values: ArrayRef| {
-        let same =
-            ["motion_id", "structure"].map(|name| (name, Arc::new(StringArray::from(vec!["a", "a"])) as _));
+        let texts = |name, words| (name, Arc::new(StringArray::from(words)) as ArrayRef);
+        let same = [texts("motion_id", vec!["1", "2"]), texts("structure", vec!["a", "a"])];
         let usual = [("p_rad_s", 2.5), ("alpha_rad", 0.2), ("eta", 0.92), ("edp", 0.1), ("pga_m_s2", 3.0)];
         let others = [("pgv_m_s", 0.5), ("im4", 1.5), ("im5", 0.6)];
         let usual = usual.into_iter().chain(others).map(|(name, value)| (name, numbers(value, value)));
@@ -84,6 +84,7 @@ fn responses_that_cannot_be_right_are_named() {
         ("outcome", text("falls"), vec!["row 2", "outcome", "falls"]),
         ("outcome", text(""), vec!["row 2", "outcome"]),
         ("edp", numbers(0.1, f64::NAN), vec!["row 2", "edp"]),
+        ("motion_id", Arc::new(StringArray::from(vec!["1", "1"])), vec!["1 response twice"]),
     ] {
         write(column, values);
         fail(folder.path(), "fit-pro", 1, &[&["responses.parquet"], &named[..]].concat());

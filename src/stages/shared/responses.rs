@@ -1,12 +1,14 @@
 //! The responses of each suite and structure, as the fits take them.
 
-use std::collections::HashSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
+
+use rayon::prelude::*;
 
 use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
+use crate::number::counted;
 use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
 use crate::table::columns::Batch;
@@ -46,14 +48,20 @@ pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     let is_wanted = |name: &str| COLUMNS.split(' ').any(|column| column == name) || is_measure(name);
     let table = Table::open(path)?;
-    let (mut all, mut known) = (Vec::new(), HashSet::new());
+    let (mut all, mut hashes) = (Vec::new(), Vec::new());
     for batch in table.batches(&is_wanted) {
         let batch = batch?;
-        expect_once(&batch, &mut known)?;
+        add_hashes(&mut hashes, &batch)?;
         add(&mut all, &batch, candidates)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
+    }
+    hashes.par_sort_unstable();
+    let repeated = hashes.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if repeated > 0 {
+        let problem = format!("{} twice; keep one of each", counted(repeated, "response"));
+        return Err(TableError::table(path, problem).into());
     }
     all.iter_mut().for_each(Cases::sort_clusters);
     Ok(all)
@@ -117,20 +125,14 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
     Ok(())
 }
 
-/// Checks that no response is there twice, as in a folder with the files of two runs. `known` has hashes of all
-/// responses so far.
-fn expect_once(batch: &Batch, known: &mut HashSet<u64>) -> Result<(), TableError> {
+/// Adds a hash of suite, structure, motion and PGA of each response.
+fn add_hashes(hashes: &mut Vec<u64>, batch: &Batch) -> Result<(), TableError> {
     let (suites, motions) = (batch.texts("suite")?, batch.texts("motion_id")?);
     let (structures, pga) = (batch.required_texts("structure")?, batch.required_numbers("pga_m_s2")?);
-    for (row, motion) in motions.iter().enumerate() {
-        let Some(motion) = motion else { continue };
-        let (suite, structure) = (&suites[row], &structures[row]);
+    for (row, motion) in motions.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
         let mut hash = DefaultHasher::new();
-        (suite, structure, motion, pga[row].to_bits()).hash(&mut hash);
-        if !known.insert(hash.finish()) {
-            let problem = format!("the response of '{structure}' to '{motion}' is there twice; keep one");
-            return Err(batch.value_error(row, "motion_id", problem));
-        }
+        (&suites[row], &structures[row], motion, pga[row].to_bits()).hash(&mut hash);
+        hashes.push(hash.finish());
     }
     Ok(())
 }
