@@ -84,7 +84,7 @@ fn responses_that_cannot_be_right_are_named() {
         ("outcome", text("falls"), vec!["row 2", "outcome", "falls"]),
         ("outcome", text(""), vec!["row 2", "outcome"]),
         ("edp", numbers(0.1, f64::NAN), vec!["row 2", "edp"]),
-        ("motion_id", Arc::new(StringArray::from(vec!["1", "1"])), vec!["1 response twice"]),
+        ("motion_id", Arc::new(StringArray::from(vec!["1", "1"])), vec!["1 repeated response"]),
     ] {
         write(column, values);
         fail(folder.path(), "fit-pro", 1, &[&["responses.parquet"], &named[..]].concat());

@@ -187,9 +187,11 @@ impl Evaluate {
         let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
         let is_counted = |answer: &Answer<RatesRow>| answer.row.counted_motions.is_some();
         if let Some(path) = self.responses.as_ref().filter(|_| !all.iter().any(is_counted)) {
-            let names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
+            let mut names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
+            names.sort_unstable();
+            names.dedup();
             anyhow::bail!(
-                "{}: responses of {}; expected responses of the structure of this call, to its kind of motion",
+                "{}: responses of {}; expected those of this structure, without depth, to motions of its kind that uplift it",
                 path.display(),
                 listed(&names, 8)
             );

@@ -60,7 +60,7 @@ pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<
     hashes.par_sort_unstable();
     let repeated = hashes.windows(2).filter(|pair| pair[0] == pair[1]).count();
     if repeated > 0 {
-        let problem = format!("{} twice; keep one of each", counted(repeated, "response"));
+        let problem = format!("{}; keep one of each", counted(repeated, "repeated response"));
         return Err(TableError::table(path, problem).into());
     }
     all.iter_mut().for_each(Cases::sort_clusters);
