@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::Context;
+use chrono::Local;
 use clap::ValueEnum;
 
 use crate::pipeline::UsageError;
@@ -40,19 +40,6 @@ impl Start {
     }
 }
 
-/// The date, as 2026-11-23 (Hinnant, chrono-compatible low-level date algorithms: years begin in March).
-fn today() -> String {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-    let days = since.as_secs() / 86_400 + 719_468;
-    let (era, day_of_era) = (days / 146_097, days % 146_097);
-    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let month = (5 * day_of_year + 2) / 153;
-    let (day, month) =
-        (day_of_year - (153 * month + 2) / 5 + 1, if month < 10 { month + 3 } else { month - 9 });
-    format!("{}-{month:02}-{day:02}", era * 400 + year_of_era + u64::from(month <= 2))
-}
-
 /// Writes the files of a start into a folder, unless one of them is there already. Returns which.
 pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     let folder = folder.strip_prefix(".").unwrap_or(folder);
@@ -68,7 +55,7 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
         let place = || path.display().to_string();
         std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).with_context(place)?;
         // A file that came meanwhile is left as it is.
-        let content = content.replace("TODAY", &today());
+        let content = content.replace("TODAY", &Local::now().date_naive().to_string());
         File::create_new(path).and_then(|mut file| file.write_all(content.as_bytes())).with_context(place)?;
         writeln!(text, "wrote {}", path.display())?;
     }
