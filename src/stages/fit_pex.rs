@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueHint};
-use serde::{Deserialize, Serialize};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
 use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
+use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -85,7 +85,7 @@ impl Stage for FitPex {
         let summary = format!(
             "{}\n{}",
             calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration")),
-            planes_text(&fits, &self.out)?
+            planes_text(&fits, &self.out)
         );
         context.warn(warnings(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
@@ -95,32 +95,18 @@ impl Stage for FitPex {
     }
 }
 
-/// A printed row: the two planes.
-#[derive(Serialize, Deserialize)]
-struct PlanesLine {
-    suite: String,
-    structure: String,
-    transition: Option<f64>,
-    #[serde(rename = "R2 below")]
-    r2_below: Option<f64>,
-    #[serde(rename = "R2 above")]
-    r2_above: Option<f64>,
-    verdict: String,
-}
-
-fn planes_text(fits: &[DemandFit], out: &Path) -> anyhow::Result<String> {
+/// The pairs of planes as a table.
+fn planes_text(fits: &[DemandFit], out: &Path) -> String {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
     let line = |pair: &[&DemandFit]| {
         let (below, above) = (pair[0], pair[1]);
-        PlanesLine {
-            suite: suite_name(&below.suite),
-            structure: below.structure.clone(),
-            transition: below.range_high,
-            r2_below: below.r2,
-            r2_above: above.r2,
-            verdict: verdict(if below.status == FitStatus::Ok { above.status } else { below.status }),
-        }
+        let number = |value: Option<f64>| significant(value.unwrap_or(f64::NAN), 4);
+        let [transition, r2_below, r2_above] = [below.range_high, below.r2, above.r2].map(number);
+        let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
+        let name = [suite_name(&below.suite), below.structure.clone()];
+        name.into_iter().chain([transition, r2_below, r2_above, verdict]).collect()
     };
-    let lines: Vec<PlanesLine> = planes.chunks_exact(2).map(line).collect();
-    Ok(format!("planes (paper), below and above the transition\n{}", text(&lines, out)?))
+    let headings = ["suite", "structure", "transition", "R2 below", "R2 above", "verdict"];
+    let table = text(&headings, planes.chunks_exact(2).map(line), 2..5, out);
+    format!("planes (paper), below and above the transition\n{table}")
 }

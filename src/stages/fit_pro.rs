@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use serde::{Deserialize, Serialize};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
@@ -66,7 +65,7 @@ impl Stage for FitPro {
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let calibration = part(&self.out, "calibration");
-        let mut summary = curves_text(&fits, self.confidence, &self.out)?;
+        let mut summary = curves_text(&fits, self.confidence, &self.out);
         if !calibrations.is_empty() {
             let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration);
             summary = format!("{calibrated}\n{summary}");
@@ -79,33 +78,20 @@ impl Stage for FitPro {
     }
 }
 
-/// A printed row: the curve of IM5.
-#[derive(Serialize, Deserialize)]
-struct CurveLine {
-    suite: String,
-    structure: String,
-    median: Option<String>,
-    dispersion: Option<String>,
-    verdict: String,
-}
-
-fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> anyhow::Result<String> {
+/// The curves of IM5 as a table.
+fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
     let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
         let of = |wanted: Parameter| {
-            let row = parameters.iter().find(|row| row.parameter == wanted)?;
-            Some(THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""))
+            let row = parameters.iter().find(|row| row.parameter == wanted);
+            let limited = row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some));
+            THREE_DIGITS.both(limited, "")
         };
-        CurveLine {
-            suite: suite_name(&fit.suite),
-            structure: fit.structure.clone(),
-            median: of(Parameter::Theta),
-            dispersion: of(Parameter::Beta),
-            verdict: verdict(fit.status),
-        }
+        let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(of);
+        vec![suite_name(&fit.suite), fit.structure.clone(), median, dispersion, verdict(fit.status)]
     };
     let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
-    let lines: Vec<CurveLine> = of_im5.map(line).collect();
-    let limits = 100.0 * confidence;
-    Ok(format!("lognormal curve (paper) of IM5, with {limits} % limits\n{}", text(&lines, out)?))
+    let headings = ["suite", "structure", "median", "dispersion", "verdict"];
+    let (limits, table) = (100.0 * confidence, text(&headings, of_im5.map(line), 0..0, out));
+    format!("lognormal curve (paper) of IM5, with {limits} % limits\n{table}")
 }
