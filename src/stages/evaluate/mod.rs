@@ -40,8 +40,8 @@ use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
-use self::object::{Answer, Subject};
-pub use self::object::{DoubtsRow, ObjectRow, Predicted};
+use self::object::Subject;
+pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 pub use self::point::TreeRow;
 pub use self::rates::{RatesRow, of_all};
 pub use self::words::{model_of_all, size, too_far};

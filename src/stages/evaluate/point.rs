@@ -98,7 +98,7 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
     };
     let (uplift, title, peaks, model) =
         (uplift(object, tree), title(object), words_of_peaks(tree), model(object));
-    format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(object))
+    format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(answer))
 }
 
 fn of_several(all: &[Answer<TreeRow>]) -> String {
@@ -125,13 +125,8 @@ fn of_several(all: &[Answer<TreeRow>]) -> String {
             ]
         },
     );
-    let by = format!(
-        "All {}, by {}.",
-        words_of_peaks(&worst.row),
-        model_of_all(all.iter().map(|answer| &answer.object))
-    );
-    let linear = linear(all.iter().map(|answer| &answer.object));
-    format!("{first}\n{table}{}", line([Some(by), linear]))
+    let by = format!("All {}, by {}.", words_of_peaks(&worst.row), model_of_all(all));
+    format!("{first}\n{table}{}", line([Some(by), linear(all)]))
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {

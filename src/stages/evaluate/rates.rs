@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, ObjectRow, Predicted};
+use super::object::{Answer, Predicted};
 use super::words::{
     friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
@@ -108,21 +108,22 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String
         about_limits(answer, site),
         model(object),
         usual_motion(site),
-        validity(object)
+        validity(answer)
     )
 }
 
 /// The expected number of a list, and the probability that one or more overturns: between that of the worst
 /// and that of independent ones.
-pub fn of_all<'a>(all: impl Iterator<Item = (&'a ObjectRow, &'a RatesRow)> + Clone) -> Option<String> {
-    let known =
-        all.clone().filter_map(|(object, row)| Some((object.count.unwrap_or(1.0), row.p_overturning[0]?)));
-    let known: Vec<(f64, f64)> = known.collect();
+pub fn of_all(all: &[Answer<RatesRow>]) -> Option<String> {
+    let known = |Answer { object, row, .. }: &Answer<RatesRow>| {
+        Some((object.count.unwrap_or(1.0), row.p_overturning[0]?))
+    };
+    let known: Vec<(f64, f64)> = all.iter().filter_map(known).collect();
     let number: f64 = known.iter().map(|(count, _)| count).sum();
     let expected: f64 = known.iter().map(|(count, p)| count * p).sum();
     let worst = known.iter().filter(|(count, _)| *count > 0.0).map(|(_, p)| *p).fold(0.0, f64::max);
     let independent = -known.iter().map(|(count, p)| count * (-p).ln_1p()).sum::<f64>();
-    let years = all.map(|(_, row)| in_years(row)).next()?;
+    let years = in_years(&all.first()?.row);
     (number > 1.0).then(|| {
         let [low, high] = [worst, -(-independent).exp_m1()];
         let limits = PERCENT.value([None, Some(low), Some(high)]);
@@ -157,13 +158,13 @@ fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>) -> Str
         Some(often) => format!("{name} overturns most often: {often}"),
         None => format!("{name} {how_often}"),
     };
-    let (model, usual) = (model_of_all(all.iter().map(|answer| &answer.object)), usual_motion(site));
+    let (model, usual) = (model_of_all(all), usual_motion(site));
     let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
     format!(
         "{first}\n{table}{}{}{}",
-        line([of_all(all.iter().map(|answer| (&answer.object, &answer.row)))]),
+        line([of_all(all)]),
         about_limits(worst, site),
-        line([Some(by), linear(all.iter().map(|answer| &answer.object))]),
+        line([Some(by), linear(all)]),
     )
 }
 

@@ -75,15 +75,15 @@ pub fn line(sentences: impl IntoIterator<Item = Option<String>>) -> String {
 }
 
 /// What is taken of the buildings, if an object stands on a floor.
-pub fn linear<'a>(mut objects: impl Iterator<Item = &'a ObjectRow>) -> Option<String> {
-    let is_any = objects.any(|object| object.floor_level.is_some());
+pub fn linear<R>(all: &[Answer<R>]) -> Option<String> {
+    let is_any = all.iter().any(|answer| answer.object.floor_level.is_some());
     is_any.then(|| "The building is taken as linear.".to_string())
 }
 
 /// What the answer for an object takes as given.
-pub fn validity(object: &ObjectRow) -> String {
-    let friction = || format!("Valid if friction is above {}; else it slides.", friction(object));
-    line([(!object.is_friction_known).then(friction), linear(std::iter::once(object))])
+pub fn validity<R>(answer: &Answer<R>) -> String {
+    let friction = || format!("Valid if friction is above {}; else it slides.", friction(&answer.object));
+    line([(!answer.object.is_friction_known).then(friction), linear(std::slice::from_ref(answer))])
 }
 
 pub fn friction(object: &ObjectRow) -> String {
@@ -121,7 +121,7 @@ fn brief<R>(answer: &Answer<R>) -> String {
 /// A table of a list: of each object its size, these cells and the warnings; at its end the responses to
 /// which each was fitted, if these are not the same for all.
 pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
-    let responses = is_fitted_each(all.iter().map(|answer| &answer.object)).then_some("responses");
+    let responses = is_fitted_each(all).then_some("responses");
     let heading =
         ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
     let row = |answer: &Answer<R>| {
@@ -134,15 +134,16 @@ pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>)
     number::aligned(&rows, |_| false)
 }
 
-fn is_fitted_each<'a>(objects: impl Iterator<Item = &'a ObjectRow> + Clone) -> bool {
+fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
+    let objects = all.iter().map(|answer| &answer.object);
     let mut models = objects.filter(|object| object.p_rad_s.is_some()).map(|object| &object.model);
     models.next().is_some_and(|first| models.any(|other| other != first))
 }
 
 /// What predicts for all objects, the worst of which is the first.
-pub fn model_of_all<'a>(objects: impl Iterator<Item = &'a ObjectRow> + Clone) -> &'a str {
-    let model = objects.clone().next().map_or("", model);
-    match model.contains("surface") && is_fitted_each(objects) {
+pub fn model_of_all<R>(all: &[Answer<R>]) -> &str {
+    let model = model(&all[0].object);
+    match model.contains("surface") && is_fitted_each(all) {
         true => "rockfrag's universal surface, calibrated where there are responses",
         false => model,
     }

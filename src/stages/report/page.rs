@@ -13,7 +13,7 @@ use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, model_of_all, of_all, size};
+use crate::stages::evaluate::{Answer, RatesRow, model_of_all, of_all, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -97,7 +97,7 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
 /// What was asked, of which objects, by which motions and hazard, and what the limits leave out.
 fn facts(tables: &Tables) -> Vec<String> {
     let mut facts = Vec::new();
-    if let Some((_, rates, doubts)) = tables.objects.first() {
+    if let Some(Answer { row: rates, doubts, .. }) = tables.objects.first() {
         let made = tables.made_by("evaluate");
         let hazard = made.and_then(|made| made.files.get("hazard")).map_or("a hazard", |name| name);
         let years = number::plain(rates.years.unwrap_or(f64::NAN));
@@ -106,8 +106,8 @@ fn facts(tables: &Tables) -> Vec<String> {
             "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over \
              {hazard}."
         ));
-        facts.push(format!("By {}.", model_of_all(tables.objects.iter().map(|(object, ..)| object))));
-        facts.extend(of_all(tables.objects.iter().map(|(object, row, _)| (object, row))));
+        facts.push(format!("By {}.", model_of_all(&tables.objects)));
+        facts.extend(of_all(&tables.objects));
         let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
         let parts = doubts.words().join(", ");
         facts.push(format!("The 95 % limits contain the errors of {parts}{without}."));
@@ -166,25 +166,25 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
 }
 
 /// The warnings of objects, or why they have no rate: a line for those of the same words.
-fn warnings_of(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Vec<String> {
-    let warned = objects.iter().filter(|(.., doubts)| doubts.warnings.is_some());
-    let line = |same: Vec<&(ObjectRow, RatesRow, DoubtsRow)>| {
-        let names: Vec<&str> = same.iter().map(|(object, ..)| object.structure.as_str()).collect();
-        let words = same[0].2.warnings.as_deref().unwrap_or_default();
+fn warnings_of(objects: &[Answer<RatesRow>]) -> Vec<String> {
+    let warned = objects.iter().filter(|answer| answer.doubts.warnings.is_some());
+    let line = |same: Vec<&Answer<RatesRow>>| {
+        let names: Vec<&str> = same.iter().map(|answer| answer.object.structure.as_str()).collect();
+        let words = same[0].doubts.warnings.as_deref().unwrap_or_default();
         if names == [UNNAMED] {
             words.to_string()
         } else {
             format!("{}: {words}", listed(&names, MOST_NAMED))
         }
     };
-    by(warned, |(.., doubts)| &doubts.warnings).into_iter().map(line).collect()
+    by(warned, |answer| &answer.doubts.warnings).into_iter().map(line).collect()
 }
 
 /// One row per object.
-fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Table {
-    let years = objects.iter().find_map(|(_, row, _)| row.years).unwrap_or(f64::NAN);
+fn rates(objects: &[Answer<RatesRow>]) -> Table {
+    let years = objects.iter().find_map(|answer| answer.row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
-    let row = |(object, row, _): &(ObjectRow, RatesRow, DoubtsRow)| {
+    let row = |Answer { object, row, .. }: &Answer<RatesRow>| {
         json!({
             "object": Some(&object.structure).filter(|name| *name != UNNAMED),
             "size": object.p_rad_s.map(|_| size(object)),

@@ -6,7 +6,7 @@ use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::paper;
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, Predicted, RatesRow};
+use crate::stages::evaluate::{Answer, DoubtsRow, ObjectRow, Predicted, RatesRow};
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -31,7 +31,7 @@ pub struct Tables {
     pub limit_state: f64,
     pub compared: Vec<Comparison>,
     /// Objects with annual rates, the worst first.
-    pub objects: Vec<(ObjectRow, RatesRow, DoubtsRow)>,
+    pub objects: Vec<Answer<RatesRow>>,
     /// Each file with its number of rows and, if it is ours, what made it.
     pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
     /// What is not shown, and why.
@@ -98,9 +98,10 @@ impl Tables {
             }
             let objects = rows::read::<ObjectRow>(path)?.into_iter().zip(rows::read::<RatesRow>(path)?);
             let objects = objects.zip(rows::read::<DoubtsRow>(path)?);
-            self.objects.extend(objects.map(|((object, rates), doubts)| (object, rates, doubts)));
+            let answer = |((object, row), doubts)| Answer { object, row, doubts, ..Answer::default() };
+            self.objects.extend(objects.map(answer));
         }
-        self.objects.sort_by(|(_, a, _), (_, b, _)| b.severity().total_cmp(&a.severity()));
+        self.objects.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use crate::fragility::{Z_95, grouped, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::rocking::{CapacityStatus, Outcome};
-use crate::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow, too_far};
+use crate::stages::evaluate::{Answer, RatesRow, too_far};
 use crate::stages::ida::{CapacityFitRow, CapacityRow};
 use crate::stages::report::tables::title;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
@@ -22,16 +22,16 @@ const SETS: i64 = 6;
 const PAPER: [&str; 2] = ["im3:im4", "im5"];
 
 /// Annual rates of overturning of objects, if there are several: one row an object in their order.
-pub fn list(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Figure {
+pub fn list(objects: &[Answer<RatesRow>]) -> Figure {
     let several = objects.iter().filter(|_| objects.len() > 1).take(OBJECTS);
-    let rates = several.map(|(object, row, _)| (object.structure.clone(), row.overturning_per_year));
+    let rates = several.map(|of| (of.object.structure.clone(), of.row.overturning_per_year));
     annual("list", "How often each object overturns", "annual rate of overturning", rates.collect())
 }
 
 /// Annual rates of the limit states, if there is one object.
-pub fn rates(objects: &[(ObjectRow, RatesRow, DoubtsRow)]) -> Figure {
+pub fn rates(objects: &[Answer<RatesRow>]) -> Figure {
     let rates = match objects {
-        [(object, row, _)] => vec![
+        [Answer { object, row, .. }] => vec![
             ("rocks".to_string(), [row.rocking_per_year, None, None]),
             (format!("{}, or overturns", too_far(object)), row.failure_per_year),
             ("overturns".to_string(), row.overturning_per_year),
