@@ -39,13 +39,13 @@ impl Stage for Validate {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
-        let models = self.fits.read()?;
+        let mut models = self.fits.read()?;
         let bar = context.bar(groups.len() as u64);
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.
             let kind = Kind::of_word(cases.suite.as_deref());
-            let models = models.of_kind(self.fits.suite.unwrap_or(kind));
+            models.args.suite = self.fits.suite.or(Some(kind));
             let (model, warnings) = models.model(&cases.structure)?;
             context
                 .warn(warnings.into_iter().map(|warning| (warning, cases.structure.name.clone())).collect());

@@ -208,7 +208,7 @@ pub fn answers<R: Predicted>(
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         if let Err(reason) = &object.directions {
             let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
-            let object = ObjectRow::new(&object, None, models.limit_state());
+            let object = ObjectRow::new(&object, None, models.args.limit_state);
             return Ok(Answer { object, doubts, ..Answer::default() });
         }
         let (subject, mut warnings) = Subject::of(&object, models)?;
@@ -220,7 +220,7 @@ pub fn answers<R: Predicted>(
         let weaker = &subject.directions[0];
         let (structure, model) = weaker;
         Ok(Answer {
-            object: ObjectRow::new(&object, Some(weaker), models.limit_state()),
+            object: ObjectRow::new(&object, Some(weaker), models.args.limit_state),
             row,
             doubts: DoubtsRow::new(&warnings, &budget),
             warnings,

@@ -53,7 +53,7 @@ pub struct ModelArgs {
 /// Fits, and the surface where there are none.
 #[derive(Debug, Clone)]
 pub struct Models {
-    args: ModelArgs,
+    pub args: ModelArgs,
     overturning: Vec<Calibration>,
     exceeding: Vec<Calibration>,
     curves: Vec<CurveFit>,
@@ -94,11 +94,11 @@ impl Models {
             );
         }
         let Some(overturning) = self.of_suite(fitted)? else {
+            let any = || self.of_suite(self.overturning.iter().collect());
             let kind = match suite {
-                Some(kind) => Some(kind),
-                None => self.of_suite(self.overturning.iter().collect())?.map(|row| row.kind),
+                Some(kind) => kind,
+                None => any()?.map_or(Kind::Recorded, |row| row.kind),
             };
-            let kind = kind.unwrap_or(Kind::Recorded);
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         };
@@ -122,16 +122,6 @@ impl Models {
         let warnings =
             [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
-    }
-
-    /// The same for this kind of motion.
-    pub fn of_kind(&self, kind: Kind) -> Models {
-        Models { args: ModelArgs { suite: Some(kind), ..self.args.clone() }, ..self.clone() }
-    }
-
-    /// Demand |theta|max / alpha that is the limit state.
-    pub fn limit_state(&self) -> f64 {
-        self.args.limit_state
     }
 
     /// All fitted structures, or the one named.
