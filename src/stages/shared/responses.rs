@@ -51,8 +51,7 @@ pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
     for batch in table.batches(&is_wanted) {
         let batch = batch?;
-        add_hashes(&mut hashes, &batch)?;
-        add(&mut all, &batch, candidates)?;
+        add(&mut all, &mut hashes, &batch, candidates)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
@@ -67,8 +66,14 @@ pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<
     Ok(all)
 }
 
-/// Adds the responses of a batch to the cases of their suites and structures.
-fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> anyhow::Result<()> {
+/// Adds the responses of a batch to the cases of their suites and structures, and a hash of suite, structure,
+/// motion and PGA of each.
+fn add(
+    all: &mut Vec<Cases>,
+    hashes: &mut Vec<u64>,
+    batch: &Batch,
+    candidates: Option<Candidates>,
+) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
     let (p_rad_s, alpha_rad) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
     let eta = batch.required_numbers("eta")?;
@@ -81,6 +86,11 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
         other => batch.numbers(other.as_str()),
     };
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
+    for (row, motion) in batch.texts("motion_id")?.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
+        let mut hash = DefaultHasher::new();
+        (&suites[row], &names[row], motion, pga[row].to_bits()).hash(&mut hash);
+        hashes.push(hash.finish());
+    }
     let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
     let group = |row: usize| Group { suite: suites[row].as_deref(), structure: &names[row] };
     let parameters = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
@@ -121,18 +131,6 @@ fn add(all: &mut Vec<Cases>, batch: &Batch, candidates: Option<Candidates>) -> a
                 None => cases.candidates.push((name, values)),
             }
         }
-    }
-    Ok(())
-}
-
-/// Adds a hash of suite, structure, motion and PGA of each response.
-fn add_hashes(hashes: &mut Vec<u64>, batch: &Batch) -> Result<(), TableError> {
-    let (suites, motions) = (batch.texts("suite")?, batch.texts("motion_id")?);
-    let (structures, pga) = (batch.required_texts("structure")?, batch.required_numbers("pga_m_s2")?);
-    for (row, motion) in motions.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
-        let mut hash = DefaultHasher::new();
-        (&suites[row], &structures[row], motion, pga[row].to_bits()).hash(&mut hash);
-        hashes.push(hash.finish());
     }
     Ok(())
 }
