@@ -32,12 +32,11 @@ pub fn plain(value: f64) -> String {
 
 /// Writes a number with this many significant digits, small and large ones with a power of ten: 2.9e-5.
 pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 { "0" } else { "-" }.to_string();
-    }
     let text = format!("{value:.*e}", digits - 1);
     let power: i32 = text.split_once('e').map_or(0, |(_, power)| power.parse().unwrap_or(0));
     match power {
+        _ if value == 0.0 => "0".to_string(),
+        _ if !value.is_finite() => "-".to_string(),
         -3..6 => fixed(value, (digits as i32 - 1 - power).max(0) as usize),
         _ => text,
     }

@@ -68,8 +68,7 @@ impl Sheet {
         let mut rows = rows(&lines, separator);
         let is_number = |cell: &str| number(cell, separator).is_some();
         let numbers = |(_, row): &&Row| row.iter().filter(|cell| is_number(cell)).count();
-        let model = rows.iter().rev().take(400).max_by_key(numbers);
-        let model = model.map_or(StringRecord::new(), |(_, row)| row.clone());
+        let (_, model) = rows.iter().rev().take(400).max_by_key(numbers).cloned().unwrap_or_default();
         let is_data = |(_, row): &Row| {
             let pairs = model.iter().zip(row).filter(|(like, cell)| is_number(like) && !cell.is_empty());
             let (numbers, words): (Vec<_>, Vec<_>) = pairs.partition(|(_, cell)| is_number(cell));

@@ -170,8 +170,9 @@ impl Spec {
             (None, Some(_)) => Some("period needs level, the height of the floor over that of the roof"),
             _ => None,
         };
+        let implausible = |text: &str| Err(Reason::Implausible(text.to_string()));
         if let Some(missing) = missing {
-            return Err(Reason::Implausible(missing.to_string()));
+            return implausible(missing);
         }
         let Shape { p, alpha, eta, width, height, beam_mass_ratio, .. } = self.shape;
         let mut directions = match (p, alpha, eta, width, height) {
@@ -191,11 +192,7 @@ impl Spec {
                     None => self.sides(width, height)?,
                 }
             }
-            _ => {
-                return Err(Reason::Implausible(
-                    "expected p, alpha and eta, or width and height".to_string(),
-                ));
-            }
+            _ => return implausible("expected p, alpha and eta, or width and height"),
         };
         let tan = |direction: &Direction| direction.structure.alpha_rad.tan();
         directions.sort_by(|a, b| tan(a).total_cmp(&tan(b)));
@@ -213,26 +210,21 @@ impl Spec {
     fn check(&self, width: f64, height: f64) -> Result<(), Reason> {
         let (shape, place) = (&self.shape, &self.place);
         let side = shape.depth.map_or(width, |depth| depth.min(width));
-        let inertia = 3.0 * Body::solid_inertia_m2(width, height);
+        let (offset, inertia) =
+            (shape.centre_offset.map(f64::abs), 3.0 * Body::solid_inertia_m2(width, height));
         let most = [
             ("width", Some(side), height, "m, the height: were they exchanged?"),
             ("depth", shape.depth, LONGEST * height, "m, 20 times the height: is it in cm or mm?"),
             ("centre-height", shape.centre_height, height, "m, the height: were they exchanged?"),
-            (
-                "centre-offset",
-                shape.centre_offset.map(f64::abs),
-                0.5 * width,
-                "m, half of the width: is it from an edge, or in cm?",
-            ),
+            ("centre-offset", offset, 0.5 * width, "m, half of the width: is it from an edge, or in cm?"),
             ("inertia", shape.inertia, inertia, "m2: is it about an edge, or times mass?"),
             ("centre-height-sd", place.centre_height_sd, height, "m, the height: is it in cm?"),
             ("centre-offset-sd", place.centre_offset_sd, width, "m, the width: is it in cm?"),
         ];
         for (name, value, most, expected) in most {
             if let Some(value) = value.filter(|value| *value > most) {
-                return Err(Reason::Implausible(format!(
-                    "{name} is {value}; expected up to {most} {expected}"
-                )));
+                let problem = format!("{name} is {value}; expected up to {most} {expected}");
+                return Err(Reason::Implausible(problem));
             }
         }
         Ok(())

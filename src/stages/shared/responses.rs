@@ -96,14 +96,11 @@ fn add(
     let parameters = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
     for rows in frame::groups((0..names.len()).map(group))? {
         let group = group(rows[0]);
-        let place = match all.iter().position(|cases| cases.group() == group) {
-            Some(place) => place,
-            None => {
-                let structure = batch.structure(rows[0], group.structure, parameters(rows[0]))?;
-                all.push(Cases::new(group.suite, structure));
-                all.len() - 1
-            }
-        };
+        let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
+        if place == all.len() {
+            let structure = batch.structure(rows[0], group.structure, parameters(rows[0]))?;
+            all.push(Cases::new(group.suite, structure));
+        }
         let cases = &mut all[place];
         expect_same(batch, &cases.structure, &rows, parameters)?;
         if cases.len() + rows.len() > MOST_CASES {
