@@ -6,7 +6,7 @@ use rockfrag::motion::IntensityMeasures;
 use rockfrag::number;
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
 use rockfrag::rocking::{Outcome, Response, Structure};
-use rockfrag::stages::evaluate::{DoubtsRow, ObjectRow, RatesRow};
+use rockfrag::stages::evaluate::{Answer, ObjectRow, RatesRow};
 use rockfrag::stages::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::stages::report::figures::*;
 use rockfrag::stages::report::tables::Tables;
@@ -81,10 +81,12 @@ fn figures(count: usize) -> Vec<Figure> {
     };
     let motions = [record("csgm"), record("pulse")];
     let motions = &motions[..1 + count.min(1)];
-    let rates_of_object =
-        RatesRow { overturning_per_year: [Some(1e-3), None, Some(2e-3)], ..Default::default() };
-    let object = ObjectRow { structure: "rack ".repeat(30), ..Default::default() };
-    let objects = vec![(object, rates_of_object, DoubtsRow::default()); count];
+    let answer = || Answer {
+        object: ObjectRow { structure: "rack ".repeat(30), ..Default::default() },
+        row: RatesRow { overturning_per_year: [Some(1e-3), None, Some(2e-3)], ..Default::default() },
+        ..Default::default()
+    };
+    let objects: Vec<Answer<RatesRow>> = (0..count).map(|_| answer()).collect();
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
         "theta": [0.3, null, null], "beta": [0.5, null, null], "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
