@@ -43,7 +43,7 @@ pub fn simulate_motion<'py>(
         let usage = |error: &dyn ToString| UsageError::because(error.to_string());
         let structure = structure
             .parse()
-            .and_then(|spec| Object::new(spec).structure().cloned())
+            .and_then(|spec| Object::new(spec).expect_directions().map(|found| found[0].structure.clone()))
             .map_err(|error| usage(&error))?;
         if !(0.0..=1000.0).contains(&tail_s) {
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));

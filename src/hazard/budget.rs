@@ -46,10 +46,8 @@ impl Part {
 pub struct Unknown<T> {
     /// Source of the error.
     pub part: Part,
-    /// Lower quantile.
-    pub low: T,
-    /// Upper quantile.
-    pub high: T,
+    /// Lower and upper quantile.
+    pub quantiles: [T; 2],
 }
 
 impl<T> Unknown<T> {
@@ -132,7 +130,7 @@ impl Budgets {
     /// Adds what an unknown causes: how far the results fall and rise between its quantiles, as standard
     /// deviations.
     pub fn vary<T>(&mut self, unknown: &Unknown<T>, results: impl Fn(&T) -> [f64; 2]) {
-        let [low, high] = [results(&unknown.low), results(&unknown.high)];
+        let [low, high] = unknown.quantiles.each_ref().map(results);
         let sds = |k: usize| {
             let off = [low[k], high[k]].map(|end| (end - self.values[k]) / unknown.deviations());
             [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]

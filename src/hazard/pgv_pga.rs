@@ -96,7 +96,7 @@ pub enum MatchError {
 /// is not known of it.
 pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
     let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
-    (median, Unknown { part: Part::Magnitude, low: median - Z_95 * sd, high: median + Z_95 * sd })
+    (median, Unknown { part: Part::Magnitude, quantiles: [-Z_95, Z_95].map(|off| median + off * sd) })
 }
 
 /// The curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
@@ -186,7 +186,7 @@ impl PgvPgaRatio {
 
     /// What is not known of it: ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
-        Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
+        Unknown { part: Part::Velocity, quantiles: [-Z_95, Z_95].map(|off| off * self.sd) }
     }
 
     /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is known

@@ -143,8 +143,8 @@ impl Site {
         for unknown in parameters(directions).iter().chain(unknowns) {
             budgets.vary(unknown, |directions| of(&GivenPeak { directions, ..middle }, &curve));
         }
-        if let Some([low, high]) = &hazard.fractiles {
-            let fractiles = Unknown { part: Part::Hazard, low: extended(low), high: extended(high) };
+        if let Some(fractiles) = &hazard.fractiles {
+            let fractiles = Unknown { part: Part::Hazard, quantiles: fractiles.each_ref().map(extended) };
             budgets.vary(&fractiles, |curve| of(&middle, curve));
         }
 
@@ -229,5 +229,7 @@ fn parameters(directions: &[(Structure, Model)]) -> Vec<Unknown<Vec<(Structure, 
         models.map(|((structure, _), ends)| (structure.clone(), ends[error][end].clone())).collect()
     };
     let fewest = ends.iter().map(Vec::len).min().unwrap_or(0);
-    (0..fewest).map(|error| Unknown { part: Part::Fit, low: at(error, 0), high: at(error, 1) }).collect()
+    (0..fewest)
+        .map(|error| Unknown { part: Part::Fit, quantiles: [0, 1].map(|end| at(error, end)) })
+        .collect()
 }

@@ -147,7 +147,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let rates = site.rates(&[(structure, model)], &[]);
     let errors = rates.budgets.overturning;
     let of_velocity = errors.sd_of(Part::Velocity).unwrap();
-    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high / Z_95;
+    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().quantiles[1] / Z_95;
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
     assert!((errors.sd_of(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
     assert_eq!(errors.sd_of(Part::Magnitude), None);
@@ -162,7 +162,10 @@ fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
         let velocity = PgvPgaRatio::of_model(&model, Peak::Pga, Some(vs30));
         let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
         assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
-        assert!(velocity.unknown().high < PgvPgaRatio::of_model(&model, Peak::Pga, None).unknown().high);
+        assert!(
+            velocity.unknown().quantiles[1]
+                < PgvPgaRatio::of_model(&model, Peak::Pga, None).unknown().quantiles[1]
+        );
     }
 }
 
@@ -207,10 +210,11 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
 fn limits_are_those_of_normal_errors() {
     let mut budgets = rockfrag::hazard::Budgets::about([0.0, 1.0]);
     budgets.add(Part::Fit, [[0.1, 0.1], [0.3, 0.3]]);
-    budgets.vary(&Unknown { part: Part::Eta, low: -Z_95, high: Z_95 }, |x| [0.0, 1.0 + 0.4 * x]);
+    budgets.vary(&Unknown { part: Part::Eta, quantiles: [-Z_95, Z_95] }, |x| [0.0, 1.0 + 0.4 * x]);
     // What only raises a result, such as an offset to either side, has no lower side.
-    budgets
-        .vary(&Unknown { part: Part::Object, low: -Z_95, high: Z_95 }, |x: &f64| [0.0, 1.0 + 1.2 * x.abs()]);
+    budgets.vary(&Unknown { part: Part::Object, quantiles: [-Z_95, Z_95] }, |x: &f64| {
+        [0.0, 1.0 + 1.2 * x.abs()]
+    });
     budgets.add(Part::Floor, [[0.0; 2], [f64::NAN; 2]]);
     let budget: Budget = budgets.overturning;
     let [down, up] = budget.sds();

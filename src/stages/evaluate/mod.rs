@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! object       what is predicted for each object of a call, the worst first
-//! point        probabilities at one PGA and PGV
+//! point        probabilities at a PGA, a PGV or both
 //! rates        annual rates at a site
 //! target       the width of a base that meets a target
 //! table        probabilities at each intensity of a table
@@ -234,7 +234,7 @@ impl Evaluate {
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused);
         let can_be = |object: &Object| !matches!(object.directions, Err(Reason::Implausible(_)));
-        match (objects.first().map(Object::structure), &self.structures.structures) {
+        match (objects.first().map(Object::expect_directions), &self.structures.structures) {
             (Some(Err(reason)), path) if !objects.iter().any(can_be) => match path {
                 Some(path) => anyhow::bail!("{}: {reason}; no other row can be right either", path.display()),
                 None => Err(UsageError::because(reason)),

@@ -41,7 +41,7 @@ pub trait Predicted: Row + Default + Send + Sync {
     }
 }
 
-/// An object and the model that predicts for it; without parameters where its row cannot be right.
+/// An object and the model that predicts for it; without parameters where it has no answer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ObjectRow {
     pub structure: String,
@@ -143,8 +143,7 @@ pub struct Subject {
 impl Subject {
     /// An object on its floor, and the warnings about the models.
     pub fn of(object: &Object, models: &Models) -> anyhow::Result<(Subject, Vec<Warning>)> {
-        object.structure().map_err(UsageError::because)?;
-        let found = object.directions.as_deref().unwrap_or_default();
+        let found = object.expect_directions().map_err(UsageError::because)?;
         let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
         for Direction { structure, .. } in found {
             let (model, of_model) = models.model(structure)?;
@@ -152,30 +151,29 @@ impl Subject {
             warnings.extend(warnings_of(structure));
             on_ground.push(model);
         }
-        if object.floor().is_some() {
+        let floor = object.floor();
+        if floor.is_some() {
             models.expect_ground()?;
         }
-        let on = |floor: Option<Floor>| -> anyhow::Result<Vec<Model>> {
+        let on = |floor: Option<Floor>, structure: &dyn Fn(&Direction) -> Structure| {
             let problem = || UsageError::because("period: the paper's model is that of the ground");
-            on_ground.iter().map(|model| model.on(floor).ok_or_else(problem)).collect()
-        };
-        let models = on(object.floor())?;
-        let structures = || found.iter().map(|direction| direction.structure.clone());
-        // The directions of an object have the same parts unknown.
-        let unknown = |(number, (part, _)): (usize, &(Part, [Structure; 2]))| {
-            let at = |end: usize| {
-                let structures = found.iter().map(|direction| direction.unknowns[number].1[end].clone());
-                structures.zip(models.iter().cloned()).collect()
+            let pair = |(direction, model): (&Direction, &Model)| {
+                anyhow::Ok((structure(direction), model.on(floor).ok_or_else(problem)?))
             };
-            Unknown { part: *part, low: at(0), high: at(1) }
+            found.iter().zip(&on_ground).map(pair).collect::<anyhow::Result<Vec<_>>>()
         };
-        let mut unknowns: Vec<Unknown<Vec<(Structure, Model)>>> =
-            found[0].unknowns.iter().enumerate().map(unknown).collect();
-        if let Some([low, high]) = object.unknown_floor() {
-            let at = |floor| anyhow::Ok(structures().zip(on(Some(floor))?).collect());
-            unknowns.push(Unknown { part: Part::Floor, low: at(low)?, high: at(high)? });
+        let given = |direction: &Direction| direction.structure.clone();
+        let directions = on(floor, &given)?;
+        let mut unknowns = Vec::new();
+        // The directions of an object have the same parts unknown.
+        for (number, Unknown { part, .. }) in found[0].unknowns.iter().enumerate() {
+            let at = |end: usize| on(floor, &|direction| direction.unknowns[number].quantiles[end].clone());
+            unknowns.push(Unknown { part: *part, quantiles: [at(0)?, at(1)?] });
         }
-        let directions = structures().zip(models.iter().cloned()).collect();
+        if let Some([low, high]) = object.unknown_floor() {
+            let quantiles = [on(Some(low), &given)?, on(Some(high), &given)?];
+            unknowns.push(Unknown { part: Part::Floor, quantiles });
+        }
         Ok((Subject { directions, unknowns }, warnings))
     }
 

@@ -1,4 +1,4 @@
-//! Probabilities at one PGA and PGV, and in words.
+//! Probabilities at a PGA, a PGV or both, and in words.
 
 use serde::{Deserialize, Serialize};
 

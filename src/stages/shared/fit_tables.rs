@@ -41,7 +41,6 @@ pub fn text(
     first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
 }
 
-/// The name of a suite.
 pub fn suite_name(suite: &Option<String>) -> String {
     suite.clone().unwrap_or_else(|| "-".to_string())
 }

@@ -1,4 +1,4 @@
-//! What several stages have: the options of structures and fits, and motions as simulate and ida take them.
+//! What several stages have: objects and models as options, and what they read: hazards, motions, responses.
 
 pub mod fit_tables;
 pub mod hazard;

@@ -8,9 +8,9 @@ use clap::{Args, ValueHint};
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
-use crate::number;
+use crate::number::counted;
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{listed, number as number_in};
+use crate::pipeline::options::{listed, number};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::verdict;
 use crate::stages::shared::responses::is_floor;
@@ -28,7 +28,6 @@ keywords! {
     }
 }
 
-/// The model of a call.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Model")]
 pub struct ModelArgs {
@@ -46,7 +45,7 @@ pub struct ModelArgs {
     pub model: ModelName,
     /// Limit state, as demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
-          value_parser = number_in(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
+          value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
     pub limit_state: f64,
 }
 
@@ -207,7 +206,7 @@ impl Models {
         let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
         if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
-            // Fits to the same responses have the same line, to the last bit.
+            // Fits to the same responses have the same PGV/PGA, to the last bit.
             if row.ratio_given_pga != overturning.ratio_given_pga {
                 let (folder, name) = (self.folder(), &overturning.structure);
                 bail!(
@@ -257,7 +256,7 @@ pub fn words_of(model: &Model) -> String {
     match model {
         Model::Calibrated { overturning: Calibration { n, structure, kind, suite, .. }, .. } => {
             let of_floor = if is_floor(suite) { " of a floor" } else { "" };
-            let (responses, motions) = (number::counted(*n as usize, "response"), words_of_kind(*kind));
+            let (responses, motions) = (counted(*n as usize, "response"), words_of_kind(*kind));
             let calibrated = match n {
                 0 => " for".to_string(),
                 _ => format!(", calibrated on {responses} of {structure} to"),
@@ -265,7 +264,7 @@ pub fn words_of(model: &Model) -> String {
             format!("rockfrag's universal surface{calibrated} {motions}{of_floor}")
         }
         Model::Paper { overturning: CurveFit { n, structure, suite, .. }, .. } => {
-            let responses = number::counted(*n as usize, "response");
+            let responses = counted(*n as usize, "response");
             let motions = words_of_kind(Kind::of_word(suite.as_deref()));
             format!(
                 "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"

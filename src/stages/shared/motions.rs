@@ -30,7 +30,6 @@ pub struct Measures {
 }
 
 impl Measures {
-    /// Measures a motion.
     pub fn new(motion: &Motion, record: &Record, scratch: &mut MeasureScratch) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let pgv = || measures::peak(&measures::velocity(samples, dt_s));
@@ -42,7 +41,6 @@ impl Measures {
         }
     }
 
-    /// Scales the motion by a factor.
     pub fn scaled(self, factor: f64) -> Measures {
         Measures { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..self }
     }
@@ -85,15 +83,15 @@ const PEAK_TOLERANCE: f64 = 0.1;
 
 /// Warnings about a recorded motion of the ground.
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
-    let is_other =
+    let is_not_recorded =
         |word: &str| word.ends_with(Suite::OF_FLOOR) || keyword::parse::<SyntheticSuite>(word).is_ok();
-    if motion.suite.as_deref().is_some_and(is_other) {
+    if motion.suite.as_deref().is_some_and(is_not_recorded) {
         return Warnings::default();
     }
     let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
     let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
-    let is_other = |given: f64, peak: f64| (given - peak).abs() > PEAK_TOLERANCE * peak;
-    let is_other = is_other(motion.pga_m_s2, record.peak_m_s2()) || is_other(motion.pgv_m_s, pgv_m_s);
+    let differs = |given: f64, peak: f64| (given - peak).abs() > PEAK_TOLERANCE * peak;
+    let is_other = differs(motion.pga_m_s2, record.peak_m_s2()) || differs(motion.pgv_m_s, pgv_m_s);
     let implausible = plausibility::implausibility(samples, dt_s)
         .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
     let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));

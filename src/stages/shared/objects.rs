@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 use super::object_list;
 use super::spec::{Place, Reason, Restitution, Shape, Spec};
 use crate::fragility::Z_95;
-use crate::hazard::Part;
+use crate::hazard::{Part, Unknown};
 use crate::motion::Floor;
 use crate::paper;
 use crate::pipeline::UsageError;
@@ -34,7 +34,6 @@ pub struct StructureArgs {
 }
 
 impl StructureArgs {
-    /// Whether any is given.
     pub fn is_given(&self) -> bool {
         self.structures.is_some() || !self.structure.is_empty() || self.one != Shape::default()
     }
@@ -50,7 +49,7 @@ impl StructureArgs {
                     "{name} stands on a floor: leave out level and period; floor-motions makes its motions"
                 )));
             }
-            let structure = object.structure().map_err(UsageError::because)?.clone();
+            let structure = object.expect_directions().map_err(UsageError::because)?[0].structure.clone();
             let about = warnings_of(&structure).into_iter().map(|warning| (warning, name.clone()));
             warnings.extend(about.collect());
             structures.push(structure);
@@ -92,7 +91,6 @@ impl StructureArgs {
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
 
-/// Warnings about the parameters of a structure.
 pub fn warnings_of(structure: &Structure) -> Vec<Warning> {
     let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
@@ -110,8 +108,8 @@ pub struct Object {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
     pub structure: Structure,
-    /// What is not known of it: the structure at the 2.5 and 97.5 % quantiles.
-    pub unknowns: Vec<(Part, [Structure; 2])>,
+    /// What is not known of it.
+    pub unknowns: Vec<Unknown<Structure>>,
 }
 
 /// Standard deviation of the logarithm of a building's period that is not given.
@@ -131,10 +129,10 @@ impl Object {
         Object { directions: spec.directions(), spec }
     }
 
-    /// The structure of its weaker direction, or why there is none, with its name.
-    pub fn structure(&self) -> Result<&Structure, String> {
+    /// Its directions, the weaker first, or why there is none, with its name.
+    pub fn expect_directions(&self) -> Result<&[Direction], String> {
         let named = |reason: &Reason| format!("structure '{}': {}", self.spec.name, reason);
-        self.directions.as_ref().map(|directions| &directions[0].structure).map_err(named)
+        self.directions.as_deref().map_err(named)
     }
 
     /// The floor that it stands on; none on the ground.
@@ -181,13 +179,13 @@ impl Spec {
                     Restitution::Number(eta) | Restitution::Fitted(eta) => eta,
                     Restitution::Housner => housner_eta(alpha),
                 };
-                vec![self.known(Structure::new(&self.name, p, alpha, eta)?)]
+                vec![self.direction(Structure::new(&self.name, p, alpha, eta)?)]
             }
             (None, None, _, Some(width), Some(height)) => {
                 self.check(width, height)?;
                 match beam_mass_ratio {
                     Some(ratio) => {
-                        vec![self.known(Structure::frame(&self.name, width, height, ratio, self.eta())?)]
+                        vec![self.direction(Structure::frame(&self.name, width, height, ratio, self.eta())?)]
                     }
                     None => self.sides(width, height)?,
                 }
@@ -240,7 +238,7 @@ impl Spec {
 
     /// A structure of which nothing but eta is unknown: by its standard deviation if that is given, of a
     /// computed one by tests.
-    fn known(&self, structure: Structure) -> Direction {
+    fn direction(&self, structure: Structure) -> Direction {
         let with = |eta: f64| Structure { eta: eta.clamp(0.01, 1.0), ..structure.clone() };
         let limits = match (self.place.eta_sd, self.eta()) {
             (Some(sd), _) => Some([-Z_95, Z_95].map(|off| with(structure.eta + off * sd))),
@@ -250,7 +248,8 @@ impl Spec {
                 Some([Z_95, -Z_95].map(|off| with(1.0 - loss(off))))
             }
         };
-        Direction { structure, unknowns: limits.map(|limits| (Part::Eta, limits)).into_iter().collect() }
+        let unknown = limits.map(|quantiles| Unknown { part: Part::Eta, quantiles });
+        Direction { structure, unknowns: unknown.into_iter().collect() }
     }
 
     /// Both directions of a body, or that of its width.
@@ -284,7 +283,7 @@ impl Spec {
             true => Structure::rectangular_block(&self.name, side, height, self.eta()),
             false => body.structure(&self.name, self.eta()),
         };
-        let mut direction = self.known(structure(at(centre, middle))?);
+        let mut direction = self.direction(structure(at(centre, middle))?);
         let alpha_rad = direction.structure.alpha_rad;
         if alpha_rad > FRAC_PI_4 {
             let tan = alpha_rad.tan();
@@ -295,8 +294,8 @@ impl Spec {
         let of_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
         for bodies in [of_height, of_offset].into_iter().flatten() {
             // A body that is squat is no danger.
-            let ends = bodies.map(|body| structure(body).unwrap_or(direction.structure.clone()));
-            direction.unknowns.push((Part::Object, ends));
+            let quantiles = bodies.map(|body| structure(body).unwrap_or(direction.structure.clone()));
+            direction.unknowns.push(Unknown { part: Part::Object, quantiles });
         }
         Ok(direction)
     }

@@ -43,7 +43,7 @@ pub fn is_floor(suite: &Option<String>) -> bool {
     suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
 }
 
-/// The same with candidate measures.
+/// Reads responses with candidate measures.
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     let is_wanted = |name: &str| COLUMNS.split(' ').any(|column| column == name) || is_measure(name);

@@ -9,7 +9,6 @@ use crate::pipeline::options::{in_one_line, number};
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
-/// An object as it is given.
 #[derive(Debug, Clone, Default, PartialEq, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true, args_override_self = true)]
 pub struct Spec {

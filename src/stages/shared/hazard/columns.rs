@@ -19,13 +19,13 @@ pub fn rename(sheet: &mut Sheet, renamed: &[(String, String)]) -> anyhow::Result
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
             bail!("no heading '{heading}'; found {}", headings(sheet));
         };
-        let renamed = Heading::of(column);
-        if let (Some(old), Some(new)) = (found.unit, renamed.unit)
+        let wanted = Heading::of(column);
+        if let (Some(old), Some(new)) = (found.unit, wanted.unit)
             && old.quantity != new.quantity
         {
             bail!("--columns {column}={heading}: the heading has a unit of another quantity");
         }
-        *found = renamed;
+        *found = wanted;
     }
     Ok(())
 }
@@ -144,7 +144,6 @@ pub enum Intensity {
     Spectral,
 }
 
-/// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Content {
     /// With the unit in m/s2 or m/s.

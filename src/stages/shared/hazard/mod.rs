@@ -101,7 +101,6 @@ struct Curve {
     file: String,
 }
 
-/// What files hold.
 #[derive(Default)]
 struct Found {
     curves: Vec<Curve>,
@@ -111,7 +110,6 @@ struct Found {
 }
 
 impl Found {
-    /// Adds what a file holds.
     fn add(&mut self, sheet: &Sheet, path: &Path, effective_years: Option<f64>) -> anyhow::Result<()> {
         let file = path.display().to_string();
         let years = note(sheet, "investigation_time=").and_then(|years| years.parse().ok());
@@ -139,6 +137,7 @@ impl Found {
             }
         }
         let place = |wanted| others.iter().find(|(_, content)| *content == wanted).map(|(at, _)| *at);
+        // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
         let is_uniform = sheet.headings.iter().any(|heading| heading.text.contains('~'));
         if is_uniform || (place(Content::Period).is_some() && frequencies.is_empty()) {
             bail!(
