@@ -12,7 +12,7 @@ use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number};
 use crate::rocking::Structure;
-use crate::stages::shared::fit_tables::verdict;
+use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::responses::is_floor;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
@@ -92,15 +92,17 @@ impl Models {
                 "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of {names} by --name"
             );
         }
-        let Some(overturning) = self.of_suite(fitted)? else {
-            let any = || self.of_suite(self.overturning.iter().collect());
+        if fitted.is_empty() {
+            let all: Vec<&Calibration> = self.overturning.iter().collect();
             let kind = match suite {
                 Some(kind) => kind,
-                None => any()?.map_or(Kind::Recorded, |row| row.kind),
+                None if all.is_empty() => Kind::Recorded,
+                None => self.kind(&all)?,
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
-        };
+        }
+        let overturning = self.of_kind(&fitted)?;
         let exceeding = self.exceeding(overturning)?;
         let is_plane =
             |fit: &DemandFit| fit.model == DemandModel::Biplanar && fit.group() == overturning.group();
@@ -182,22 +184,35 @@ impl Models {
         Ok(rows)
     }
 
-    /// Returns the row of the requested suite, or the only row; none if there is no row.
-    fn of_suite<'a>(&self, rows: Vec<&'a Calibration>) -> anyhow::Result<Option<&'a Calibration>> {
-        let mut suites: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();
-        suites.sort_unstable();
-        suites.dedup();
-        let (folder, names) = (self.folder(), suites.join(", "));
-        let problem = match self.args.suite {
-            _ if rows.is_empty() => return Ok(None),
-            None if suites.len() == 1 => return Ok(Some(rows[0])),
-            None => format!("{folder}: fits of {names}; expected --suite with one of them"),
-            Some(kind) => match rows.iter().find(|row| row.kind == kind) {
-                Some(row) => return Ok(Some(row)),
-                None => format!("{folder}: no fits of {kind}, only of {names}"),
-            },
-        };
-        Err(UsageError::because(problem))
+    /// Returns the requested kind of motion, or the only one of rows.
+    fn kind(&self, rows: &[&Calibration]) -> anyhow::Result<Kind> {
+        let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let (folder, names) = (self.folder(), kinds.join(", "));
+        match self.args.suite {
+            Some(kind) if rows.iter().any(|row| row.kind == kind) => Ok(kind),
+            Some(kind) => Err(UsageError::because(format!("{folder}: no fits of {kind}, only of {names}"))),
+            None if kinds.len() == 1 => Ok(rows[0].kind),
+            None => Err(UsageError::because(format!(
+                "{folder}: fits of {names}; expected --suite with one of them"
+            ))),
+        }
+    }
+
+    /// Returns the row of this kind of motion.
+    fn of_kind<'a>(&self, rows: &[&'a Calibration]) -> anyhow::Result<&'a Calibration> {
+        let kind = self.kind(rows)?;
+        let of_kind: Vec<&Calibration> = rows.iter().filter(|row| row.kind == kind).copied().collect();
+        match of_kind.iter().find(|row| row.suite != of_kind[0].suite) {
+            None => Ok(of_kind[0]),
+            Some(other) => Err(UsageError::because(format!(
+                "{}: fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
+                self.folder(),
+                suite_name(&of_kind[0].suite),
+                suite_name(&other.suite)
+            ))),
+        }
     }
 
     /// The row of P_ex beside one of P_ro.
