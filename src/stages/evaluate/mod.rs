@@ -43,7 +43,7 @@ use crate::warning::Warning;
 use self::object::Subject;
 pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 pub use self::point::TreeRow;
-pub use self::rates::{RatesRow, of_all};
+pub use self::rates::{RatesRow, expected_number};
 pub use self::words::{model_of_all, size, too_far};
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
@@ -89,7 +89,7 @@ pub struct Evaluate {
           value_parser = number(0.005..=0.5, "PGV/PGA in s, from 0.005 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
-    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::target)]
+    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]
     target: Option<f64>,
     /// Responses to count overturning in, beside the rate
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard", group = "site")]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted, Subject};
 use super::words::{
-    friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
+    about_buildings, friction, line, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
 use crate::fragility::{Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
@@ -126,7 +126,7 @@ fn of_several(all: &[Answer<TreeRow>]) -> String {
         },
     );
     let by = format!("All {}, by {}.", words_of_peaks(&worst.row), model_of_all(all));
-    format!("{first}\n{table}{}", line([Some(by), linear(all)]))
+    format!("{first}\n{table}{}", line([Some(by), about_buildings(all)]))
 }
 
 fn words_of_peaks(tree: &TreeRow) -> String {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
 use super::words::{
-    friction, line, linear, model, model_of_all, mostly_unknown, table, title, too_far, validity,
+    about_buildings, friction, line, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
 use crate::fragility::Peak;
 use crate::hazard::{CountedRate, Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
@@ -114,7 +114,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String
 
 /// The expected number of a list, and the probability that one or more overturns: between that of the worst
 /// and that of independent ones.
-pub fn of_all(all: &[Answer<RatesRow>]) -> Option<String> {
+pub fn expected_number(all: &[Answer<RatesRow>]) -> Option<String> {
     let known = |Answer { object, row, .. }: &Answer<RatesRow>| {
         Some((object.count.unwrap_or(1.0), row.p_overturning[0]?))
     };
@@ -162,9 +162,9 @@ fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>) -> Str
     let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
     format!(
         "{first}\n{table}{}{}{}",
-        line([of_all(all)]),
+        line([expected_number(all)]),
         about_limits(worst, site),
-        line([Some(by), linear(all)]),
+        line([Some(by), about_buildings(all)]),
     )
 }
 

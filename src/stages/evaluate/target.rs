@@ -10,7 +10,7 @@ use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::Object;
 
 /// Parses a probability of overturning in the time of exposure, such as 1%.
-pub fn target(text: &str) -> Result<f64, String> {
+pub fn parse(text: &str) -> Result<f64, String> {
     match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
         Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(0.01 * percent),
         _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),

@@ -75,7 +75,7 @@ pub fn line(sentences: impl IntoIterator<Item = Option<String>>) -> String {
 }
 
 /// What is taken of the buildings, if an object stands on a floor.
-pub fn linear<R>(all: &[Answer<R>]) -> Option<String> {
+pub fn about_buildings<R>(all: &[Answer<R>]) -> Option<String> {
     let is_any = all.iter().any(|answer| answer.object.floor_level.is_some());
     is_any.then(|| "The building is taken as linear.".to_string())
 }
@@ -83,7 +83,7 @@ pub fn linear<R>(all: &[Answer<R>]) -> Option<String> {
 /// What the answer for an object takes as given.
 pub fn validity<R>(answer: &Answer<R>) -> String {
     let friction = || format!("Valid if friction is above {}; else it slides.", friction(&answer.object));
-    line([(!answer.object.is_friction_known).then(friction), linear(std::slice::from_ref(answer))])
+    line([(!answer.object.is_friction_known).then(friction), about_buildings(std::slice::from_ref(answer))])
 }
 
 pub fn friction(object: &ObjectRow) -> String {

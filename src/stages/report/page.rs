@@ -13,7 +13,7 @@ use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::both;
-use crate::stages::evaluate::{Answer, RatesRow, model_of_all, of_all, size};
+use crate::stages::evaluate::{Answer, RatesRow, expected_number, model_of_all, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -107,7 +107,7 @@ fn facts(tables: &Tables) -> Vec<String> {
              {hazard}."
         ));
         facts.push(format!("By {}.", model_of_all(&tables.objects)));
-        facts.extend(of_all(&tables.objects));
+        facts.extend(expected_number(&tables.objects));
         let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
         let parts = doubts.words().join(", ");
         facts.push(format!("The 95 % limits contain the errors of {parts}{without}."));
