@@ -133,30 +133,19 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Lim
     Some((best.im4, Limits { low, high: likely.next_back().unwrap_or(low) }))
 }
 
-/// Which regressions are made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DemandOptions {
-    /// The IM4 at which the two planes meet; none where their pooled residual is least (of too few cases,
-    /// where the paper's meet).
-    pub transition: Option<f64>,
-    /// Probability with which limits hold the truth.
-    pub confidence: f64,
-    /// Whether to fit, besides the two planes, each measure alone and one plane over all cases.
-    pub all: bool,
-}
-
-/// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
-/// requested.
-pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> Vec<DemandFit> {
-    let found = transition(&scan_transition(cases), options.confidence);
-    let im4 = options.transition.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
+/// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
+/// residual is least or, of too few cases, where the paper's meet) and, if `all`, each measure alone and one
+/// plane over all cases. `confidence` is that of the limits of the transition of least residual.
+pub fn fit_demand(cases: &Cases, im4: Option<f64>, confidence: f64, all: bool) -> Vec<DemandFit> {
+    let found = transition(&scan_transition(cases), confidence);
+    let im4 = im4.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
     for fit in &mut fits {
         fit.transition_found = found.map(|(im4, _)| im4);
         fit.transition_low = found.map(|(_, limits)| limits.low);
         fit.transition_high = found.map(|(_, limits)| limits.high);
     }
-    if options.all {
+    if all {
         fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
         fits.push(fit_plane(cases));
     }

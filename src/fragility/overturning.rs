@@ -100,23 +100,13 @@ pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
     (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
 }
 
-/// Which curves are made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveOptions {
-    /// [`Event::Overturning`] or [`Event::Rocking`].
-    pub event: Event,
-    /// The hybrid measures.
-    pub pairs: Vec<Pair>,
-    /// Whether to fit all six measures of Eq. 13 alone, in place of IM4 and IM5.
-    pub all: bool,
-}
-
-/// Fits the curves of a structure under a suite: single measures, then hybrid ones.
-pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<CurveFit> {
-    let single = if options.all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
+/// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`] of a structure under a suite: of IM4 and
+/// IM5 or, if `all`, of all six measures of Eq. 13, then of hybrid measures.
+pub fn fit_curves(cases: &Cases, event: Event, pairs: &[Pair], all: bool) -> Vec<CurveFit> {
+    let single = if all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
     let single = single.iter().map(|&measure| (measure, None));
-    let measures: Vec<_> = single.chain(options.pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
-    measures.into_par_iter().map(|(x, y)| fit_curve(cases, options.event, x, y)).collect()
+    let measures: Vec<_> = single.chain(pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
+    measures.into_par_iter().map(|(x, y)| fit_curve(cases, event, x, y)).collect()
 }
 
 /// A fragility curve: a row of pro.parquet.

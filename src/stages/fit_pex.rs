@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueHint};
-use serde::{Deserialize, Serialize};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
-use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
+use crate::fragility::{Calibration, DemandFit, DemandModel, fit_demand};
+use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -70,13 +70,11 @@ impl Stage for FitPex {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
-        let options =
-            DemandOptions { transition: self.transition.0, confidence: self.confidence, all: self.all };
         let bar = context.bar(groups.len() as u64);
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, &options));
+            fits.extend(fit_demand(cases, self.transition.0, self.confidence, self.all));
             let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
             calibrations.extend(self.limit_state.iter().map(of_limit));
             bar.advance(1)?;
@@ -85,7 +83,7 @@ impl Stage for FitPex {
         let summary = format!(
             "{}\n{}",
             calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration")),
-            planes_text(&fits, &self.out)?
+            planes_text(&fits, &self.out)
         );
         context.warn(warnings(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
@@ -95,32 +93,17 @@ impl Stage for FitPex {
     }
 }
 
-/// A printed row: the two planes.
-#[derive(Serialize, Deserialize)]
-struct PlanesLine {
-    suite: String,
-    structure: String,
-    transition: Option<f64>,
-    #[serde(rename = "R2 below")]
-    r2_below: Option<f64>,
-    #[serde(rename = "R2 above")]
-    r2_above: Option<f64>,
-    verdict: String,
-}
-
-fn planes_text(fits: &[DemandFit], out: &Path) -> anyhow::Result<String> {
+fn planes_text(fits: &[DemandFit], out: &Path) -> String {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
     let line = |pair: &[&DemandFit]| {
         let (below, above) = (pair[0], pair[1]);
-        PlanesLine {
-            suite: suite_name(&below.suite),
-            structure: below.structure.clone(),
-            transition: below.range_high,
-            r2_below: below.r2,
-            r2_above: above.r2,
-            verdict: verdict(if below.status == FitStatus::Ok { above.status } else { below.status }),
-        }
+        let [transition, r2_below, r2_above] = [below.range_high, below.r2, above.r2]
+            .map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
+        let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
+        let (suite, structure) = (suite_name(&below.suite), below.structure.clone());
+        vec![suite, structure, transition, r2_below, r2_above, verdict]
     };
-    let lines: Vec<PlanesLine> = planes.chunks_exact(2).map(line).collect();
-    Ok(format!("planes (paper), below and above the transition\n{}", text(&lines, out)?))
+    let headings = ["suite", "structure", "transition", "R2 below", "R2 above", "verdict"];
+    let lines = text(&headings, planes.chunks_exact(2).map(line), 2..5, out);
+    format!("planes (paper), below and above the transition\n{lines}")
 }

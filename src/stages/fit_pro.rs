@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
-use serde::{Deserialize, Serialize};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
-use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
+use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
@@ -53,11 +52,10 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
-        let options = CurveOptions { event: self.event, pairs: self.pairs.clone(), all: self.all };
         let bar = context.bar(groups.len() as u64);
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &groups {
-            fits.extend(fit_curves(cases, &options));
+            fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
             // The surface gives the probability of overturning, not that of rocking.
             if self.event == Event::Overturning {
                 calibrations.push(Calibration::fit(cases, None));
@@ -66,7 +64,7 @@ impl Stage for FitPro {
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let calibration = part(&self.out, "calibration");
-        let mut summary = curves_text(&fits, self.confidence, &self.out)?;
+        let mut summary = curves_text(&fits, self.confidence, &self.out);
         if !calibrations.is_empty() {
             let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration);
             summary = format!("{calibrated}\n{summary}");
@@ -79,33 +77,18 @@ impl Stage for FitPro {
     }
 }
 
-/// A printed row: the curve of IM5.
-#[derive(Serialize, Deserialize)]
-struct CurveLine {
-    suite: String,
-    structure: String,
-    median: Option<String>,
-    dispersion: Option<String>,
-    verdict: String,
-}
-
-fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> anyhow::Result<String> {
+fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
     let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
-        let of = |wanted: Parameter| {
-            let row = parameters.iter().find(|row| row.parameter == wanted)?;
-            Some(THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""))
+        let of = |wanted: Parameter| match parameters.iter().find(|row| row.parameter == wanted) {
+            Some(row) => THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""),
+            None => "-".to_string(),
         };
-        CurveLine {
-            suite: suite_name(&fit.suite),
-            structure: fit.structure.clone(),
-            median: of(Parameter::Theta),
-            dispersion: of(Parameter::Beta),
-            verdict: verdict(fit.status),
-        }
+        let (median, dispersion) = (of(Parameter::Theta), of(Parameter::Beta));
+        vec![suite_name(&fit.suite), fit.structure.clone(), median, dispersion, verdict(fit.status)]
     };
     let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
-    let lines: Vec<CurveLine> = of_im5.map(line).collect();
-    let limits = 100.0 * confidence;
-    Ok(format!("lognormal curve (paper) of IM5, with {limits} % limits\n{}", text(&lines, out)?))
+    let headings = ["suite", "structure", "median", "dispersion", "verdict"];
+    let lines = text(&headings, of_im5.map(line), 0..0, out);
+    format!("lognormal curve (paper) of IM5, with {} % limits\n{lines}", 100.0 * confidence)
 }

@@ -1,5 +1,6 @@
 //! What a stage that fits prints, and the warnings about its fits.
 
+use std::ops::Range;
 use std::path::Path;
 
 use crate::fragility::Calibration;
@@ -7,8 +8,6 @@ use crate::keyword::Keyword;
 use crate::number::{aligned, count, significant};
 use crate::pipeline::options::first_lines;
 use crate::statistics::FitStatus;
-use crate::table::frame;
-use crate::table::rows::{self, Row};
 use crate::warning::Warnings;
 
 /// Calibrations as a table, the surface beside what was observed, with these headings of cases and events.
@@ -26,15 +25,21 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: 
     };
     let limit = rows.iter().any(|row| row.limit_state.is_some()).then_some("limit");
     let headings = ["suite", "structure"].into_iter().chain(limit).chain([cases, events, "calibration"]);
-    let headings: Vec<String> = headings.map(str::to_string).collect();
+    let headings: Vec<&str> = headings.collect();
     let numbers = headings.len() - 3..headings.len() - 1;
-    let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows.iter().map(line)).collect();
-    first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
+    text(&headings, rows.iter().map(line), numbers, out)
 }
 
-/// The first rows as a table; all are in a file.
-pub fn text<R: Row>(lines: &[R], out: &Path) -> anyhow::Result<String> {
-    Ok(first_lines(&frame::text(&frame::of_batch(&rows::batch(lines)?)?), 1, out))
+/// The first rows as a table, these columns of numbers flush right; all are in a file.
+pub fn text(
+    headings: &[&str],
+    rows: impl Iterator<Item = Vec<String>>,
+    numbers: Range<usize>,
+    out: &Path,
+) -> String {
+    let headings = headings.iter().map(|heading| heading.to_string()).collect();
+    let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
+    first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
 }
 
 /// The name of a suite.
