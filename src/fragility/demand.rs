@@ -10,12 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row, values};
-use super::parameter::{Parameter, ParameterRow};
+use super::parameter::{Parameter, ParameterRow, quantile};
 use super::tree::Probability;
 use crate::keyword::{Keyword, keywords};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
-use crate::statistics::distributions::t_quantile;
 use crate::statistics::{FitStatus, Limits, LinearFit};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
@@ -213,11 +212,6 @@ pub struct DemandFit {
 
 grouped!(DemandFit);
 
-/// How many standard errors the limits of a confidence are away.
-fn quantile(confidence: f64, degrees: f64) -> f64 {
-    t_quantile(0.5 * (1.0 + confidence), degrees)
-}
-
 impl DemandFit {
     /// Fits the sample of these measures.
     fn new(
@@ -288,19 +282,19 @@ impl DemandFit {
         limit_state: f64,
         confidence: f64,
     ) -> Option<Probability> {
-        let (beta, degrees) = (self.beta?, self.degrees?);
+        let beta = self.beta?;
         let ims = values(self.im_x, self.im_y, measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
         let of_median = variance(&self.covariance, &design_row(&ims));
         let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
-        let half_width = quantile(confidence, degrees) * (of_median + of_beta).sqrt();
+        let half_width = quantile(confidence, self.degrees) * (of_median + of_beta).sqrt();
         let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
         Some(Probability::with_limits(half_width, p_at))
     }
 
     /// It with each independent error of its coefficients, and that of beta, at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [DemandFit; 2]> {
-        let away = quantile(confidence, self.degrees.unwrap_or(f64::INFINITY));
+        let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away);
         let with = |coefficients: Vec<f64>| DemandFit { coefficients, ..self.clone() };
         let of_beta = away / (2.0 * self.residual_degrees()).sqrt();
@@ -316,8 +310,8 @@ impl DemandFit {
 
     /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
-        let (Some(beta), Some(degrees)) = (self.beta, self.degrees) else { return Vec::new() };
-        let quantile = quantile(confidence, degrees);
+        let Some(beta) = self.beta else { return Vec::new() };
+        let quantile = quantile(confidence, self.degrees);
         let row = |parameter: Parameter, value: f64, standard_error: f64| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
@@ -336,14 +330,10 @@ impl DemandFit {
         let error = |k: usize| self.covariance[k * (b.len() + 1)].sqrt();
         let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
         let error_of_zeta = (error_of_beta / b[1]).hypot(beta * error(1) / (b[1] * b[1]));
-        let coefficients =
-            [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate().take(b.len());
-        coefficients
-            .map(|(k, parameter)| row(parameter, b[k], error(k)))
-            .chain([
-                row(Parameter::Beta, beta, error_of_beta),
-                row(Parameter::Zeta, beta / b[1], error_of_zeta),
-            ])
-            .collect()
+        let names = [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate();
+        let mut rows: Vec<_> = names.zip(b).map(|((k, name), b)| row(name, *b, error(k))).collect();
+        rows.push(row(Parameter::Beta, beta, error_of_beta));
+        rows.push(row(Parameter::Zeta, beta / b[1], error_of_zeta));
+        rows
     }
 }

@@ -7,14 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, grouped};
 use super::measure::{Measure, Pair, design_row, values};
-use super::parameter::{Parameter, ParameterRow};
+use super::parameter::{Parameter, ParameterRow, quantile};
 use super::tree::Probability;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
-use crate::statistics::distributions::t_quantile;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Estimate, FitStatus};
-use crate::statistics::{independent_errors, normal, predict, tested_probit, variance};
+use crate::statistics::{Estimate, FitStatus, independent_errors, normal, predict, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
 /// (Eq. 20; Eq. 24 with the hybrid measure).
@@ -153,10 +151,6 @@ pub struct CurveFit {
 grouped!(CurveFit);
 
 impl CurveFit {
-    fn quantile(&self, confidence: f64) -> f64 {
-        t_quantile(0.5 * (1.0 + confidence), self.degrees.unwrap_or(f64::INFINITY))
-    }
-
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of ln IM - mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
@@ -169,12 +163,13 @@ impl CurveFit {
         };
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
         let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
-        Some(Probability::with_limits(self.quantile(confidence) * error, p_at))
+        Some(Probability::with_limits(quantile(confidence, self.degrees) * error, p_at))
     }
 
     /// It with each independent error of its coefficients at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [CurveFit; 2]> {
-        let errors = independent_errors(&self.coefficients, &self.covariance, self.quantile(confidence));
+        let away = quantile(confidence, self.degrees);
+        let errors = independent_errors(&self.coefficients, &self.covariance, away);
         let with = |coefficients: Vec<f64>| CurveFit { coefficients, ..self.clone() };
         errors.into_iter().map(move |ends| ends.map(with))
     }
@@ -211,8 +206,9 @@ impl CurveFit {
             high: estimate.high,
             confidence,
         };
+        let quantile = quantile(confidence, self.degrees);
         let estimate = |(value, gradient): (f64, Vec<f64>)| {
-            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), self.quantile(confidence))
+            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), quantile)
         };
         let b = &self.coefficients;
         let of_hybrid = self.im_y.map(|_| row(Parameter::Lambda, estimate(lambda(b))));

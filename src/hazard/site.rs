@@ -147,7 +147,7 @@ impl Site {
             budgets.vary(&fractiles, |curve| of(&middle, curve));
         }
 
-        let motion = middle.median_motion(median_intensity(&middle, &curve));
+        let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
         let warnings = [
             (is_extrapolated, Warning::HazardExtrapolated),
             (ends_early && !is_extrapolated, Warning::HazardEndsEarly),

@@ -10,7 +10,7 @@ use super::newton::{Maximum, Objective, maximise};
 use super::normal;
 
 /// A fit needs this many events, and this many cases without.
-pub const LEAST_EVENTS: usize = 5;
+const LEAST_EVENTS: usize = 5;
 /// With a larger standard error of z the likelihood has no maximum.
 const ENDLESS: f64 = 1e3;
 

@@ -55,11 +55,9 @@ impl DesignMatrix {
 
 /// Returns the standardised predictors, followed by their squares and products.
 pub fn with_squares(x: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
-    let standardised = |x: &&[f64]| {
-        let (mean, sd) = mean_and_sd(x)?;
-        Some(x.iter().map(|x| (x - mean) / sd).collect())
-    };
-    let mut columns: Vec<Vec<f64>> = x.iter().map(standardised).collect::<Option<_>>()?;
+    let design = DesignMatrix::new(x).ok()?.x;
+    let mut columns: Vec<Vec<f64>> =
+        design.column_iter().skip(1).map(|x| x.iter().copied().collect()).collect();
     for i in 0..x.len() {
         for j in i..x.len() {
             columns.push(columns[i].iter().zip(&columns[j]).map(|(a, b)| a * b).collect());

@@ -3,8 +3,8 @@
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Cases, DemandFit, DemandModel, Measure, PLANE, Parameter, fit_demand, fit_plane,
-    fit_planes, fit_power_law, ln_median_demand, p_exceeding, scan_transition, transition,
+    Cases, DemandFit, DemandModel, Measure, PLANE, Parameter, fit_demand, fit_plane, fit_planes,
+    fit_power_law, ln_median_demand, p_exceeding, scan_transition, transition,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -152,8 +152,7 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     }));
     assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
-    let fits =
-        fit_demand(&line(30, |im4| im4), None, 0.95, false);
+    let fits = fit_demand(&line(30, |im4| im4), None, 0.95, false);
     assert!(
         scan_transition(&line(30, |im4| im4)).is_empty()
             && fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate)

@@ -4,9 +4,9 @@ use rockfrag::fragility::{
     Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, Part, PeakHazard,
-    PgvPgaRatio, Site, Unknown, VelocitySource, exceedance, mean_annual_rates, probability_in_years,
-    rates_over_curve, velocity_of_spectrum,
+    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, Part, PeakHazard, PgvPgaRatio, Site,
+    Unknown, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
+    velocity_of_spectrum,
 };
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;

@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use rockfrag::fragility::{
-    Calibration, Cases, Event, Kind, Measure, Model, Pair, fit_curves,
-    fit_demand,
-};
+use rockfrag::fragility::{Calibration, Cases, Event, Kind, Measure, Model, Pair, fit_curves, fit_demand};
 use rockfrag::pipeline::context::Context;
 use rockfrag::rocking::Structure;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Event, Measure, Probability, fit_curve, fit_demand, p_failure, p_failure_given_rocking,
-    p_no_rocking, paper_probabilities,
+    Event, Measure, Probability, fit_curve, fit_demand, p_failure, p_failure_given_rocking, p_no_rocking,
+    paper_probabilities,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::statistics::normal;
