@@ -222,7 +222,6 @@ impl DemandFit {
         sample: &Sample<f64>,
     ) -> DemandFit {
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
-        let end = |measure: usize, end: usize| sample.end(measure, end);
         let fitted = linear.as_ref().ok();
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
@@ -249,10 +248,10 @@ impl DemandFit {
             transition_low: None,
             transition_high: None,
             n: sample.y.len() as i64,
-            im_x_low: end(0, 0),
-            im_x_high: end(0, 1),
-            im_y_low: end(1, 0),
-            im_y_high: end(1, 1),
+            im_x_low: sample.end(0, 0),
+            im_x_high: sample.end(0, 1),
+            im_y_low: sample.end(1, 0),
+            im_y_high: sample.end(1, 1),
             misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
             status: match &linear {
                 Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,

@@ -62,19 +62,6 @@ impl Measure {
     pub fn value_of(self, measures: &IntensityMeasures) -> Option<f64> {
         self.raw_value_of(measures).filter(|value| value.is_finite() && *value > 0.0)
     }
-
-    /// Gathers the measures of a motion by their values, NaN where one is missing.
-    pub fn gather(value: impl Fn(Measure) -> f64) -> IntensityMeasures {
-        let known = |measure: Measure| Some(value(measure)).filter(|value| !value.is_nan());
-        IntensityMeasures {
-            im1: known(Measure::Im1),
-            im2: known(Measure::Im2),
-            im3: known(Measure::Im3),
-            im4: value(Measure::Im4),
-            im5: value(Measure::Im5),
-            im6: known(Measure::Im6),
-        }
-    }
 }
 
 /// Returns IMx and, of two measures, IMy; none where one is missing.

@@ -40,7 +40,6 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
     let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
     let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
-    let end = |measure: usize, end: usize| sample.end(measure, end);
     CurveFit {
         suite: cases.suite.clone(),
         structure: cases.structure.name.clone(),
@@ -61,10 +60,10 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
-        im_x_low: end(0, 0),
-        im_x_high: end(0, 1),
-        im_y_low: end(1, 0),
-        im_y_high: end(1, 1),
+        im_x_low: sample.end(0, 0),
+        im_x_high: sample.end(0, 1),
+        im_y_low: sample.end(1, 0),
+        im_y_high: sample.end(1, 1),
         misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
         status: match &probit {
             Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
