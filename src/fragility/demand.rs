@@ -37,26 +37,22 @@ const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
 /// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
 pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
-    let sample = cases.sample(&[measure], |case| cases.ln_demand(case));
-    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE, &sample)
+    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE)
 }
 
 /// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
 pub fn fit_plane(cases: &Cases) -> DemandFit {
-    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE, &plane_sample(cases, EVERYWHERE))
+    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE)
 }
 
 /// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
 pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
-    let plane = |range: Range<f64>| {
-        let sample = plane_sample(cases, range.clone());
-        DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range, &sample)
-    };
-    let mut planes = [plane(0.0..transition), plane(transition..f64::INFINITY)];
+    let mut planes = [0.0..transition, transition..f64::INFINITY]
+        .map(|range| DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range));
     if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
     {
         let rss = low_rss + high_rss;
-        let all = plane_sample(cases, EVERYWHERE).y;
+        let all = demands(cases, &PLANE, &EVERYWHERE).y;
         let mean = all.iter().sum::<f64>() / all.len() as f64;
         let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
         for fit in &mut planes {
@@ -67,10 +63,10 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
     planes
 }
 
-/// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
-fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
+/// ln EDP and ln IM of the cases that rocked safely and whose IM4 lies in `range`.
+fn demands(cases: &Cases, measures: &[Measure], range: &Range<f64>) -> Sample<f64> {
     let im4 = cases.column(Measure::Im4);
-    cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
+    cases.sample(measures, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
 }
 
 /// The IM4 at which the planes may meet: first, step and number of places.
@@ -93,7 +89,7 @@ pub struct TransitionPoint {
 
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
 pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
-    let Sample { ln_im, y, .. } = plane_sample(cases, EVERYWHERE);
+    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &EVERYWHERE);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let [x_mean, y_mean, edp_mean] = [&ln_im[0], &ln_im[1], &y].map(|values| mean(values));
     let row = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
@@ -213,14 +209,9 @@ pub struct DemandFit {
 grouped!(DemandFit);
 
 impl DemandFit {
-    /// Fits the sample of these measures.
-    fn new(
-        cases: &Cases,
-        model: DemandModel,
-        measures: &[Measure],
-        range: Range<f64>,
-        sample: &Sample<f64>,
-    ) -> DemandFit {
+    /// Fits these measures to the cases whose IM4 lies in `range`.
+    fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
+        let sample = demands(cases, measures, &range);
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
         let fitted = linear.as_ref().ok();
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());

@@ -24,20 +24,15 @@ keywords! {
 }
 
 impl Kind {
-    /// The kind of a suite of motions; those without a suite are taken for recorded ones.
-    pub fn of(suite: Option<Suite>) -> Kind {
-        match suite {
+    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of none,
+    /// is that of records.
+    pub fn of_word(suite: Option<&str>) -> Kind {
+        match suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,
             Some(Suite::Csgm) => Kind::Csgm,
             Some(Suite::Hfc) => Kind::Hfc,
             Some(Suite::Record | Suite::Residual) | None => Kind::Recorded,
         }
-    }
-
-    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of none,
-    /// is that of records.
-    pub fn of_word(suite: Option<&str>) -> Kind {
-        Kind::of(suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()))
     }
 }
 
