@@ -1,9 +1,8 @@
 //! The intensity measures that fits are made of.
 
-use std::fmt;
 use std::str::FromStr;
 
-use crate::keyword::{self, Keyword, keywords};
+use crate::keyword::{self, keywords};
 use crate::motion::IntensityMeasures;
 
 keywords! {
@@ -87,11 +86,5 @@ impl FromStr for Pair {
         let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
         let pair = Pair(measure(x)?, measure(y)?);
         if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
-    }
-}
-
-impl fmt::Display for Pair {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}:{}", self.0.as_str(), self.1.as_str())
     }
 }

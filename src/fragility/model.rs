@@ -166,13 +166,10 @@ impl Model {
                 let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
                 let is_ok = overturning.status == FitStatus::Ok
                     && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
-                let outside = rocks && !overturning.covers(measures);
-                let few = !overturning.is_clustered;
-                [(outside, Warning::Extrapolated), (!is_ok, Warning::PoorFit), (few, Warning::FewClusters)]
-                    .into_iter()
-                    .filter(|(holds, _)| *holds)
-                    .map(|(_, warning)| warning)
-                    .collect::<Vec<Warning>>()
+                let outside = (rocks && !overturning.covers(measures)).then_some(Warning::Extrapolated);
+                let few = (!overturning.is_clustered).then_some(Warning::FewClusters);
+                let poor = (!is_ok).then_some(Warning::PoorFit);
+                outside.into_iter().chain(few).chain(poor).collect::<Vec<Warning>>()
             }
         };
         warnings.sort_unstable();

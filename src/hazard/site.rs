@@ -149,15 +149,15 @@ impl Site {
 
         let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
         let warnings = [
-            (is_extrapolated, Warning::HazardExtrapolated),
-            (ends_early && !is_extrapolated, Warning::HazardEndsEarly),
-            (first > middle.uplift()[1], Warning::HazardStartsLate),
+            is_extrapolated.then_some(Warning::HazardExtrapolated),
+            (ends_early && !is_extrapolated).then_some(Warning::HazardEndsEarly),
+            (first > middle.uplift()[1]).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {
             velocity: Some(velocity.source),
             beyond: is_extrapolated.then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
             counted: self.count(&middle, &curve),
-            warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
+            warnings: warnings.into_iter().flatten().collect(),
             ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
         }
     }
