@@ -112,14 +112,11 @@ impl Calibration {
         let prior = surface::prior(kind, limit_state);
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let sample = observed(cases, &shipped);
-        let (at, covariance) = maximum(&sample, &prior);
+        let (at, covariance, n_clusters) = maximum(&sample, &prior);
         let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] =
             [0, 1, 2].map(|k| ends(sample.y.iter().map(|case| case.peaks[k])));
         let peaks = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s).unwrap_or(surface::peaks(kind));
         let expected = sample.y.iter().map(|case| logistic(shipped.calibrated(&case.predictor))).sum();
-        let mut clusters = sample.clusters.clone();
-        clusters.sort_unstable();
-        clusters.dedup();
         Calibration {
             suite: cases.suite.clone(),
             c: at[0],
@@ -129,7 +126,7 @@ impl Calibration {
             n: sample.y.len() as i64,
             n_events: sample.y.iter().filter(|case| case.happened).count() as i64,
             expected,
-            n_clusters: clusters.len() as i64,
+            n_clusters: n_clusters as i64,
             pga_low,
             pga_high,
             pgv_low,
@@ -252,11 +249,11 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
     })
 }
 
-/// Finds c, ln s and m of greatest posterior density, and their covariance V. With B the inverse of the
+/// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B the inverse of the
 /// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
 /// clusters of the squares of their scores and P the information of the prior, which counts as one more
 /// cluster.
-fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f64>) {
+fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
     let found = maximise(|at| log_posterior(&sample.y, prior, at), DVector::from_vec(prior.mean.to_vec()));
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
     let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
@@ -264,13 +261,13 @@ fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f
     let magnitudes: Vec<f64> = sample.y.iter().map(|case| case.predictor.magnitude).collect();
     let score = |Observed { predictor, happened, .. }: &Observed| {
         let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
-        f64::from(u8::from(*happened)) - logistic(z)
+        f64::from(*happened) - logistic(z)
     };
     let scores: Vec<f64> = sample.y.iter().map(score).collect();
-    let (clustered, _) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &sample.clusters);
+    let (clustered, clusters) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &sample.clusters);
     let of_prior = DMatrix::from_diagonal(&information(prior));
     let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
-    (found.at, covariance.unwrap_or(bread))
+    (found.at, covariance.unwrap_or(bread), clusters)
 }
 
 /// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum

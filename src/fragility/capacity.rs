@@ -2,7 +2,6 @@
 //! known to lie above or below an intensity.
 
 use nalgebra::DVector;
-use serde::{Deserialize, Serialize};
 
 use super::tree::Z_95;
 use crate::statistics::FitStatus;
@@ -30,7 +29,7 @@ impl KnownCapacity {
 }
 
 /// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
     pub theta: f64,

@@ -173,51 +173,19 @@ impl Cases {
 
     /// Returns a measure of Eq. 13 of each case; NaN where unknown.
     pub fn column(&self, measure: Measure) -> &[f64] {
-        &self.im[place(measure)]
+        &self.im[measure as usize]
     }
 
     /// Returns the same, to change it.
     pub fn column_mut(&mut self, measure: Measure) -> &mut Vec<f64> {
-        &mut self.im[place(measure)]
+        &mut self.im[measure as usize]
     }
 
     /// Returns the suite and the structure.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure.name }
     }
-}
 
-/// The place of a measure among those of Eq. 13.
-fn place(measure: Measure) -> usize {
-    Measure::SCALAR.iter().position(|scalar| *scalar == measure).expect("a measure of Eq. 13")
-}
-
-/// Logarithms of measures, and what was observed, of the cases of a fit.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Sample<Y> {
-    /// ln IM, a column for each measure.
-    pub ln_im: Vec<Vec<f64>>,
-    /// What was observed.
-    pub y: Vec<Y>,
-    /// Number of the cluster of each case.
-    pub clusters: Vec<u32>,
-    /// Least and largest value of each measure.
-    pub ranges: Vec<[f64; 2]>,
-}
-
-impl<Y> Sample<Y> {
-    /// Returns the least (0) or largest (1) value of a measure; none without cases or such a measure.
-    pub(super) fn end(&self, measure: usize, end: usize) -> Option<f64> {
-        Some(self.ranges.get(measure)?[end]).filter(|end| end.is_finite())
-    }
-
-    /// Returns the columns of ln IM.
-    pub fn x(&self) -> Vec<&[f64]> {
-        self.ln_im.iter().map(Vec::as_slice).collect()
-    }
-}
-
-impl Cases {
     /// Returns the number of cases.
     pub fn len(&self) -> usize {
         self.outcome.len()
@@ -235,7 +203,16 @@ impl Cases {
 
     /// Returns the measures of a case.
     pub fn measures(&self, case: usize) -> IntensityMeasures {
-        Measure::gather(|measure| self.column(measure)[case])
+        let value = |measure: Measure| self.column(measure)[case];
+        let known = |measure: Measure| Some(value(measure)).filter(|value| !value.is_nan());
+        IntensityMeasures {
+            im1: known(Measure::Im1),
+            im2: known(Measure::Im2),
+            im3: known(Measure::Im3),
+            im4: value(Measure::Im4),
+            im5: value(Measure::Im5),
+            im6: known(Measure::Im6),
+        }
     }
 
     /// Returns whether an event happened in a case; `None` if it is undefined for this outcome.
@@ -278,5 +255,30 @@ impl Cases {
             sample.clusters.push(self.cluster[case]);
         }
         sample
+    }
+}
+
+/// Logarithms of measures, and what was observed, of the cases of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample<Y> {
+    /// ln IM, a column for each measure.
+    pub ln_im: Vec<Vec<f64>>,
+    /// What was observed.
+    pub y: Vec<Y>,
+    /// Number of the cluster of each case.
+    pub clusters: Vec<u32>,
+    /// Least and largest value of each measure.
+    pub ranges: Vec<[f64; 2]>,
+}
+
+impl<Y> Sample<Y> {
+    /// Returns the least (0) or largest (1) value of a measure; none without cases or such a measure.
+    pub(super) fn end(&self, measure: usize, end: usize) -> Option<f64> {
+        Some(self.ranges.get(measure)?[end]).filter(|end| end.is_finite())
+    }
+
+    /// Returns the columns of ln IM.
+    pub fn x(&self) -> Vec<&[f64]> {
+        self.ln_im.iter().map(Vec::as_slice).collect()
     }
 }

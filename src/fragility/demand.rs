@@ -10,12 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row, values};
-use super::parameter::{Parameter, ParameterRow};
+use super::parameter::{Parameter, ParameterRow, quantile};
 use super::tree::Probability;
 use crate::keyword::{Keyword, keywords};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
-use crate::statistics::distributions::t_quantile;
 use crate::statistics::{FitStatus, Limits, LinearFit};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
@@ -38,26 +37,22 @@ const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
 /// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
 pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
-    let sample = cases.sample(&[measure], |case| cases.ln_demand(case));
-    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE, &sample)
+    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE)
 }
 
 /// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
 pub fn fit_plane(cases: &Cases) -> DemandFit {
-    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE, &plane_sample(cases, EVERYWHERE))
+    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE)
 }
 
 /// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
 pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
-    let plane = |range: Range<f64>| {
-        let sample = plane_sample(cases, range.clone());
-        DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range, &sample)
-    };
-    let mut planes = [plane(0.0..transition), plane(transition..f64::INFINITY)];
+    let mut planes = [0.0..transition, transition..f64::INFINITY]
+        .map(|range| DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range));
     if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
     {
         let rss = low_rss + high_rss;
-        let all = plane_sample(cases, EVERYWHERE).y;
+        let all = demands(cases, &PLANE, &EVERYWHERE).y;
         let mean = all.iter().sum::<f64>() / all.len() as f64;
         let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
         for fit in &mut planes {
@@ -68,10 +63,10 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
     planes
 }
 
-/// ln EDP, ln IM4 and ln IM3 of the cases that rocked safely and whose IM4 lies in `range`.
-fn plane_sample(cases: &Cases, range: Range<f64>) -> Sample<f64> {
+/// ln EDP and ln IM of the cases that rocked safely and whose IM4 lies in `range`.
+fn demands(cases: &Cases, measures: &[Measure], range: &Range<f64>) -> Sample<f64> {
     let im4 = cases.column(Measure::Im4);
-    cases.sample(&PLANE, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
+    cases.sample(measures, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
 }
 
 /// The IM4 at which the planes may meet: first, step and number of places.
@@ -94,7 +89,7 @@ pub struct TransitionPoint {
 
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
 pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
-    let Sample { ln_im, y, .. } = plane_sample(cases, EVERYWHERE);
+    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &EVERYWHERE);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let [x_mean, y_mean, edp_mean] = [&ln_im[0], &ln_im[1], &y].map(|values| mean(values));
     let row = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
@@ -133,30 +128,19 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Lim
     Some((best.im4, Limits { low, high: likely.next_back().unwrap_or(low) }))
 }
 
-/// Which regressions are made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DemandOptions {
-    /// The IM4 at which the two planes meet; none where their pooled residual is least (of too few cases,
-    /// where the paper's meet).
-    pub transition: Option<f64>,
-    /// Probability with which limits hold the truth.
-    pub confidence: f64,
-    /// Whether to fit, besides the two planes, each measure alone and one plane over all cases.
-    pub all: bool,
-}
-
-/// Fits the demand of a structure under a suite: the two planes, then all other regressions if they are
-/// requested.
-pub fn fit_demand(cases: &Cases, options: &DemandOptions) -> Vec<DemandFit> {
-    let found = transition(&scan_transition(cases), options.confidence);
-    let im4 = options.transition.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
+/// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
+/// residual is least or, of too few cases, where the paper's meet) and, if `all`, each measure alone and one
+/// plane over all cases. `confidence` is that of the limits of the transition of least residual.
+pub fn fit_demand(cases: &Cases, im4: Option<f64>, confidence: f64, all: bool) -> Vec<DemandFit> {
+    let found = transition(&scan_transition(cases), confidence);
+    let im4 = im4.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
     for fit in &mut fits {
         fit.transition_found = found.map(|(im4, _)| im4);
         fit.transition_low = found.map(|(_, limits)| limits.low);
         fit.transition_high = found.map(|(_, limits)| limits.high);
     }
-    if options.all {
+    if all {
         fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
         fits.push(fit_plane(cases));
     }
@@ -224,22 +208,11 @@ pub struct DemandFit {
 
 grouped!(DemandFit);
 
-/// How many standard errors the limits of a confidence are away.
-fn quantile(confidence: f64, degrees: f64) -> f64 {
-    t_quantile(0.5 * (1.0 + confidence), degrees)
-}
-
 impl DemandFit {
-    /// Fits the sample of these measures.
-    fn new(
-        cases: &Cases,
-        model: DemandModel,
-        measures: &[Measure],
-        range: Range<f64>,
-        sample: &Sample<f64>,
-    ) -> DemandFit {
+    /// Fits these measures to the cases whose IM4 lies in `range`.
+    fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
+        let sample = demands(cases, measures, &range);
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
-        let end = |measure: usize, end: usize| sample.end(measure, end);
         let fitted = linear.as_ref().ok();
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
@@ -266,10 +239,10 @@ impl DemandFit {
             transition_low: None,
             transition_high: None,
             n: sample.y.len() as i64,
-            im_x_low: end(0, 0),
-            im_x_high: end(0, 1),
-            im_y_low: end(1, 0),
-            im_y_high: end(1, 1),
+            im_x_low: sample.end(0, 0),
+            im_x_high: sample.end(0, 1),
+            im_y_low: sample.end(1, 0),
+            im_y_high: sample.end(1, 1),
             misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
             status: match &linear {
                 Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
@@ -299,19 +272,19 @@ impl DemandFit {
         limit_state: f64,
         confidence: f64,
     ) -> Option<Probability> {
-        let (beta, degrees) = (self.beta?, self.degrees?);
+        let beta = self.beta?;
         let ims = values(self.im_x, self.im_y, measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
         let of_median = variance(&self.covariance, &design_row(&ims));
         let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
-        let half_width = quantile(confidence, degrees) * (of_median + of_beta).sqrt();
+        let half_width = quantile(confidence, self.degrees) * (of_median + of_beta).sqrt();
         let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
         Some(Probability::with_limits(half_width, p_at))
     }
 
     /// It with each independent error of its coefficients, and that of beta, at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [DemandFit; 2]> {
-        let away = quantile(confidence, self.degrees.unwrap_or(f64::INFINITY));
+        let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away);
         let with = |coefficients: Vec<f64>| DemandFit { coefficients, ..self.clone() };
         let of_beta = away / (2.0 * self.residual_degrees()).sqrt();
@@ -327,8 +300,8 @@ impl DemandFit {
 
     /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
-        let (Some(beta), Some(degrees)) = (self.beta, self.degrees) else { return Vec::new() };
-        let quantile = quantile(confidence, degrees);
+        let Some(beta) = self.beta else { return Vec::new() };
+        let quantile = quantile(confidence, self.degrees);
         let row = |parameter: Parameter, value: f64, standard_error: f64| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
@@ -347,14 +320,10 @@ impl DemandFit {
         let error = |k: usize| self.covariance[k * (b.len() + 1)].sqrt();
         let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
         let error_of_zeta = (error_of_beta / b[1]).hypot(beta * error(1) / (b[1] * b[1]));
-        let coefficients =
-            [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate().take(b.len());
-        coefficients
-            .map(|(k, parameter)| row(parameter, b[k], error(k)))
-            .chain([
-                row(Parameter::Beta, beta, error_of_beta),
-                row(Parameter::Zeta, beta / b[1], error_of_zeta),
-            ])
-            .collect()
+        let names = [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate();
+        let mut rows: Vec<_> = names.zip(b).map(|((k, name), b)| row(name, *b, error(k))).collect();
+        rows.push(row(Parameter::Beta, beta, error_of_beta));
+        rows.push(row(Parameter::Zeta, beta / b[1], error_of_zeta));
+        rows
     }
 }

@@ -56,9 +56,14 @@ const PANEL: f64 = 1.6;
 const SOUGHT_M_S: [f64; 2] = [1e-6, 1e3];
 
 impl GivenPeak<'_> {
-    /// PGA and PGV (m/s2 and m/s) of the motions of median PGV / PGA.
-    pub fn median_motion(&self, intensity: f64) -> [f64; 2] {
-        self.peaks(intensity, 0.0)
+    /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard deviations
+    /// above its median.
+    pub fn peaks(&self, intensity: f64, deviations: f64) -> [f64; 2] {
+        let ratio = self.ratio.ratio(intensity, deviations);
+        match self.peak {
+            Peak::Pga => [intensity, intensity * ratio],
+            Peak::Pgv => [intensity / ratio, intensity],
+        }
     }
 
     /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
@@ -154,13 +159,5 @@ impl GivenPeak<'_> {
         edges.sort_by(f64::total_cmp);
         edges.dedup();
         edges
-    }
-
-    fn peaks(&self, intensity: f64, node: f64) -> [f64; 2] {
-        let ratio = self.ratio.ratio(intensity, node);
-        match self.peak {
-            Peak::Pga => [intensity, intensity * ratio],
-            Peak::Pgv => [intensity / ratio, intensity],
-        }
     }
 }

@@ -1,9 +1,8 @@
 //! The intensity measures that fits are made of.
 
-use std::fmt;
 use std::str::FromStr;
 
-use crate::keyword::{self, Keyword, keywords};
+use crate::keyword::{self, keywords};
 use crate::motion::IntensityMeasures;
 
 keywords! {
@@ -62,19 +61,6 @@ impl Measure {
     pub fn value_of(self, measures: &IntensityMeasures) -> Option<f64> {
         self.raw_value_of(measures).filter(|value| value.is_finite() && *value > 0.0)
     }
-
-    /// Gathers the measures of a motion by their values, NaN where one is missing.
-    pub fn gather(value: impl Fn(Measure) -> f64) -> IntensityMeasures {
-        let known = |measure: Measure| Some(value(measure)).filter(|value| !value.is_nan());
-        IntensityMeasures {
-            im1: known(Measure::Im1),
-            im2: known(Measure::Im2),
-            im3: known(Measure::Im3),
-            im4: value(Measure::Im4),
-            im5: value(Measure::Im5),
-            im6: known(Measure::Im6),
-        }
-    }
 }
 
 /// Returns IMx and, of two measures, IMy; none where one is missing.
@@ -100,11 +86,5 @@ impl FromStr for Pair {
         let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
         let pair = Pair(measure(x)?, measure(y)?);
         if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
-    }
-}
-
-impl fmt::Display for Pair {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "{}:{}", self.0.as_str(), self.1.as_str())
     }
 }

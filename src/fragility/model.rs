@@ -89,37 +89,32 @@ impl Model {
     /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of both
     /// calibrations of the surface have the same causes.
     pub fn ends(&self) -> Vec<[Model; 2]> {
-        let (demand, overturning, limit_state, peaks) = match self {
-            Model::Calibrated { overturning, exceeding, floor } => {
+        match *self {
+            Model::Calibrated { ref overturning, ref exceeding, floor } => {
                 let joined = |([low, high], [low_ex, high_ex]): ([Calibration; 2], [Calibration; 2])| {
                     [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Calibrated {
                         overturning,
                         exceeding,
-                        floor: *floor,
+                        floor,
                     })
                 };
-                return overturning.ends().zip(exceeding.ends()).map(joined).collect();
+                overturning.ends().zip(exceeding.ends()).map(joined).collect()
             }
-            Model::Paper { demand, overturning, limit_state, peaks } => {
-                (demand, overturning, *limit_state, *peaks)
+            Model::Paper { ref demand, ref overturning, limit_state, peaks } => {
+                let with = |demand, overturning| Model::Paper { demand, overturning, limit_state, peaks };
+                let of_plane = |at: usize, plane: DemandFit| {
+                    let mut planes = demand.clone();
+                    planes[at] = plane;
+                    with(planes, overturning.clone())
+                };
+                let curves = overturning.ends(CONFIDENCE);
+                let curves = curves.map(|ends| ends.map(|curve| with(demand.clone(), curve)));
+                let planes = demand.iter().enumerate().flat_map(|(at, plane)| {
+                    plane.ends(CONFIDENCE).map(move |ends| ends.map(|plane| of_plane(at, plane)))
+                });
+                curves.chain(planes).collect()
             }
-        };
-        let with = |demand: Vec<DemandFit>, overturning: CurveFit| Model::Paper {
-            demand,
-            overturning,
-            limit_state,
-            peaks,
-        };
-        let of_plane = |at: usize, plane: DemandFit| {
-            let mut planes = demand.clone();
-            planes[at] = plane;
-            with(planes, overturning.clone())
-        };
-        let curves = overturning.ends(CONFIDENCE).map(|ends| ends.map(|curve| with(demand.clone(), curve)));
-        let planes = demand.iter().enumerate().flat_map(|(at, plane)| {
-            plane.ends(CONFIDENCE).map(move |ends| ends.map(|plane| of_plane(at, plane)))
-        });
-        curves.chain(planes).collect()
+        }
     }
 
     /// The floor that it is for; `None` for the ground.
@@ -132,9 +127,9 @@ impl Model {
 
     /// Ground accelerations that uplift a structure, the least possible and a typical one, m/s2.
     pub fn uplift_m_s2(&self, structure: &Structure) -> [f64; 2] {
-        match self {
-            Model::Calibrated { floor: Some(_), .. } => on_floor::uplift_m_s2(structure),
-            _ => [structure.uplift_acceleration_m_s2(); 2],
+        match self.floor() {
+            Some(_) => on_floor::uplift_m_s2(structure),
+            None => [structure.uplift_acceleration_m_s2(); 2],
         }
     }
 
@@ -153,12 +148,8 @@ impl Model {
 
     /// Returns the warnings about its prediction at an intensity.
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
-        let measures = match self {
-            Model::Calibrated { floor: Some(floor), .. } => {
-                &on_floor::median_measures(*floor, structure, measures)
-            }
-            _ => measures,
-        };
+        let of_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
+        let measures = of_floor.as_ref().unwrap_or(measures);
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
@@ -175,13 +166,10 @@ impl Model {
                 let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
                 let is_ok = overturning.status == FitStatus::Ok
                     && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
-                let outside = rocks && !overturning.covers(measures);
-                let few = !overturning.is_clustered;
-                [(outside, Warning::Extrapolated), (!is_ok, Warning::PoorFit), (few, Warning::FewClusters)]
-                    .into_iter()
-                    .filter(|(holds, _)| *holds)
-                    .map(|(_, warning)| warning)
-                    .collect::<Vec<Warning>>()
+                let outside = (rocks && !overturning.covers(measures)).then_some(Warning::Extrapolated);
+                let few = (!overturning.is_clustered).then_some(Warning::FewClusters);
+                let poor = (!is_ok).then_some(Warning::PoorFit);
+                outside.into_iter().chain(few).chain(poor).collect::<Vec<Warning>>()
             }
         };
         warnings.sort_unstable();

@@ -7,14 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, grouped};
 use super::measure::{Measure, Pair, design_row, values};
-use super::parameter::{Parameter, ParameterRow};
+use super::parameter::{Parameter, ParameterRow, quantile};
 use super::tree::Probability;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
-use crate::statistics::distributions::t_quantile;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Estimate, FitStatus};
-use crate::statistics::{independent_errors, normal, predict, tested_probit, variance};
+use crate::statistics::{Estimate, FitStatus, independent_errors, normal, predict, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
 /// (Eq. 20; Eq. 24 with the hybrid measure).
@@ -42,7 +40,6 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
     let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
     let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
-    let end = |measure: usize, end: usize| sample.end(measure, end);
     CurveFit {
         suite: cases.suite.clone(),
         structure: cases.structure.name.clone(),
@@ -63,10 +60,10 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
-        im_x_low: end(0, 0),
-        im_x_high: end(0, 1),
-        im_y_low: end(1, 0),
-        im_y_high: end(1, 1),
+        im_x_low: sample.end(0, 0),
+        im_x_high: sample.end(0, 1),
+        im_y_low: sample.end(1, 0),
+        im_y_high: sample.end(1, 1),
         misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
         status: match &probit {
             Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
@@ -100,23 +97,13 @@ pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
     (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
 }
 
-/// Which curves are made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveOptions {
-    /// [`Event::Overturning`] or [`Event::Rocking`].
-    pub event: Event,
-    /// The hybrid measures.
-    pub pairs: Vec<Pair>,
-    /// Whether to fit all six measures of Eq. 13 alone, in place of IM4 and IM5.
-    pub all: bool,
-}
-
-/// Fits the curves of a structure under a suite: single measures, then hybrid ones.
-pub fn fit_curves(cases: &Cases, options: &CurveOptions) -> Vec<CurveFit> {
-    let single = if options.all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
+/// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`] of a structure under a suite: of IM4 and
+/// IM5 or, if `all`, of all six measures of Eq. 13, then of hybrid measures.
+pub fn fit_curves(cases: &Cases, event: Event, pairs: &[Pair], all: bool) -> Vec<CurveFit> {
+    let single = if all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
     let single = single.iter().map(|&measure| (measure, None));
-    let measures: Vec<_> = single.chain(options.pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
-    measures.into_par_iter().map(|(x, y)| fit_curve(cases, options.event, x, y)).collect()
+    let measures: Vec<_> = single.chain(pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
+    measures.into_par_iter().map(|(x, y)| fit_curve(cases, event, x, y)).collect()
 }
 
 /// A fragility curve: a row of pro.parquet.
@@ -163,10 +150,6 @@ pub struct CurveFit {
 grouped!(CurveFit);
 
 impl CurveFit {
-    fn quantile(&self, confidence: f64) -> f64 {
-        t_quantile(0.5 * (1.0 + confidence), self.degrees.unwrap_or(f64::INFINITY))
-    }
-
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of ln IM - mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
@@ -179,12 +162,13 @@ impl CurveFit {
         };
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
         let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
-        Some(Probability::with_limits(self.quantile(confidence) * error, p_at))
+        Some(Probability::with_limits(quantile(confidence, self.degrees) * error, p_at))
     }
 
     /// It with each independent error of its coefficients at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [CurveFit; 2]> {
-        let errors = independent_errors(&self.coefficients, &self.covariance, self.quantile(confidence));
+        let away = quantile(confidence, self.degrees);
+        let errors = independent_errors(&self.coefficients, &self.covariance, away);
         let with = |coefficients: Vec<f64>| CurveFit { coefficients, ..self.clone() };
         errors.into_iter().map(move |ends| ends.map(with))
     }
@@ -221,8 +205,9 @@ impl CurveFit {
             high: estimate.high,
             confidence,
         };
+        let quantile = quantile(confidence, self.degrees);
         let estimate = |(value, gradient): (f64, Vec<f64>)| {
-            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), self.quantile(confidence))
+            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), quantile)
         };
         let b = &self.coefficients;
         let of_hybrid = self.im_y.map(|_| row(Parameter::Lambda, estimate(lambda(b))));

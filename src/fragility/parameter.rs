@@ -4,6 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::measure::Measure;
 use crate::keyword::keywords;
+use crate::statistics::distributions::t_quantile;
+
+/// How many standard errors the limits of a confidence are away; normal ones without degrees of freedom.
+pub(super) fn quantile(confidence: f64, degrees: Option<f64>) -> f64 {
+    t_quantile(0.5 * (1.0 + confidence), degrees.unwrap_or(f64::INFINITY))
+}
 
 keywords! {
     /// A parameter of a fit.

@@ -74,19 +74,9 @@ impl RatioGiven {
         self.intercept + self.slope * ln_peak + self.bend * (ln_peak - self.knot).max(0.0)
     }
 
-    /// The same ratio (s) of all motions.
-    pub fn exactly(ratio_s: f64) -> RatioGiven {
-        RatioGiven::line(ratio_s.ln(), 0.0, 0.0)
-    }
-
     /// A straight line in ln of the peak (m/s2 or m/s), and the standard deviation about it.
     pub fn line(intercept: f64, slope: f64, sd: f64) -> RatioGiven {
         RatioGiven { intercept, slope, knot: 0.0, bend: 0.0, sd_below: sd, sd_above: sd }
-    }
-
-    /// The ratios times exp(`ln`).
-    pub fn raised(self, ln: f64) -> RatioGiven {
-        RatioGiven { intercept: self.intercept + ln, ..self }
     }
 
     /// Whether all motions of an intensity have the same ratio.

@@ -24,20 +24,15 @@ keywords! {
 }
 
 impl Kind {
-    /// The kind of a suite of motions; those without a suite are taken for recorded ones.
-    pub fn of(suite: Option<Suite>) -> Kind {
-        match suite {
+    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of none,
+    /// is that of records.
+    pub fn of_word(suite: Option<&str>) -> Kind {
+        match suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,
             Some(Suite::Csgm) => Kind::Csgm,
             Some(Suite::Hfc) => Kind::Hfc,
             Some(Suite::Record | Suite::Residual) | None => Kind::Recorded,
         }
-    }
-
-    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of none,
-    /// is that of records.
-    pub fn of_word(suite: Option<&str>) -> Kind {
-        Kind::of(suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()))
     }
 }
 
@@ -240,36 +235,35 @@ impl Surface {
     fn parse(text: &'static str) -> Surface {
         let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        let domain = rows_of(&rows, "domain").map(|row| (row[1], numbers(row, 2))).collect();
-        let kinds =
-            [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc].map(|kind| OfKind::parse(&rows, kind));
-        Surface { domain, kinds }
+        let of_domain = rows.iter().filter(|row| row[0] == "domain");
+        Surface {
+            domain: of_domain.map(|row| (row[1], numbers(&rows, &row[..2]))).collect(),
+            kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
+                .map(|kind| OfKind::parse(&rows, kind)),
+        }
     }
 }
 
 impl OfKind {
-    fn parse(rows: &[Vec<&'static str>], kind: Kind) -> OfKind {
-        let row = |what: &'static str, part: Option<&str>| {
-            let is_it = |row: &&Vec<&str>| row[1] == kind.as_str() && part.is_none_or(|part| row[2] == part);
-            rows_of(rows, what).find(is_it).expect("each kind has it")
+    fn parse(rows: &[Vec<&str>], kind: Kind) -> OfKind {
+        let word = kind.as_str();
+        let [intercept, slope, sd, low, high] = numbers(rows, &["magnitude", word]);
+        let term = |row: &Vec<&str>| Term {
+            coefficient: row[3 + kind as usize].parse().expect("a number"),
+            factors: factors(row[2]),
         };
-        let [intercept, slope, sd, low, high] = numbers(row("magnitude", None), 2);
-        let curve = |name: &'static str| {
-            let term = |row: &Vec<&str>| Term {
-                coefficient: numbers::<4>(row, 3)[kind as usize],
-                factors: factors(row[2]),
-            };
-            let [n, d, k] = numbers(row("uplift", Some(name)), 3);
-            let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] = numbers(row("calibration", Some(name)), 3);
+        let curve = |name: &str| {
+            let [n, d, k] = numbers(rows, &["uplift", word, name]);
+            let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
+                numbers(rows, &["calibration", word, name]);
             Curve {
-                terms: rows_of(rows, "term").filter(|row| row[1] == name).map(term).collect(),
+                terms: rows.iter().filter(|row| row.starts_with(&["term", name])).map(term).collect(),
                 uplift: Uplift { n, d, k },
                 prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
             }
         };
         let ratio_given = |peak: &str| {
-            let six: [f64; 6] = numbers(row("peaks", Some(peak)), 3);
-            RatioGiven::of_numbers(&six).expect("six numbers")
+            RatioGiven::of_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
         };
         OfKind {
             magnitude: ExpectedMagnitude { intercept, slope, sd, range: [low, high] },
@@ -279,17 +273,10 @@ impl OfKind {
     }
 }
 
-/// The rows of a kind of row.
-fn rows_of<'a>(
-    rows: &'a [Vec<&'static str>],
-    what: &'static str,
-) -> impl Iterator<Item = &'a Vec<&'static str>> {
-    rows.iter().filter(move |row| row[0] == what)
-}
-
-/// The numbers of a row from a place on.
-fn numbers<const N: usize>(row: &[&str], from: usize) -> [f64; N] {
-    std::array::from_fn(|k| row[from + k].parse().expect("a number"))
+/// The numbers of the row that begins with these words.
+fn numbers<const N: usize>(rows: &[Vec<&str>], words: &[&str]) -> [f64; N] {
+    let row = rows.iter().find(|row| row.starts_with(words)).expect("the file has it");
+    std::array::from_fn(|k| row[words.len() + k].parse().expect("a number"))
 }
 
 /// Reads a product such as `x*w^2`; 1 is the empty one.

@@ -50,13 +50,6 @@ pub struct Unknown<T> {
     pub quantiles: [T; 2],
 }
 
-impl<T> Unknown<T> {
-    /// How many standard deviations the quantiles are from the median.
-    fn deviations(&self) -> f64 {
-        if self.part == Part::Hazard { 1.0 } else { Z_95 }
-    }
-}
-
 /// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part: downwards
 /// and upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -85,9 +78,8 @@ impl Budget {
 
     /// The part that causes most.
     pub fn largest(&self) -> Option<Part> {
-        let sd = |part: &Part| self.sd_of(*part);
-        let known = Part::ALL.iter().copied().filter(|part| sd(part).is_some());
-        known.max_by(|a, b| sd(a).unwrap_or(0.0).total_cmp(&sd(b).unwrap_or(0.0)))
+        let known = Part::ALL.iter().filter_map(|&part| Some((part, self.sd_of(part)?)));
+        known.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(part, _)| part)
     }
 
     /// 95 % limits of an annual rate, which is never above that of rocking.
@@ -131,8 +123,10 @@ impl Budgets {
     /// deviations.
     pub fn vary<T>(&mut self, unknown: &Unknown<T>, results: impl Fn(&T) -> [f64; 2]) {
         let [low, high] = unknown.quantiles.each_ref().map(results);
+        // How many standard deviations the quantiles are from the median.
+        let deviations = if unknown.part == Part::Hazard { 1.0 } else { Z_95 };
         let sds = |k: usize| {
-            let off = [low[k], high[k]].map(|end| (end - self.values[k]) / unknown.deviations());
+            let off = [low[k], high[k]].map(|end| (end - self.values[k]) / deviations);
             [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]
         };
         self.add(unknown.part, [sds(0), sds(1)]);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rand::{Rng, RngExt};
+use rand::RngExt;
 use rayon::prelude::*;
 
 use super::curve::HazardCurve;
@@ -69,7 +69,9 @@ pub fn counted_rate(
     motions.iter_mut().for_each(|motion| motion.cluster = numbers[&motion.cluster]);
     let in_all = bins(curve, least, &motions, |_| 1.0);
     let draw = |resample: u64| {
-        let times = draw_clusters(numbers.len(), &mut stream(seed, Purpose::Bootstrap, resample));
+        // As many clusters as there are, with replacement: how often each comes.
+        let (mut times, mut random) = (vec![0.0; numbers.len()], stream(seed, Purpose::Bootstrap, resample));
+        (0..times.len()).for_each(|_| times[random.random_range(0..numbers.len())] += 1.0);
         rate(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
     };
     let mut drawn: Vec<f64> = (0..RESAMPLES).into_par_iter().map(draw).collect();
@@ -78,15 +80,6 @@ pub fn counted_rate(
     let poisson = poisson_limits(&in_all);
     let limits = Limits { low: poisson.low.min(at(TAIL)), high: poisson.high.max(at(1.0 - TAIL)) };
     Some(CountedRate { value: rate(&in_all), limits, motions: motions.len() })
-}
-
-/// Draws as many clusters as there are, with replacement, and returns how often each came.
-fn draw_clusters(clusters: usize, random: &mut impl Rng) -> Vec<f64> {
-    let mut times = vec![0.0; clusters];
-    for _ in 0..clusters {
-        times[random.random_range(0..clusters)] += 1.0;
-    }
-    times
 }
 
 /// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle

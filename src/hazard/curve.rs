@@ -44,15 +44,14 @@ impl HazardCurve {
             let (im, rate) = points[point];
             return Err(HazardError::NotPositive { point, im, rate });
         }
-        match points.windows(2).position(|pair| pair[0].0 >= pair[1].0 || pair[0].1 < pair[1].1) {
-            Some(_) if points.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 <= pair[1].1) => {
-                let (_, rate) = points[0];
-                if rate > FREQUENT {
-                    return Err(HazardError::Exchanged { rate });
-                }
-                points.reverse();
-                Ok(HazardCurve { points })
+        if points.windows(2).all(|pair| pair[0].0 > pair[1].0 && pair[0].1 <= pair[1].1) {
+            let (_, rate) = points[0];
+            if rate > FREQUENT {
+                return Err(HazardError::Exchanged { rate });
             }
+            points.reverse();
+        }
+        match points.windows(2).position(|pair| pair[0].0 >= pair[1].0 || pair[0].1 < pair[1].1) {
             Some(before) => Err(HazardError::Unordered { point: before + 1 }),
             None => Ok(HazardCurve { points }),
         }

@@ -2,9 +2,8 @@
 //!
 //! ```text
 //! curve     annual rate of exceedance of one intensity; the convolution integral
-//! joint     annual rate of occurrence of pairs of PGA and PGV; the sum over them
 //! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
-//! rates     annual rates of the limit states of a structure, by a model
+//! rates     annual rates of the limit states of a structure, over a curve or over pairs of PGA and PGV
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
@@ -14,7 +13,6 @@
 mod budget;
 mod count;
 mod curve;
-mod joint;
 mod motion;
 mod pgv_pga;
 mod rates;
@@ -23,10 +21,10 @@ mod site;
 pub use budget::{Budget, Budgets, Part, Unknown};
 pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
-pub use joint::{JointHazard, PairOfPeaks};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
-pub use rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
+pub use rates::{PairOfPeaks, Rate, Rates, exceedance, mean_annual_rates};
+pub use rates::{median_intensity, rates_over_curve, rates_over_pairs};
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

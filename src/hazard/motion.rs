@@ -50,14 +50,14 @@ impl Motion {
     ) -> MotionProbabilities {
         let model = &directions[0].1;
         let (mw, of_magnitude) = magnitude(self.mw);
+        let velocity = |peak: Peak| PgvPgaRatio::of_model(model, peak, self.vs30_m_s);
         let one = match (self.pga_m_s2, self.pgv_m_s) {
             (Some(_), Some(_)) => None,
-            (Some(pga), None) => Some((Peak::Pga, pga)),
-            (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
+            (Some(pga), None) => Some((Peak::Pga, pga, velocity(Peak::Pga))),
+            (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0), velocity(Peak::Pgv))),
         };
-        let velocity = one.map(|(peak, _)| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
         let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
-            let Some(((peak, intensity), velocity)) = one.zip(velocity) else {
+            let Some((peak, intensity, velocity)) = one else {
                 let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
                 return limit_states_at(directions, peaks, self.mw, scenarios);
             };
@@ -74,10 +74,10 @@ impl Motion {
         let mut budgets = Budgets::about(logits(directions, mw, 0.0));
         budgets.add(Part::Fit, fit.map(|sd| [sd, sd]));
         // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
-        if model.depends_on_magnitude() && one.is_some() && self.mw.is_none() {
-            budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
-        }
-        if let Some(velocity) = velocity {
+        if let Some((.., velocity)) = one {
+            if model.depends_on_magnitude() && self.mw.is_none() {
+                budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
+            }
             budgets.vary(&velocity.unknown(), |ln| logits(directions, mw, *ln));
         }
         for unknown in unknowns {

@@ -109,7 +109,7 @@ impl PgvPgaRatio {
     /// Makes a ratio (s) that is the same in all motions.
     pub fn given(ratio_s: f64) -> PgvPgaRatio {
         PgvPgaRatio {
-            ratio: RatioGiven::exactly(ratio_s),
+            ratio: RatioGiven::line(ratio_s.ln(), 0.0, 0.0),
             per_magnitude: 0.0,
             sd: 0.0,
             source: VelocitySource::Given,
@@ -200,7 +200,8 @@ impl PgvPgaRatio {
 
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
     pub fn at(&self, mw: f64, ln: f64) -> RatioGiven {
-        self.ratio.raised(self.per_magnitude * (mw - MIDDLE) + ln)
+        let intercept = self.ratio.intercept + (self.per_magnitude * (mw - MIDDLE) + ln);
+        RatioGiven { intercept, ..self.ratio }
     }
 }
 

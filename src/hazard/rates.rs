@@ -1,9 +1,52 @@
-//! Annual rates of the limit states of a structure at a site: the hazard times the probabilities of a model.
+//! Annual rates of the limit states of a structure at a site: the hazard, of one peak or of pairs of peaks,
+//! times the probabilities of a model.
 
 use super::curve::HazardCurve;
-use super::joint::{JointHazard, PairOfPeaks};
 use crate::fragility::{GivenPeak, Model, Probability, Scenarios, limit_states_at};
 use crate::rocking::Structure;
+
+/// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairOfPeaks {
+    /// Peak ground acceleration that stands for the bin, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity that stands for the bin, m/s.
+    pub pgv_m_s: f64,
+    /// Mean number of motions of the bin in a year: a rate of occurrence, not of exceedance.
+    pub annual_rate: f64,
+    /// Moment magnitude of the earthquakes, if it is known.
+    pub mw: Option<f64>,
+}
+
+/// Finds the annual rates at which the values of one peak are reached, from the smallest on.
+pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> Vec<(f64, f64)> {
+    let mut values: Vec<(f64, f64)> = bins.iter().map(|bin| (peak(bin), bin.annual_rate)).collect();
+    values.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let mut sum = 0.0;
+    for (_, rate) in &mut values {
+        sum += *rate;
+        *rate = sum;
+    }
+    values.reverse();
+    // Of equal values the first holds the rates of all.
+    values.dedup_by_key(|(value, _)| *value);
+    values
+}
+
+/// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins
+/// of rate times probability.
+pub fn mean_annual_rates<const N: usize>(
+    bins: &[PairOfPeaks],
+    probabilities: impl Fn(&PairOfPeaks) -> [f64; N],
+) -> [f64; N] {
+    let mut rates = [0.0; N];
+    for bin in bins {
+        for (sum, p) in rates.iter_mut().zip(probabilities(bin)) {
+            *sum += p * bin.annual_rate;
+        }
+    }
+    rates
+}
 
 /// A mean annual rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,13 +76,13 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
     })
 }
 
-/// Sums the probabilities of an object in its directions over the bins of a joint hazard.
-pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, joint: &JointHazard) -> Rates {
+/// Sums the probabilities of an object in its directions over bins of PGA and PGV.
+pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, bins: &[PairOfPeaks]) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
         limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many).map(|state| state.value)
     };
-    joint.mean_annual_rates(states).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
+    mean_annual_rates(bins, states).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
 }
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's

@@ -4,9 +4,8 @@
 use super::budget::{Budget, Budgets, Part, Unknown};
 use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
-use super::joint::JointHazard;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource, magnitude};
-use super::rates::{Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
+use super::rates::{PairOfPeaks, Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
 use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak};
 use crate::number::Limited;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -19,8 +18,8 @@ use crate::warning::Warning;
 pub enum Hazard {
     /// Annual rates at which one peak is exceeded.
     Curve(PeakHazard),
-    /// Annual rates at which pairs of peaks occur.
-    Joint(JointHazard),
+    /// Annual rates at which pairs of peaks occur, in bins in any order; those without motions may be left out.
+    Joint(Vec<PairOfPeaks>),
 }
 
 /// Annual rates at which a peak is exceeded.
@@ -97,14 +96,14 @@ impl Site {
     ) -> SiteRates {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, directions, unknowns),
-            Hazard::Joint(joint) => {
-                let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, joint);
+            Hazard::Joint(bins) => {
+                let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, bins);
                 let value = rates(directions);
                 let mut budgets = Budgets::about(ln_rates(&value));
                 for unknown in parameters(directions).iter().chain(unknowns) {
                     budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
                 }
-                let strongest = joint.bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
+                let strongest = bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
                 SiteRates::new(value, budgets, motion, false)
             }
@@ -148,17 +147,17 @@ impl Site {
             budgets.vary(&fractiles, |curve| of(&middle, curve));
         }
 
-        let motion = middle.median_motion(median_intensity(&middle, &curve));
+        let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
         let warnings = [
-            (is_extrapolated, Warning::HazardExtrapolated),
-            (ends_early && !is_extrapolated, Warning::HazardEndsEarly),
-            (first > middle.uplift()[1], Warning::HazardStartsLate),
+            is_extrapolated.then_some(Warning::HazardExtrapolated),
+            (ends_early && !is_extrapolated).then_some(Warning::HazardEndsEarly),
+            (first > middle.uplift()[1]).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {
             velocity: Some(velocity.source),
             beyond: is_extrapolated.then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
             counted: self.count(&middle, &curve),
-            warnings: warnings.into_iter().filter(|(holds, _)| *holds).map(|(_, warning)| warning).collect(),
+            warnings: warnings.into_iter().flatten().collect(),
             ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
         }
     }

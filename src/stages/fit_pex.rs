@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
-use crate::fragility::{Calibration, DemandFit, DemandModel, DemandOptions, fit_demand};
+use crate::fragility::{Calibration, DemandFit, DemandModel, fit_demand};
 use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
@@ -70,13 +70,11 @@ impl Stage for FitPex {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
-        let options =
-            DemandOptions { transition: self.transition.0, confidence: self.confidence, all: self.all };
         let bar = context.bar(groups.len() as u64);
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, &options));
+            fits.extend(fit_demand(cases, self.transition.0, self.confidence, self.all));
             let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
             calibrations.extend(self.limit_state.iter().map(of_limit));
             bar.advance(1)?;
@@ -95,18 +93,17 @@ impl Stage for FitPex {
     }
 }
 
-/// The pairs of planes as a table.
 fn planes_text(fits: &[DemandFit], out: &Path) -> String {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
     let line = |pair: &[&DemandFit]| {
         let (below, above) = (pair[0], pair[1]);
-        let number = |value: Option<f64>| significant(value.unwrap_or(f64::NAN), 4);
-        let [transition, r2_below, r2_above] = [below.range_high, below.r2, above.r2].map(number);
+        let [transition, r2_below, r2_above] = [below.range_high, below.r2, above.r2]
+            .map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
         let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
-        let name = [suite_name(&below.suite), below.structure.clone()];
-        name.into_iter().chain([transition, r2_below, r2_above, verdict]).collect()
+        let (suite, structure) = (suite_name(&below.suite), below.structure.clone());
+        vec![suite, structure, transition, r2_below, r2_above, verdict]
     };
     let headings = ["suite", "structure", "transition", "R2 below", "R2 above", "verdict"];
-    let table = text(&headings, planes.chunks_exact(2).map(line), 2..5, out);
-    format!("planes (paper), below and above the transition\n{table}")
+    let lines = text(&headings, planes.chunks_exact(2).map(line), 2..5, out);
+    format!("planes (paper), below and above the transition\n{lines}")
 }

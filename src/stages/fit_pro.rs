@@ -6,7 +6,7 @@ use clap::{Args, ValueHint};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
-use crate::fragility::{Calibration, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curves};
+use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
@@ -52,11 +52,10 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
-        let options = CurveOptions { event: self.event, pairs: self.pairs.clone(), all: self.all };
         let bar = context.bar(groups.len() as u64);
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &groups {
-            fits.extend(fit_curves(cases, &options));
+            fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
             // The surface gives the probability of overturning, not that of rocking.
             if self.event == Event::Overturning {
                 calibrations.push(Calibration::fit(cases, None));
@@ -78,20 +77,18 @@ impl Stage for FitPro {
     }
 }
 
-/// The curves of IM5 as a table.
 fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
     let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
-        let of = |wanted: Parameter| {
-            let row = parameters.iter().find(|row| row.parameter == wanted);
-            let limited = row.map_or([None; 3], |row| [row.value, row.low, row.high].map(Some));
-            THREE_DIGITS.both(limited, "")
+        let of = |wanted: Parameter| match parameters.iter().find(|row| row.parameter == wanted) {
+            Some(row) => THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""),
+            None => "-".to_string(),
         };
-        let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(of);
+        let (median, dispersion) = (of(Parameter::Theta), of(Parameter::Beta));
         vec![suite_name(&fit.suite), fit.structure.clone(), median, dispersion, verdict(fit.status)]
     };
     let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
     let headings = ["suite", "structure", "median", "dispersion", "verdict"];
-    let (limits, table) = (100.0 * confidence, text(&headings, of_im5.map(line), 0..0, out));
-    format!("lognormal curve (paper) of IM5, with {limits} % limits\n{table}")
+    let lines = text(&headings, of_im5.map(line), 0..0, out);
+    format!("lognormal curve (paper) of IM5, with {} % limits\n{lines}", 100.0 * confidence)
 }

@@ -223,14 +223,8 @@ impl Ida {
             warned.extend(warnings(motion, &record));
             for structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
-                    let measure = self.measure;
-                    value_error(
-                        path,
-                        motion,
-                        format!(
-                            "no {measure} above 0 to scale; leave the motion out, or take --measure scale"
-                        ),
-                    )
+                    let problem = "above 0 to scale; leave the motion out, or take --measure scale";
+                    value_error(path, motion, format!("no {} {problem}", self.measure))
                 })?;
                 cases.push(Case { path, motion, measures, structure, unscaled });
             }

@@ -103,21 +103,9 @@ impl Stage for RankIms {
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
     let shown: Vec<&RankedSet> = sets.iter().filter(|set| set.rank <= SHOWN).collect();
     let frame = frame::of_batch(&rows::batch_of::<RankedSet, _>(&shown)?)?;
-    let columns = [
-        "suite",
-        "structure",
-        "target",
-        "rank",
-        "measures",
-        "form",
-        "log_score",
-        "loss",
-        "loss_error",
-        "aic",
-        "status",
-    ];
+    const COLUMNS: &str = "suite structure target rank measures form log_score loss loss_error aic status";
     let order = SortMultipleOptions::default().with_maintain_order(true);
-    Ok(frame::text(&frame.select(columns)?.sort(["suite", "structure", "target", "rank"], order)?))
+    Ok(frame::text(&frame.select(COLUMNS.split(' '))?.sort(["suite", "structure", "target", "rank"], order)?))
 }
 
 /// A line on the measures that some cases lack.

@@ -128,17 +128,6 @@ fn validate(
 /// A line a suite, structure and event.
 fn summary(scores: &[Validation]) -> anyhow::Result<String> {
     let frame = frame::of_batch(&rows::batch(scores)?)?;
-    let columns = [
-        "suite",
-        "structure",
-        "event",
-        "model",
-        "n",
-        "observed",
-        "expected",
-        "expected_error",
-        "log_score",
-        "brier",
-    ];
-    Ok(frame::text(&frame.select(columns)?))
+    const COLUMNS: &str = "suite structure event model n observed expected expected_error log_score brier";
+    Ok(frame::text(&frame.select(COLUMNS.split(' '))?))
 }

@@ -10,7 +10,7 @@ use super::newton::{Maximum, Objective, maximise};
 use super::normal;
 
 /// A fit needs this many events, and this many cases without.
-pub const LEAST_EVENTS: usize = 5;
+const LEAST_EVENTS: usize = 5;
 /// With a larger standard error of z the likelihood has no maximum.
 const ENDLESS: f64 = 1e3;
 
@@ -73,7 +73,7 @@ fn maximum(x: &DMatrix<f64>, events: &[bool]) -> Maximum {
 /// # Errors
 /// [`FitStatus::TooFewEvents`], [`FitStatus::Degenerate`], [`FitStatus::Separated`] or
 /// [`FitStatus::NotConverged`].
-pub fn probit(x: &[&[f64]], events: &[bool]) -> Result<ProbitFit, FitStatus> {
+pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, FitStatus> {
     let count = events.iter().filter(|event| **event).count();
     if count.min(events.len() - count) < LEAST_EVENTS {
         return Err(FitStatus::TooFewEvents);
@@ -121,7 +121,7 @@ pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<
 /// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
 fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
     let columns = with_squares(x)?;
-    let wider = DesignMatrix::new(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>()).ok()?;
+    let wider = DesignMatrix::new(&columns).ok()?;
     // If the wider curve separates the outcomes, its likelihood is larger still.
     let gained = maximum(&wider.x, events).objective.value - probit.log_likelihood;
     Some(chi_squared_upper_tail(2.0 * gained.max(0.0), (columns.len() - x.len()) as f64))

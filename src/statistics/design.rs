@@ -29,16 +29,16 @@ impl DesignMatrix {
     ///
     /// # Errors
     /// [`FitStatus::Degenerate`] if a predictor is constant or a combination of others, or n <= k.
-    pub fn new(columns: &[&[f64]]) -> Result<DesignMatrix, FitStatus> {
-        let (n, k) = (columns.first().map_or(0, |x| x.len()), columns.len() + 1);
+    pub fn new(columns: &[impl AsRef<[f64]>]) -> Result<DesignMatrix, FitStatus> {
+        let (n, k) = (columns.first().map_or(0, |x| x.as_ref().len()), columns.len() + 1);
         if n <= k {
             return Err(FitStatus::Degenerate);
         }
         let mut x = DMatrix::from_element(n, k, 1.0);
         let mut to_given = DMatrix::identity(k, k);
-        for (j, values) in columns.iter().enumerate() {
+        for (j, values) in columns.iter().map(AsRef::as_ref).enumerate() {
             let (mean, sd) = mean_and_sd(values).ok_or(FitStatus::Degenerate)?;
-            x.column_mut(j + 1).iter_mut().zip(*values).for_each(|(x, value)| *x = (value - mean) / sd);
+            x.column_mut(j + 1).iter_mut().zip(values).for_each(|(x, value)| *x = (value - mean) / sd);
             to_given[(0, j + 1)] = -mean / sd;
             to_given[(j + 1, j + 1)] = 1.0 / sd;
         }
@@ -55,11 +55,9 @@ impl DesignMatrix {
 
 /// Returns the standardised predictors, followed by their squares and products.
 pub fn with_squares(x: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
-    let standardised = |x: &&[f64]| {
-        let (mean, sd) = mean_and_sd(x)?;
-        Some(x.iter().map(|x| (x - mean) / sd).collect())
-    };
-    let mut columns: Vec<Vec<f64>> = x.iter().map(standardised).collect::<Option<_>>()?;
+    let design = DesignMatrix::new(x).ok()?.x;
+    let mut columns: Vec<Vec<f64>> =
+        design.column_iter().skip(1).map(|x| x.iter().copied().collect()).collect();
     for i in 0..x.len() {
         for j in i..x.len() {
             columns.push(columns[i].iter().zip(&columns[j]).map(|(a, b)| a * b).collect());

@@ -1,7 +1,6 @@
 //! The result of a regression: coefficients with their uncertainty, and a status.
 
 use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
 
@@ -36,7 +35,7 @@ impl FitStatus {
 const POOR_FIT: f64 = 0.01;
 
 /// Confidence limits.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Limits {
     pub low: f64,

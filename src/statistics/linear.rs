@@ -34,7 +34,7 @@ impl LinearFit {
 ///
 /// # Errors
 /// [`FitStatus::Degenerate`] where the cases do not determine the coefficients, or `y` does not vary.
-pub fn least_squares(x: &[&[f64]], y: &[f64]) -> Result<LinearFit, FitStatus> {
+pub fn least_squares(x: &[impl AsRef<[f64]>], y: &[f64]) -> Result<LinearFit, FitStatus> {
     let design = DesignMatrix::new(x)?;
     let (mean, _) = mean_and_sd(y).ok_or(FitStatus::Degenerate)?;
     let y = DVector::from_column_slice(y);
@@ -63,7 +63,7 @@ pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result
 /// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
 fn misfit(linear: &LinearFit, x: &[&[f64]], y: &[f64]) -> Option<f64> {
     let columns = with_squares(x)?;
-    let wider = least_squares(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), y).ok()?;
+    let wider = least_squares(&columns, y).ok()?;
     let added = linear.fit.degrees - wider.fit.degrees;
     let f = (linear.rss - wider.rss) / added / (wider.rss / wider.fit.degrees);
     Some(f_upper_tail(f, added, wider.fit.degrees))

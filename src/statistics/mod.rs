@@ -26,7 +26,7 @@ pub mod normal;
 pub mod numerics;
 pub mod scores;
 
-pub use binary::{LEAST_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
+pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::Folds;
 pub use fit::{Estimate, Fit, FitStatus, Limits, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};

@@ -189,14 +189,12 @@ impl Contest {
             set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()
         };
         let law = |rows: &[usize]| {
-            let (x, y): (_, Vec<f64>) = (columns(rows), rows.iter().map(|&row| self.y[row]).collect());
-            least_squares(&x.iter().map(Vec::as_slice).collect::<Vec<_>>(), &y)
+            least_squares(&columns(rows), &rows.iter().map(|&row| self.y[row]).collect::<Vec<_>>())
         };
         match (self.target, form) {
             (Target::Overturning, _) => {
                 let events: Vec<bool> = rows.iter().map(|&row| self.events[row]).collect();
-                let x = columns(rows);
-                Ok(Model::Overturning(probit(&x.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events)?))
+                Ok(Model::Overturning(probit(&columns(rows), &events)?))
             }
             (Target::Demand, Form::Single) => law(rows).map(|law| Model::Demand([law.clone(), law])),
             (Target::Demand, Form::Biplanar) => {

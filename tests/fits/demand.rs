@@ -3,8 +3,8 @@
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Cases, DemandFit, DemandModel, DemandOptions, Measure, PLANE, Parameter, fit_demand, fit_plane,
-    fit_planes, fit_power_law, ln_median_demand, p_exceeding, scan_transition, transition,
+    Cases, DemandFit, DemandModel, Measure, PLANE, Parameter, fit_demand, fit_plane, fit_planes,
+    fit_power_law, ln_median_demand, p_exceeding, scan_transition, transition,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Outcome;
@@ -116,7 +116,7 @@ fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
 #[test]
 fn the_transition_is_the_papers_unless_it_is_to_be_found() {
     let cases = on_planes(1.5, 1500);
-    let fit = |transition, all| fit_demand(&cases, &DemandOptions { transition, confidence: 0.95, all });
+    let fit = |transition, all| fit_demand(&cases, transition, 0.95, all);
     let [low, _] = &fit(Some(rockfrag::paper::TRANSITION), false)[..] else { panic!() };
     assert!(low.range_high == Some(1.3) && (low.transition_found.unwrap() - 1.5).abs() < 0.011, "{low:?}");
     assert_eq!(fit(None, false)[0].range_high, low.transition_found);
@@ -152,8 +152,7 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     }));
     assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
-    let fits =
-        fit_demand(&line(30, |im4| im4), &DemandOptions { transition: None, confidence: 0.95, all: false });
+    let fits = fit_demand(&line(30, |im4| im4), None, 0.95, false);
     assert!(
         scan_transition(&line(30, |im4| im4)).is_empty()
             && fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate)

@@ -4,8 +4,9 @@ use rockfrag::fragility::{
     Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    Budget, Hazard, HazardCurve, HazardError, JointHazard, MatchError, PairOfPeaks, Part, PeakHazard,
-    PgvPgaRatio, Site, Unknown, VelocitySource, probability_in_years, rates_over_curve, velocity_of_spectrum,
+    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, Part, PeakHazard, PgvPgaRatio, Site,
+    Unknown, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
+    velocity_of_spectrum,
 };
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
@@ -40,10 +41,9 @@ fn the_rate_of_a_jump_is_the_hazard_there() {
 #[test]
 fn a_joint_hazard_has_a_curve_of_each_peak() {
     let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate, mw: None };
-    let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin).to_vec();
-    let joint = JointHazard { bins };
-    assert_eq!(joint.exceedance(|bin| bin.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
-    assert_eq!(joint.exceedance(|bin| bin.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
+    let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin);
+    assert_eq!(exceedance(&bins, |bin| bin.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
+    assert_eq!(exceedance(&bins, |bin| bin.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
 }
 
 #[test]
@@ -64,8 +64,8 @@ fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
         annual_rate: 0.02 / n as f64,
         mw: None,
     };
-    let joint = JointHazard { bins: (0..n).map(bin).collect() };
-    let [rate] = joint.mean_annual_rates(|bin| [p_overturning(bin.pgv_m_s, mu, beta)]);
+    let bins: Vec<PairOfPeaks> = (0..n).map(bin).collect();
+    let [rate] = mean_annual_rates(&bins, |bin| [p_overturning(bin.pgv_m_s, mu, beta)]);
     let expected = 0.02 * normal::cdf((m - mu) / beta.hypot(s));
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }

@@ -3,9 +3,7 @@
 
 use proptest::prelude::*;
 use rand::RngExt;
-use rockfrag::fragility::{
-    Cases, CurveFit, CurveOptions, Event, Measure, Pair, Parameter, fit_curve, fit_curves,
-};
+use rockfrag::fragility::{Cases, CurveFit, Event, Measure, Pair, Parameter, fit_curve, fit_curves};
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::{FitStatus, normal};
 
@@ -119,10 +117,9 @@ fn grouped_collapses_give_the_known_curve() {
 #[test]
 fn curves_are_those_of_the_paper_or_all() {
     let cases = data().overturning();
-    let pairs = vec!["im4:im3_inv".parse::<Pair>().unwrap()];
-    let options = |all| CurveOptions { event: Event::Overturning, pairs: pairs.clone(), all };
-    let measures =
-        |all| fit_curves(&cases, &options(all)).iter().map(|fit| (fit.im_x, fit.im_y)).collect::<Vec<_>>();
+    let pairs = ["im4:im3_inv".parse::<Pair>().unwrap()];
+    let curves = |all| fit_curves(&cases, Event::Overturning, &pairs, all);
+    let measures = |all| curves(all).iter().map(|fit| (fit.im_x, fit.im_y)).collect::<Vec<_>>();
     assert_eq!(measures(false), [(Measure::Im4, None), (Measure::Im5, None), HYBRID]);
     assert_eq!(measures(true).len(), 7);
     assert!(

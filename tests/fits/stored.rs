@@ -2,10 +2,7 @@
 
 use std::path::Path;
 
-use rockfrag::fragility::{
-    Calibration, Cases, CurveOptions, DemandOptions, Event, Kind, Measure, Model, Pair, fit_curves,
-    fit_demand,
-};
+use rockfrag::fragility::{Calibration, Cases, Event, Kind, Measure, Model, Pair, fit_curves, fit_demand};
 use rockfrag::pipeline::context::Context;
 use rockfrag::rocking::Structure;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
@@ -23,12 +20,9 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
         cases
     };
     let all: Vec<Cases> = suites.iter().map(of_suite).collect();
-    let curves = CurveOptions {
-        event: Event::Overturning,
-        pairs: vec![Pair(Measure::Im4, Measure::Im3Inverse)],
-        all: false,
-    };
-    let planes = DemandOptions { transition: Some(1.3), confidence: 0.95, all: true };
+    let pairs = [Pair(Measure::Im4, Measure::Im3Inverse)];
+    let curves = |of: &Cases| fit_curves(of, Event::Overturning, &pairs, false);
+    let planes = |of: &Cases| fit_demand(of, Some(1.3), 0.95, true);
     let write = |name: &str, write: &dyn Fn(&Path)| write(&folder.path().join(name));
     fn put<R: Row>(path: &Path, rows: Vec<R>) {
         Context::default().write(path, &rows, "").unwrap();
@@ -39,8 +33,8 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
     write("pex.calibration.parquet", &|path| {
         put(path, all.iter().map(|of| Calibration::fit(of, Some(0.1))).collect());
     });
-    write("pro.parquet", &|path| put(path, all.iter().flat_map(|of| fit_curves(of, &curves)).collect()));
-    write("pex.parquet", &|path| put(path, all.iter().flat_map(|of| fit_demand(of, &planes)).collect()));
+    write("pro.parquet", &|path| put(path, all.iter().flat_map(curves).collect()));
+    write("pex.parquet", &|path| put(path, all.iter().flat_map(planes).collect()));
     folder
 }
 

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    DemandOptions, Event, Measure, Probability, fit_curve, fit_demand, p_failure, p_failure_given_rocking,
-    p_no_rocking, paper_probabilities,
+    Event, Measure, Probability, fit_curve, fit_demand, p_failure, p_failure_given_rocking, p_no_rocking,
+    paper_probabilities,
 };
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::statistics::normal;
@@ -21,7 +21,7 @@ fn without_rocking_all_is_exactly_zero() {
 #[test]
 fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     let cases = rocking(2000);
-    let planes = fit_demand(&cases, &DemandOptions { transition: Some(1.3), confidence: 0.95, all: false });
+    let planes = fit_demand(&cases, Some(1.3), 0.95, false);
     let curve = fit_curve(&cases, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
     let b = &curve.coefficients;
     for (im4, im3) in [(1.1, 2.0), (1.29, 0.7), (1.31, 0.7), (3.5, 1.1)] {

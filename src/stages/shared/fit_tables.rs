@@ -29,15 +29,15 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: 
     text(&headings, rows.iter().map(line), headings.len() - 3..headings.len() - 1, out)
 }
 
-/// The first lines as a table with numbers in these columns; all are in a file.
+/// The first rows as a table, these columns of numbers flush right; all are in a file.
 pub fn text(
     headings: &[&str],
-    lines: impl Iterator<Item = Vec<String>>,
+    rows: impl Iterator<Item = Vec<String>>,
     numbers: Range<usize>,
     out: &Path,
 ) -> String {
     let headings = headings.iter().map(|heading| heading.to_string()).collect();
-    let lines: Vec<Vec<String>> = std::iter::once(headings).chain(lines).collect();
+    let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
     first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
 }
 

@@ -11,8 +11,8 @@ use anyhow::{Context, bail};
 use self::columns::{Content, Frequency, Intensity, Statistic, content};
 pub use self::columns::{headings, peak, rename, renamed};
 use crate::fragility::Peak;
-use crate::hazard::{Hazard, HazardCurve, JointHazard, PairOfPeaks, PeakHazard};
-use crate::hazard::{PgvPgaRatio, VelocitySource, velocity_of_spectrum};
+use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
+use crate::hazard::{exceedance, velocity_of_spectrum};
 use crate::plausibility::judge_hazard;
 use crate::sheet::{Heading, Sheet};
 use crate::units::{CM_PER_M, G_M_S2};
@@ -42,11 +42,11 @@ pub fn read(
         bail!("no heading '{heading}' in any file of the hazard");
     }
     let hazard = match (found.joint.pop(), paths) {
-        (Some(joint), [path]) => {
-            let of_pga = judge_hazard(false, &joint.exceedance(|bin| bin.pga_m_s2 / G_M_S2));
-            let of_both = of_pga.and_then(|()| judge_hazard(true, &joint.exceedance(|bin| bin.pgv_m_s)));
+        (Some(bins), [path]) => {
+            let of_pga = judge_hazard(false, &exceedance(&bins, |bin| bin.pga_m_s2 / G_M_S2));
+            let of_both = of_pga.and_then(|()| judge_hazard(true, &exceedance(&bins, |bin| bin.pgv_m_s)));
             of_both.with_context(|| path.display().to_string())?;
-            Hazard::Joint(joint)
+            Hazard::Joint(bins)
         }
         (Some(_), _) => bail!("a hazard of PGA and PGV together among others; expected it alone"),
         (None, _) => Hazard::Curve(joined(&found.curves)?),
@@ -104,7 +104,7 @@ struct Curve {
 #[derive(Default)]
 struct Found {
     curves: Vec<Curve>,
-    joint: Vec<JointHazard>,
+    joint: Vec<Vec<PairOfPeaks>>,
     /// About columns that say nothing of the curves.
     unused: Warnings,
 }
@@ -223,7 +223,7 @@ fn joint(
     rate: usize,
     intensities: &[(usize, Intensity, f64, Statistic)],
     mw: Option<usize>,
-) -> anyhow::Result<JointHazard> {
+) -> anyhow::Result<Vec<PairOfPeaks>> {
     let of = |peak: Peak| {
         let found = intensities.iter().find(|(_, intensity, ..)| *intensity == Intensity::Peak(peak));
         found.map(|&(at, _, unit, _)| (at, unit))
@@ -235,7 +235,7 @@ fn joint(
         mw @ 3.0..=10.0 => Ok(mw),
         _ => Err(sheet.refusal(row, column, "a moment magnitude")),
     };
-    let hazard = of_rows(sheet, |row| {
+    let bins = of_rows(sheet, |row| {
         Ok(PairOfPeaks {
             pga_m_s2: sheet.number(row, pga)? * pga_unit,
             pgv_m_s: sheet.number(row, pgv)? * pgv_unit,
@@ -244,20 +244,23 @@ fn joint(
         })
     })?;
     let mut known = BTreeMap::new();
-    for (bin, line) in hazard.bins.iter().zip(&sheet.lines) {
+    for (bin, line) in bins.iter().zip(&sheet.lines) {
         let same = [bin.pga_m_s2, bin.pgv_m_s, bin.mw.unwrap_or(0.0)].map(f64::to_bits);
         if let Some(first) = known.insert(same, line) {
             bail!("lines {first} and {line}: the same PGA, PGV and magnitude; expected one row of each bin");
         }
     }
-    Ok(hazard)
+    Ok(bins)
 }
 
 /// The motions of all rows.
-fn of_rows(sheet: &Sheet, bin: impl Fn(usize) -> anyhow::Result<PairOfPeaks>) -> anyhow::Result<JointHazard> {
+fn of_rows(
+    sheet: &Sheet,
+    bin: impl Fn(usize) -> anyhow::Result<PairOfPeaks>,
+) -> anyhow::Result<Vec<PairOfPeaks>> {
     match (0..sheet.lines.len()).map(bin).collect::<anyhow::Result<Vec<_>>>()? {
         bins if bins.is_empty() => bail!("no rows; expected motions with PGA and PGV"),
-        bins => Ok(JointHazard { bins }),
+        bins => Ok(bins),
     }
 }
 
@@ -277,7 +280,7 @@ fn one_site(sheet: &Sheet) -> anyhow::Result<()> {
 }
 
 /// Ground-motion fields of one site as OpenQuake exports them: PGA in g and PGV in cm/s of each event.
-fn fields(sheet: &Sheet, effective_years: Option<f64>) -> anyhow::Result<JointHazard> {
+fn fields(sheet: &Sheet, effective_years: Option<f64>) -> anyhow::Result<Vec<PairOfPeaks>> {
     let Some(years) = effective_years else {
         bail!(
             "ground-motion fields of OpenQuake; expected --effective-years: investigation time x stochastic \
