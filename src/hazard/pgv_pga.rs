@@ -1,6 +1,8 @@
 //! PGV / PGA of the motions of a site, and how well it is known: by the curves of both peaks, or by one and
 //! ground-motion models.
 
+use nalgebra::{DMatrix, DVector, Vector2};
+
 use super::budget::{Part, Unknown};
 use super::curve::HazardCurve;
 use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
@@ -162,9 +164,10 @@ impl PgvPgaRatio {
         }
         let rate = |k: usize| most * (least / most).powf(k as f64 / (LEVELS - 1) as f64);
         let levels: Vec<(f64, f64)> = (0..LEVELS).map(|k| (pgv.intensity(rate(k)), rate(k))).collect();
-        let off = |[level, slope]: [f64; 2]| -> Vec<f64> {
-            let line = line_at_pga(level, slope);
-            levels.iter().map(|&(v, rate)| (exceedance_of_velocity(pga, &line, v) / rate).ln()).collect()
+        let off = |line: &Vector2<f64>| {
+            let line = line_at_pga(line[0], line[1]);
+            let off = |&(v, rate): &(f64, f64)| (exceedance_of_velocity(pga, &line, v) / rate).ln();
+            DVector::from_iterator(LEVELS, levels.iter().map(off))
         };
         let at_equal_rates = |&(v, rate): &(f64, f64)| (v / pga.intensity(rate)).ln();
         let start = levels.iter().map(at_equal_rates).sum::<f64>() / LEVELS as f64;
@@ -218,27 +221,23 @@ fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) ->
 
 /// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at the
 /// minimum.
-fn least_squares_of_two(start: [f64; 2], off: impl Fn([f64; 2]) -> Vec<f64>) -> ([f64; 2], f64) {
+fn least_squares_of_two(start: [f64; 2], off: impl Fn(&Vector2<f64>) -> DVector<f64>) -> ([f64; 2], f64) {
     const STEP: f64 = 1e-4;
     const MOST: usize = 30;
-    let mut at = start;
-    let mut current = off(at);
+    let mut at = Vector2::from(start);
+    let mut current = off(&at);
     for _ in 0..MOST {
-        let [by_x, by_y] = [[at[0] + STEP, at[1]], [at[0], at[1] + STEP]].map(|moved| {
-            off(moved).iter().zip(&current).map(|(new, old)| (new - old) / STEP).collect::<Vec<f64>>()
-        });
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let [xx, xy, yy] = [dot(&by_x, &by_x), dot(&by_x, &by_y), dot(&by_y, &by_y)];
-        let [x, y] = [dot(&by_x, &current), dot(&by_y, &current)];
-        let determinant = xx * yy - xy * xy;
-        let step = [(yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant];
+        let slope = |k: usize| (off(&(at + Vector2::ith(k, STEP))) - &current) / STEP;
+        let slopes = DMatrix::from_columns(&[slope(0), slope(1)]);
+        let Some(inverse) = slopes.tr_mul(&slopes).try_inverse() else { break };
+        let step = inverse * slopes.tr_mul(&current);
         // Far from the minimum, steps are held to what keeps PGV rising with PGA.
         let held = step.map(|step| step.clamp(-0.5, 0.5));
-        at = [at[0] - held[0], (at[1] - held[1]).max(-0.95)];
-        current = off(at);
-        if step.iter().all(|step| step.abs() < 1e-9) {
+        at = Vector2::new(at.x - held[0], (at.y - held[1]).max(-0.95));
+        current = off(&at);
+        if step.amax() < 1e-9 {
             break;
         }
     }
-    (at, (current.iter().map(|off| off * off).sum::<f64>() / current.len() as f64).sqrt())
+    (at.into(), current.norm() / (current.len() as f64).sqrt())
 }

@@ -1,19 +1,19 @@
 //! Figure 9: the two planes of the demand (Eqs. 17 and 18, Table II), seen along the line in which they meet.
 
+use nalgebra::Vector3;
+
 use super::common::{compare, demand_fits, demands};
 use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
 use crate::report::{Axis, Figure, Ink, Layer, Panel};
 use crate::stages::report::tables::{Tables, name};
 
-type Vector = [f64; 3];
-
 /// Figure 9: the demand in safe rocking and both planes edge-on, one panel a group.
 pub fn planes(tables: &Tables, groups: &[&Cases]) -> Figure {
     let panel = |cases: &&Cases| {
         let planes: Vec<&DemandFit> = demand_fits(tables, cases, DemandModel::Biplanar).collect();
         let [low, high] = planes[..] else { return None };
-        let coefficients = [low, high].map(|fit| [0, 1, 2].map(|k| fit.coefficients[k]));
+        let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
         Some(panel(cases, high.range_low?, coefficients))
     };
     let caption = "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in \
@@ -25,20 +25,22 @@ pub fn planes(tables: &Tables, groups: &[&Cases]) -> Figure {
 }
 
 /// Of planes below the transition and from there on: ln a, b1 and b2 over ln IM4 and ln IM3.
-fn panel(cases: &Cases, transition: f64, planes: [Vector; 2]) -> Panel {
+fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     let [right, up] = edge_on(planes);
-    let view = |point: Vector| [dot(right, point), dot(up, point)];
-    let logarithms = |(k, edp): (usize, f64)| -> Option<Vector> {
+    let view = |point: Vector3<f64>| [right.dot(&point), up.dot(&point)];
+    let logarithms = |(k, edp): (usize, f64)| {
         let [im4, im3] = PLANE.map(|measure| measure.value_of(&cases.measures(k)));
-        Some([im4?.ln(), im3?.ln(), edp.ln()])
+        Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
     };
     let (mut layers, mut lines) = (Vec::new(), Vec::new());
     let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
-    for ((label, ink, is_below), [ln_a, b1, b2]) in sides.into_iter().zip(planes) {
+    for ((label, ink, is_below), plane) in sides.into_iter().zip(planes) {
         let its = demands(cases).filter_map(logarithms);
-        let its: Vec<Vector> = its.filter(|case| (case[0] < transition.ln()) == is_below).collect();
-        let mut on_plane: Vec<[f64; 2]> =
-            its.iter().map(|&[x, y, _]| view([x, y, ln_a + b1 * x + b2 * y])).collect();
+        let its: Vec<Vector3<f64>> = its.filter(|case| (case.x < transition.ln()) == is_below).collect();
+        let [ln_a, b1, b2] = plane.into();
+        let on_plane =
+            |case: &Vector3<f64>| view(Vector3::new(case.x, case.y, ln_a + b1 * case.x + b2 * case.y));
+        let mut on_plane: Vec<[f64; 2]> = its.iter().map(on_plane).collect();
         on_plane.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
         let ends = on_plane.first().into_iter().chain(on_plane.last()).copied();
         lines.push(Layer::line("planes", Ink::Text, ends.collect()));
@@ -49,34 +51,22 @@ fn panel(cases: &Cases, transition: f64, planes: [Vector; 2]) -> Panel {
     Panel::new(&name(cases), x, y, layers)
 }
 
-/// Returns the directions to the right and upwards in a view along the line in which the planes meet.
-fn edge_on(planes: [Vector; 2]) -> [Vector; 2] {
-    let [first, second] = planes.map(|[_, b1, b2]| [b1, b2, -1.0]);
-    let along = unit(cross(first, second));
-    let right = unit(cross(along, [0.0, 0.0, 1.0]));
-    let right = if right[0] < 0.0 { right.map(|part| -part) } else { right };
-    let up = cross(right, along);
-    [right, if up[2] < 0.0 { up.map(|part| -part) } else { up }]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Scales to length 1. Parallel planes meet nowhere: then the view is along ln IM3.
-fn unit(vector: Vector) -> Vector {
-    let length = dot(vector, vector).sqrt();
-    if length > 1e-12 { vector.map(|part| part / length) } else { [0.0, 1.0, 0.0] }
+/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of parallel
+/// planes, which meet nowhere, along ln IM3.
+fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
+    let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
+    let unit = |vector: Vector3<f64>| vector.try_normalize(1e-12).unwrap_or(Vector3::y());
+    let along = unit(first.cross(&second));
+    let right = unit(along.cross(&Vector3::z()));
+    let right = if right.x < 0.0 { -right } else { right };
+    let up = right.cross(&along);
+    [right, if up.z < 0.0 { -up } else { up }]
 }
 
 /// Writes a direction as a sum without small terms: `0.85 ln IM4 − 0.52 ln IM3`.
-fn sum(direction: Vector) -> String {
+fn sum(direction: Vector3<f64>) -> String {
     let mut text = String::new();
-    for (part, name) in direction.into_iter().zip(["ln IM4", "ln IM3", "ln EDP"]) {
+    for (&part, name) in direction.iter().zip(["ln IM4", "ln IM3", "ln EDP"]) {
         let sign = match (text.is_empty(), part < 0.0) {
             (true, true) => "\u{2212}",
             (true, false) => "",
