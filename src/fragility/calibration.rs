@@ -249,10 +249,10 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
     })
 }
 
-/// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B the inverse of the
-/// information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B, M the sum over
-/// clusters of the squares of their scores and P the information of the prior, which counts as one more
-/// cluster.
+/// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
+/// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
+/// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
+/// one more cluster.
 fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
     let found = maximise(|at| log_posterior(&sample.y, prior, at), DVector::from_vec(prior.mean.to_vec()));
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");

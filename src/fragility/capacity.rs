@@ -21,13 +21,6 @@ pub enum KnownCapacity {
     Above(f64),
 }
 
-impl KnownCapacity {
-    /// Its logarithm, where it is known.
-    fn ln(&self) -> Option<f64> {
-        if let KnownCapacity::At(x) = self { Some(x.ln()) } else { None }
-    }
-}
-
 /// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -50,10 +43,13 @@ pub struct CapacityFit {
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
 pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<CapacityFit, FitStatus> {
-    let fit = fit_independent(capacities)?;
-    // The variance of the mean of the known ones by clusters, over that without.
-    let known = capacities.iter().zip(clusters).filter_map(|(capacity, &own)| Some((capacity.ln()?, own)));
+    let known = capacities.iter().zip(clusters).filter_map(|(capacity, &cluster)| match capacity {
+        KnownCapacity::At(x) => Some((x.ln(), cluster)),
+        _ => None,
+    });
     let (ln_x, clusters): (Vec<f64>, Vec<u32>) = known.unzip();
+    let fit = fit_independent(capacities, &ln_x)?;
+    // The variance of the mean of the known ones by clusters, over that without.
     let alone: Vec<u32> = (0..ln_x.len() as u32).collect();
     let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
     // Of one earthquake alone nothing is known about others.
@@ -68,8 +64,8 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     })
 }
 
-fn fit_independent(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
-    let known: Vec<f64> = capacities.iter().filter_map(KnownCapacity::ln).collect();
+/// The same of capacities that do not depend on each other; `known` has the logarithms of the known ones.
+fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<CapacityFit, FitStatus> {
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);
     }

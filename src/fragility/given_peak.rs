@@ -56,8 +56,8 @@ const PANEL: f64 = 1.6;
 const SOUGHT_M_S: [f64; 2] = [1e-6, 1e3];
 
 impl GivenPeak<'_> {
-    /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard deviations
-    /// above its median.
+    /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard
+    /// deviations above its median.
     pub fn peaks(&self, intensity: f64, deviations: f64) -> [f64; 2] {
         let ratio = self.ratio.ratio(intensity, deviations);
         match self.peak {

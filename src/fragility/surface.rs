@@ -24,8 +24,8 @@ keywords! {
 }
 
 impl Kind {
-    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of none,
-    /// is that of records.
+    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of
+    /// none, is that of records.
     pub fn of_word(suite: Option<&str>) -> Kind {
         match suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,

@@ -18,7 +18,7 @@ use crate::warning::Warning;
 pub enum Hazard {
     /// Annual rates at which one peak is exceeded.
     Curve(PeakHazard),
-    /// Annual rates at which pairs of peaks occur, in bins in any order; those without motions may be left out.
+    /// Annual rates at which pairs of peaks occur: bins in any order; those without motions may be left out.
     Joint(Vec<PairOfPeaks>),
 }
 
