@@ -221,7 +221,9 @@ pub fn answers<R: Predicted>(
             explained: if explain { explained(model, structure, motion, &budget) } else { String::new() },
         })
     };
-    let mut all = objects.into_par_iter().map(answer).collect::<anyhow::Result<Vec<_>>>()?;
+    // The first error in the order of the objects, whichever thread meets one first.
+    let all: Vec<_> = objects.into_par_iter().map(answer).collect();
+    let mut all = all.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
     all.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
     Ok(all)
 }
