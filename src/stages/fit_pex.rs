@@ -72,7 +72,7 @@ impl Stage for FitPex {
         let mut groups = responses::read(&self.input)?;
         let options =
             DemandOptions { transition: self.transition.0, confidence: self.confidence, all: self.all };
-        let bar = context.bar(groups.len() as u64);
+        let bar = context.bar(groups.len());
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);

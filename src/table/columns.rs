@@ -19,7 +19,7 @@ use crate::rocking::Structure;
 pub struct Batch {
     pub path: Arc<Path>,
     /// First row, counted in the file.
-    pub first_row: u64,
+    pub first_row: usize,
     pub rows: RecordBatch,
 }
 
@@ -98,7 +98,7 @@ impl Batch {
 
     /// Makes the error of a value in a row of this batch.
     pub fn value_error(&self, row: usize, column: &str, problem: impl ToString) -> TableError {
-        TableError::value(&self.path, self.first_row + row as u64, column, problem)
+        TableError::value(&self.path, self.first_row + row, column, problem)
     }
 
     fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {

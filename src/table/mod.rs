@@ -65,7 +65,7 @@ impl TableError {
     }
 
     /// A value that cannot be; `row` counts from 0, in words from 1.
-    pub fn value(path: &Path, row: u64, column: &str, problem: impl ToString) -> TableError {
+    pub fn value(path: &Path, row: usize, column: &str, problem: impl ToString) -> TableError {
         let problem = problem.to_string();
         TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
     }

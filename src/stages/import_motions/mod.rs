@@ -141,11 +141,11 @@ impl Stage for ImportMotions {
         }
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut contents, mut summary) = (HashSet::new(), HashMap::new(), Summary::default());
-        let bar = context.bar(work.len() as u64);
+        let bar = context.bar(work.len());
         pipelined(
             work.chunks(AT_ONCE).map(Ok),
             |work| {
-                bar.advance(work.len() as u64)?;
+                bar.advance(work.len())?;
                 Ok(work.par_iter().flat_map_iter(|work| importer.import(work)).collect::<Vec<_>>())
             },
             |results| {
