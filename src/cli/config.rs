@@ -12,7 +12,6 @@ use crate::keyword::hint;
 use crate::pipeline::UsageError;
 use crate::pipeline::files::{assigned, in_run, role};
 
-/// A pipeline file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
     /// Folder of relative paths.

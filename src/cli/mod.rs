@@ -57,7 +57,6 @@ enum Tool {
     Completions { shell: Shell },
 }
 
-/// Returns the whole command line.
 pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
     let with_common = |stage: &Command| {

@@ -16,7 +16,6 @@ use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 use crate::warning::Warnings;
 
-/// Help heading of the common options.
 pub const COMMON: &str = "Common options";
 
 // Options of all stages. A doc comment would replace the description of every stage.

@@ -64,7 +64,6 @@ impl Partition {
         Ok(numbered.cloned().unwrap_or(named))
     }
 
-    /// Returns its range of `total` rows.
     pub fn rows(self, total: usize) -> Range<usize> {
         let at = |index: usize| (total as u128 * index as u128 / self.of as u128) as usize;
         at(self.index)..at(self.index + 1)
@@ -148,7 +147,6 @@ impl Table {
         self.metadata().schema()
     }
 
-    /// Returns the row groups, in order.
     pub fn row_groups(&self) -> Vec<RowGroup> {
         let mut groups = Vec::new();
         let mut before = 0;
@@ -203,7 +201,6 @@ impl Table {
         }))
     }
 
-    /// Reads the `wanted` columns of the table in batches.
     pub fn batches<'a>(
         &'a self,
         wanted: &'a dyn Fn(&str) -> bool,

@@ -42,7 +42,6 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// An error of the operating system.
     pub fn io(path: &Path, source: std::io::Error) -> TableError {
         match source.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
@@ -50,7 +49,6 @@ impl TableError {
         }
     }
 
-    /// An error of the Parquet library.
     pub fn parquet(path: &Path, cause: impl ToString) -> TableError {
         TableError::table(path, format!("not a readable Parquet file ({})", cause.to_string()))
     }
