@@ -179,7 +179,7 @@ impl Table {
         let mask = ProjectionMask::roots(schema, roots);
         expect_small(&path, metadata.metadata().row_group(group.group), &mask)?;
         let file = File::open(&path).map_err(|source| TableError::io(&path, source))?;
-        let reader = guarded(&path, || {
+        let mut reader = guarded(&path, || {
             ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
@@ -188,11 +188,9 @@ impl Table {
                 .with_batch_size(batch_size)
                 .build()
         })?;
-        let mut reader = AssertUnwindSafe(reader);
         let mut next_row = group.first_row;
         Ok(std::iter::from_fn(move || {
-            let batch = guarded(&path, || reader.next().transpose());
-            let rows = batch.transpose()?;
+            let rows = guarded(&path, || reader.next().transpose()).transpose()?;
             Some(rows.map(|rows| {
                 let first_row = next_row;
                 next_row += rows.num_rows();
