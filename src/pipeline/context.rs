@@ -121,10 +121,10 @@ impl Context {
         let is_wanted = self.common.progress == Bars::Auto && !self.common.quiet;
         // Without a terminal, indicatif draws nothing.
         let target = if is_wanted { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar =
-            ProgressBar::with_draw_target(Some(total as u64), target).with_message(self.made.stage.clone());
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
-        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
+        let bar = ProgressBar::with_draw_target(Some(total as u64), target)
+            .with_style(style.expect("a template of indicatif"))
+            .with_message(self.made.stage.clone());
         Progress { bar, observed: self.observed.clone() }
     }
 }
