@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::keyword::hint;
 use crate::pipeline::UsageError;
 use crate::pipeline::files::{assigned, in_run, role};
 
-/// A pipeline file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
     /// Folder of relative paths.
@@ -20,7 +19,7 @@ pub struct Config {
     /// Folder of all outputs.
     pub out: PathBuf,
     pub seed: Option<String>,
-    sections: BTreeMap<String, BTreeMap<String, Value>>,
+    sections: BTreeMap<String, Map<String, Value>>,
 }
 
 impl Config {
@@ -37,10 +36,8 @@ impl Config {
             match (key.as_str(), value) {
                 ("out", value) => config.out = config.folder.join(text_of(&value)),
                 ("seed", value) => config.seed = Some(text_of(&value)),
-                (_, Value::Object(section)) => {
-                    drop(config.sections.insert(key, section.into_iter().collect()))
-                }
-                (_, Value::Null) => drop(config.sections.insert(key, BTreeMap::new())),
+                (_, Value::Object(section)) => drop(config.sections.insert(key, section)),
+                (_, Value::Null) => drop(config.sections.insert(key, Map::new())),
                 (_, value) => return Err(failed(format!("{key} is {value}; expected a section of options"))),
             }
         }

@@ -7,7 +7,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand};
+use clap::{Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
 use self::config::{Config, lenient};
@@ -57,7 +57,6 @@ enum Tool {
     Completions { shell: Shell },
 }
 
-/// Returns the whole command line.
 pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
     let with_common = |stage: &Command| {
@@ -66,17 +65,15 @@ pub fn command() -> Command {
     };
     let in_order = |(place, stage): (usize, Command)| stage.display_order(10 + place);
     let stages = stages.get_subcommands().map(with_common).enumerate().map(in_order);
-    let stages: Vec<Command> = stages.collect();
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
 /// Returns the commands of stages, in the order of a run.
 pub fn stage_commands() -> Vec<Command> {
-    let stages = Stages::augment_subcommands(Command::new("stages"));
-    let is_stage = |command: &Command| stages.find_subcommand(command.get_name()).is_some();
     let mut command = command();
     command.build();
-    command.get_subcommands().filter(|command| is_stage(command)).cloned().collect()
+    let is_stage = |command: &&Command| Stages::has_subcommand(command.get_name());
+    command.get_subcommands().filter(is_stage).cloned().collect()
 }
 
 /// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
@@ -153,15 +150,13 @@ pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<Call> 
 fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<Call> {
     let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
     // Parsed as part of the whole command line, which usage lines name.
-    let parse = |words: &[OsString]| -> Result<ArgMatches, clap::Error> {
-        let whole = self::command().try_get_matches_from(words)?;
-        Ok(whole.subcommand().map(|(_, matches)| matches.clone()).unwrap_or_default())
-    };
-    let mut matches = parse(&words)?;
-    if let Some(out) = files::out_beside_in(&matches) {
-        matches = parse(&[words, vec![out]].concat())?;
+    let parse = |words: &[OsString]| self::command().try_get_matches_from(words);
+    let mut whole = parse(&words)?;
+    if let Some(out) = whole.subcommand().and_then(|(_, matches)| files::out_beside_in(matches)) {
+        whole = parse(&[words, vec![out]].concat())?;
     }
-    let stage = Stages::of(command.get_name(), &matches)?;
+    let stage = Stages::from_arg_matches(&whole)?.parsed();
+    let matches = whole.subcommand_matches(command.get_name()).cloned().unwrap_or_default();
     files::check_out(command, &matches)?;
     stage.check()?;
     Call::new(command, &matches, stage)

@@ -6,6 +6,7 @@ pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 /// Fourier transforms of real series of one even length.
+#[derive(Clone)]
 pub struct Transform {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,

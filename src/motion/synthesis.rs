@@ -1,7 +1,6 @@
 //! The synthetic motions of one scenario on one time axis (section 2.1).
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use rand_distr::{Distribution, StandardNormal};
 
@@ -76,7 +75,7 @@ pub struct Synthesizer {
     high_frequency: bool,
     combined: bool,
     /// By length of motion.
-    transforms: HashMap<usize, Arc<Transform>>,
+    transforms: HashMap<usize, Transform>,
     earthquake: Option<Earthquake>,
     scratch: Vec<Complex64>,
 }
@@ -133,7 +132,7 @@ impl Synthesizer {
         let pulse = Pulse::of(scenario);
         let (onset, samples) = self.time_axis(&earthquake.window, &pulse);
         let transform = self.transforms.entry(samples);
-        let transform = transform.or_insert_with(|| Arc::new(Transform::new(samples))).clone();
+        let transform = transform.or_insert_with(|| Transform::new(samples)).clone();
         let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {

@@ -12,7 +12,6 @@ use crate::table::keys::head;
 use crate::table::provenance::Provenance;
 use crate::warning::Warnings;
 
-/// The result of a call.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done {
     pub summary: String,

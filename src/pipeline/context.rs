@@ -1,8 +1,7 @@
 //! Output, progress and warnings of a running stage.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use arrow_schema::SchemaRef;
@@ -17,7 +16,6 @@ use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 use crate::warning::Warnings;
 
-/// Help heading of the common options.
 pub const COMMON: &str = "Common options";
 
 // Options of all stages. A doc comment would replace the description of every stage.
@@ -54,8 +52,8 @@ keywords! {
 /// What another program sees of the progress of a stage, and how it stops the stage.
 #[derive(Default)]
 pub struct Observed {
-    pub done: AtomicU64,
-    pub total: AtomicU64,
+    pub done: AtomicUsize,
+    pub total: AtomicUsize,
     pub stop: AtomicBool,
 }
 
@@ -118,14 +116,15 @@ impl Context {
     }
 
     /// Begins progress over `total` steps.
-    pub fn bar(&self, total: u64) -> Progress {
+    pub fn bar(&self, total: usize) -> Progress {
         self.observed.total.fetch_add(total, Ordering::Relaxed);
         let is_wanted = self.common.progress == Bars::Auto && !self.common.quiet;
-        let is_seen = is_wanted && std::io::stderr().is_terminal();
-        let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
-        let bar = ProgressBar::with_draw_target(Some(total), target).with_message(self.made.stage.clone());
+        // Without a terminal, indicatif draws nothing.
+        let target = if is_wanted { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
-        let bar = style.map_or(bar.clone(), |style| bar.with_style(style));
+        let bar = ProgressBar::with_draw_target(Some(total as u64), target)
+            .with_style(style.expect("a template of indicatif"))
+            .with_message(self.made.stage.clone());
         Progress { bar, observed: self.observed.clone() }
     }
 }
@@ -138,16 +137,10 @@ pub struct Progress {
 
 impl Progress {
     /// Ends a number of steps; an error if another program stops the stage.
-    pub fn advance(&self, steps: u64) -> anyhow::Result<()> {
-        self.bar.inc(steps);
+    pub fn advance(&self, steps: usize) -> anyhow::Result<()> {
+        self.bar.inc(steps as u64);
         self.observed.done.fetch_add(steps, Ordering::Relaxed);
         anyhow::ensure!(!self.observed.stop.load(Ordering::Relaxed), "interrupted");
         Ok(())
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
     }
 }

@@ -56,7 +56,6 @@ pub fn role(arg: &Arg) -> Role {
     }
 }
 
-/// Returns the files that an input names.
 pub fn files_of(role: Role, path: PathBuf) -> Vec<PathBuf> {
     if role == Role::Fits { FITS.map(|name| path.join(name)).to_vec() } else { vec![path] }
 }
@@ -114,7 +113,6 @@ pub fn part(out: &Path, name: &str) -> PathBuf {
     out.with_extension(format!("{name}.parquet"))
 }
 
-/// Returns where a partition is written.
 pub fn out_of_partition(out: &Path, partition: Option<Partition>) -> PathBuf {
     match partition {
         Some(partition) => out.with_extension("").join(partition.file_name()),

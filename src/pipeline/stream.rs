@@ -59,14 +59,14 @@ pub fn batches<A, E: Into<anyhow::Error>>(
 }
 
 /// A pool of scratch memory, at most one for each thread.
-pub struct Pool<T> {
+pub struct Pool<T, F> {
     idle: Mutex<Vec<T>>,
-    make: Box<dyn Fn() -> T + Sync>,
+    make: F,
 }
 
-impl<T> Pool<T> {
-    pub fn new(make: impl Fn() -> T + Sync + 'static) -> Pool<T> {
-        Pool { idle: Mutex::new(Vec::new()), make: Box::new(make) }
+impl<T, F: Fn() -> T> Pool<T, F> {
+    pub fn new(make: F) -> Pool<T, F> {
+        Pool { idle: Mutex::new(Vec::new()), make }
     }
 
     /// Lends scratch to `work`.

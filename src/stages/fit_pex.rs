@@ -70,7 +70,7 @@ impl Stage for FitPex {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
-        let bar = context.bar(groups.len() as u64);
+        let bar = context.bar(groups.len());
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);

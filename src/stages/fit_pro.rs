@@ -52,7 +52,7 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
-        let bar = context.bar(groups.len() as u64);
+        let bar = context.bar(groups.len());
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &groups {
             fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));

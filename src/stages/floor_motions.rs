@@ -19,7 +19,7 @@ use crate::rocking::Record;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
-use crate::table::file::Partition;
+use crate::table::file::{Partition, or_error};
 use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, spectral_period_s};
 use crate::table::rows;
 
@@ -76,14 +76,10 @@ impl Stage for FloorMotions {
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(table.rows());
-        let parts = table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-            match read(&table, &group, &|_| true, AT_ONCE) {
-                Ok(parts) => Box::new(parts),
-                Err(error) => Box::new(std::iter::once(Err(error))),
-            }
-        });
+        let read = |group| or_error(read(&table, &group, &|_| true, AT_ONCE));
+        let parts = table.row_groups().into_iter().flat_map(read);
         let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
-            bar.advance(part.rows.num_rows() as u64)?;
+            bar.advance(part.rows.num_rows())?;
             pool.with(|scratch| self.filter(&part, &samples, scratch))
         };
         pipelined(

@@ -173,7 +173,7 @@ impl Stage for Ida {
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
-            bar.advance(some.len() as u64)?;
+            bar.advance(some.len())?;
             pool.with(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
         };
         pipelined(

@@ -5,7 +5,7 @@ pub mod inspect;
 pub mod run;
 pub mod shared;
 
-use clap::{ArgMatches, Subcommand};
+use clap::Subcommand;
 
 use crate::pipeline::Stage;
 
@@ -22,16 +22,11 @@ macro_rules! stages {
         }
 
         impl Stages {
-            /// The stage of a subcommand with what clap has parsed of it.
-            pub fn of(name: &str, matches: &ArgMatches) -> Result<Box<dyn Stage>, clap::Error> {
-                $(if Self::name_of(stringify!($module)) == name {
-                    return Ok(Box::new(<$module::$stage as clap::FromArgMatches>::from_arg_matches(matches)?));
-                })*
-                unreachable!("clap knows the names of all stages")
-            }
-
-            fn name_of(module: &str) -> String {
-                module.replace('_', "-")
+            /// The stage that clap has parsed.
+            pub fn parsed(self) -> Box<dyn Stage> {
+                match self {
+                    $(Stages::$stage(stage) => Box::new(stage)),*
+                }
             }
         }
     };

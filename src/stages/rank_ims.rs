@@ -81,7 +81,7 @@ impl Stage for RankIms {
         let candidates = self.motions.is_some().then_some(&of_motions as Candidates);
         let groups = responses::read_with(&self.input, candidates)?;
         let rules = RankingRules { terms: self.terms, folds: self.folds, transition: self.transition };
-        let bar = context.bar(2 * groups.len() as u64);
+        let bar = context.bar(2 * groups.len());
         let (mut sets, mut incomplete) = (Vec::new(), BTreeMap::new());
         for cases in &groups {
             for target in [Target::Demand, Target::Overturning] {

@@ -76,7 +76,7 @@ impl Stage for Simulate {
         let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
             let simulate_chunk = |chunk: Result<_, TableError>| {
                 let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
-                bar.advance(chunk.len() as u64)?;
+                bar.advance(chunk.len())?;
                 pool.with(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
             };
             motions::read_part(&motions, part, CHUNK)?.map(simulate_chunk).collect()
@@ -187,7 +187,7 @@ fn trace_rows(motion: &Motion, record: &Record, structures: &[Structure]) -> any
 }
 
 /// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
-fn summary(structures: &[Structure], overturning: &[Overturning], motions: u64, out: &Path) -> String {
+fn summary(structures: &[Structure], overturning: &[Overturning], motions: usize, out: &Path) -> String {
     let mut lines: Vec<(&Structure, &Overturning)> = structures.iter().zip(overturning).collect();
     if structures.len() > MOST_LINES {
         lines.sort_by_key(|(_, (count, _))| std::cmp::Reverse(*count));
@@ -198,7 +198,7 @@ fn summary(structures: &[Structure], overturning: &[Overturning], motions: u64, 
             _ => String::new(),
         };
         let overturn = if *count == 1 { "overturns" } else { "overturn" };
-        let (count, motions) = (number::count(*count), number::counted(motions as usize, "motion"));
+        let (count, motions) = (number::count(*count), number::counted(motions, "motion"));
         format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
     };
     first_lines(&lines.into_iter().map(line).collect::<String>(), 0, out)

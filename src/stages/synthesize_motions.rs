@@ -119,17 +119,15 @@ impl Stage for SynthesizeMotions {
             stochastic: StochasticModel { site, kappa_s: self.kappa, fmax_hz: self.fmax, low_cut },
             seed: self.seed,
         };
-        let of_thread = suites.clone();
-        let pool =
-            Pool::new(move || (Synthesizer::new(model.clone(), &of_thread), MeasureScratch::default()));
+        let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), MeasureScratch::default()));
         let motions = |scenario: &Scenario| pool.with(|scratch| synthesize(scenario, suites, &plan, scratch));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
-        let bar = context.bar(scenarios.len() as u64);
+        let bar = context.bar(scenarios.len());
         pipelined(
             scenarios.chunks(AT_ONCE).map(Ok),
             |some| {
                 let motions: Vec<Motion> = some.par_iter().flat_map_iter(motions).collect();
-                bar.advance(some.len() as u64)?;
+                bar.advance(some.len())?;
                 batch(&motions, &periods)
             },
             |batch| Ok(writer.append(&batch)?),

@@ -40,7 +40,7 @@ impl Stage for Validate {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input)?;
         let mut models = self.fits.read()?;
-        let bar = context.bar(groups.len() as u64);
+        let bar = context.bar(groups.len());
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.

@@ -19,7 +19,7 @@ use crate::rocking::Structure;
 pub struct Batch {
     pub path: Arc<Path>,
     /// First row, counted in the file.
-    pub first_row: u64,
+    pub first_row: usize,
     pub rows: RecordBatch,
 }
 
@@ -66,7 +66,6 @@ impl Batch {
         Ok(whole.iter().map(|number| (!number.is_nan()).then(|| Cow::Owned(number.to_string()))).collect())
     }
 
-    /// Returns the texts of a column without nulls.
     pub fn required_texts(&self, name: &str) -> Result<Vec<Cow<'_, str>>, TableError> {
         self.expect(name)?;
         let text = |(row, text): (usize, Option<_>)| {
@@ -75,7 +74,6 @@ impl Batch {
         self.texts(name)?.into_iter().enumerate().map(text).collect()
     }
 
-    /// Returns the words of a column without nulls.
     pub fn required_words<T: Keyword>(&self, name: &str) -> Result<Vec<T>, TableError> {
         let word = |(row, text): (usize, Cow<str>)| {
             keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown))
@@ -96,9 +94,8 @@ impl Batch {
         })
     }
 
-    /// Makes the error of a value in a row of this batch.
     pub fn value_error(&self, row: usize, column: &str, problem: impl ToString) -> TableError {
-        TableError::value(&self.path, self.first_row + row as u64, column, problem)
+        TableError::value(&self.path, self.first_row + row, column, problem)
     }
 
     fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {

@@ -14,7 +14,7 @@ use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
     ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
 };
-use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
+use parquet::file::metadata::RowGroupMetaData;
 
 use super::TableError;
 use super::columns::Batch;
@@ -28,8 +28,8 @@ pub const NARROW_BATCH: usize = 8192;
 /// One of `of` equal parts of a table, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Partition {
-    pub index: u64,
-    pub of: u64,
+    pub index: usize,
+    pub of: usize,
 }
 
 impl FromStr for Partition {
@@ -60,13 +60,12 @@ impl Partition {
     pub fn file_of(self, folder: &Path) -> Result<PathBuf, TableError> {
         let named = folder.join(self.file_name());
         let files = if named.exists() { Vec::new() } else { tables(folder)? };
-        let numbered = files.get(self.index as usize).filter(|_| files.len() as u64 == self.of);
+        let numbered = files.get(self.index).filter(|_| files.len() == self.of);
         Ok(numbered.cloned().unwrap_or(named))
     }
 
-    /// Returns its range of `total` rows.
     pub fn rows(self, total: usize) -> Range<usize> {
-        let at = |index: u64| (total as u128 * u128::from(index) / u128::from(self.of)) as usize;
+        let at = |index: usize| (total as u128 * index as u128 / self.of as u128) as usize;
         at(self.index)..at(self.index + 1)
     }
 }
@@ -75,7 +74,7 @@ impl Partition {
 pub struct Table {
     pub(super) files: Vec<TableFile>,
     /// Rows to read; all of them without a partition.
-    rows: Range<u64>,
+    rows: Range<usize>,
 }
 
 pub(super) struct TableFile {
@@ -89,15 +88,9 @@ pub struct RowGroup {
     pub(super) file: usize,
     pub(super) group: usize,
     /// Rows within the row group.
-    pub rows: Range<u64>,
+    pub rows: Range<usize>,
     /// First row, counted in the file.
-    pub first_row: u64,
-}
-
-impl RowGroup {
-    pub fn count(&self) -> usize {
-        (self.rows.end - self.rows.start) as usize
-    }
+    pub first_row: usize,
 }
 
 impl Table {
@@ -127,8 +120,7 @@ impl Table {
             };
         }
         let table = Table::open(path)?;
-        let rows = partition.rows(table.rows.end as usize);
-        Ok(Table { rows: rows.start as u64..rows.end as u64, ..table })
+        Ok(Table { rows: partition.rows(table.rows()), ..table })
     }
 
     /// Checks that the first file, of the table at `path`, has these columns.
@@ -141,8 +133,8 @@ impl Table {
         missing.map_or(Ok(()), |column| Err(TableError::missing_column(path, column)))
     }
 
-    pub fn rows(&self) -> u64 {
-        self.rows.end - self.rows.start
+    pub fn rows(&self) -> usize {
+        self.rows.len()
     }
 
     /// Returns the footer of the first file.
@@ -155,15 +147,14 @@ impl Table {
         self.metadata().schema()
     }
 
-    /// Returns the row groups, in order.
     pub fn row_groups(&self) -> Vec<RowGroup> {
         let mut groups = Vec::new();
         let mut before = 0;
         for (file, table_file) in self.files.iter().enumerate() {
             let mut first_row = 0;
             for (group, metadata) in table_file.metadata.metadata().row_groups().iter().enumerate() {
-                let count = metadata.num_rows() as u64;
-                let at = |row: u64| row.clamp(before, before + count) - before;
+                let count = metadata.num_rows() as usize;
+                let at = |row: usize| row.clamp(before, before + count) - before;
                 let rows = at(self.rows.start)..at(self.rows.end);
                 if !rows.is_empty() {
                     groups.push(RowGroup { file, group, first_row: first_row + rows.start, rows });
@@ -182,51 +173,44 @@ impl Table {
         batch_size: usize,
     ) -> Result<impl Iterator<Item = Result<Batch, TableError>> + Send + use<>, TableError> {
         let TableFile { path, metadata } = &self.files[group.file];
-        let (path, first_row) = (path.clone(), group.first_row);
-        let wanted = wanted_columns(metadata.metadata(), wanted);
-        expect_small(&path, metadata.metadata().row_group(group.group), &wanted)?;
+        let (path, schema) = (path.clone(), metadata.parquet_schema());
+        let roots = schema.root_schema().get_fields().iter().enumerate();
+        let roots = roots.filter(|(_, root)| wanted(root.name())).map(|(place, _)| place);
+        let mask = ProjectionMask::roots(schema, roots);
+        expect_small(&path, metadata.metadata().row_group(group.group), &mask)?;
         let file = File::open(&path).map_err(|source| TableError::io(&path, source))?;
-        let reader = guarded(&path, || {
-            let mask = ProjectionMask::roots(metadata.parquet_schema(), wanted);
+        let mut reader = guarded(&path, || {
             ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
-                .with_offset(group.rows.start as usize)
-                .with_limit(group.count())
+                .with_offset(group.rows.start)
+                .with_limit(group.rows.len())
                 .with_batch_size(batch_size)
                 .build()
         })?;
-        let mut reader = AssertUnwindSafe(reader);
-        let mut next_row = first_row;
+        let mut next_row = group.first_row;
         Ok(std::iter::from_fn(move || {
-            let batch = guarded(&path, || reader.next().transpose());
-            let rows = batch.transpose()?;
+            let rows = guarded(&path, || reader.next().transpose()).transpose()?;
             Some(rows.map(|rows| {
                 let first_row = next_row;
-                next_row += rows.num_rows() as u64;
+                next_row += rows.num_rows();
                 Batch { path: path.clone(), first_row, rows }
             }))
         }))
     }
 
-    /// Reads the `wanted` columns of the table in batches.
     pub fn batches<'a>(
         &'a self,
         wanted: &'a dyn Fn(&str) -> bool,
     ) -> impl Iterator<Item = Result<Batch, TableError>> + 'a {
-        let read = |group| -> Box<dyn Iterator<Item = _>> {
-            match self.read(&group, wanted, NARROW_BATCH) {
-                Ok(batches) => Box::new(batches),
-                Err(error) => Box::new(std::iter::once(Err(error))),
-            }
-        };
+        let read = move |group| or_error(self.read(&group, wanted, NARROW_BATCH));
         self.row_groups().into_iter().flat_map(read)
     }
 }
 
 impl TableFile {
-    fn rows(&self) -> u64 {
-        self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as u64).sum()
+    fn rows(&self) -> usize {
+        self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as usize).sum()
     }
 
     /// Returns which partition it is; none if it is a whole table.
@@ -234,6 +218,17 @@ impl TableFile {
         let made = Provenance::of_footer(self.metadata.metadata())?;
         made.arguments.get("partition")?.first()?.parse().ok()
     }
+}
+
+/// Returns the items, or the error in their place.
+pub fn or_error<T, E>(
+    items: Result<impl Iterator<Item = Result<T, E>>, E>,
+) -> impl Iterator<Item = Result<T, E>> {
+    let (items, error) = match items {
+        Ok(items) => (Some(items), None),
+        Err(error) => (None, Some(Err(error))),
+    };
+    items.into_iter().flatten().chain(error)
 }
 
 /// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
@@ -280,24 +275,18 @@ fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError
     let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
     match missing {
         Some(part) => refuse(format!("partition {part} is missing; make it with --partition {part}")),
-        None if parts.len() as u64 == of => Ok(()),
+        None if parts.len() == of => Ok(()),
         None => refuse(format!("{} files; expected the {of} partitions of one table", parts.len())),
     }
-}
-
-fn wanted_columns(metadata: &ParquetMetaData, wanted: &dyn Fn(&str) -> bool) -> Vec<usize> {
-    let roots = metadata.file_metadata().schema_descr().root_schema().get_fields().iter();
-    roots.enumerate().filter(|(_, root)| wanted(root.name())).map(|(place, _)| place).collect()
 }
 
 /// Checks that the `wanted` columns of a row group are not too large.
 pub(super) fn expect_small(
     path: &Path,
     group: &RowGroupMetaData,
-    wanted: &[usize],
+    wanted: &ProjectionMask,
 ) -> Result<(), TableError> {
-    let is_wanted = |leaf: usize| wanted.contains(&group.schema_descr().get_column_root_idx(leaf));
-    let columns = group.columns().iter().enumerate().filter(|(leaf, _)| is_wanted(*leaf));
+    let columns = group.columns().iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf));
     let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();
     let cause = || format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
     if bytes > MOST_BYTES { Err(TableError::parquet(path, cause())) } else { Ok(()) }

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_schema::DataType::*;
+use parquet::arrow::ProjectionMask;
 use parquet::basic::Repetition;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType as Number;
@@ -19,7 +20,7 @@ use super::file::{RowGroup, Table, TableFile, expect_small, guarded};
 pub struct Lists {
     path: Arc<Path>,
     column: &'static str,
-    next_row: u64,
+    next_row: usize,
     next: Box<Next>,
 }
 
@@ -46,12 +47,12 @@ impl Lists {
         if !matches!(item, Float32 | Float64 | Int8 | Int16 | Int32 | Int64 | UInt8 | UInt16) {
             return Err(TableError::other_type(path, column, found, "a list of numbers"));
         }
-        expect_small(path, data, &[schema.get_column_root_idx(leaf)])?;
+        expect_small(path, data, &ProjectionMask::leaves(schema, [leaf]))?;
         let file = File::open(path).map_err(|source| TableError::io(path, source))?;
         let rows = data.num_rows() as usize;
         let next = guarded(path, || {
             let pages = SerializedPageReader::new(Arc::new(file), data.column(leaf), rows, None)?;
-            let (of, skipped) = (schema.column(leaf), group.rows.start as usize);
+            let (of, skipped) = (schema.column(leaf), group.rows.start);
             Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(pages)) {
                 ColumnReader::FloatColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
                 ColumnReader::DoubleColumnReader(reader) => next(reader, &of, skipped, |x| *x),
@@ -66,12 +67,12 @@ impl Lists {
     /// Reads the next `rows` lists; NaN where an item is null.
     pub fn read(&mut self, rows: usize) -> Result<Vec<Vec<f64>>, TableError> {
         let first_row = self.next_row;
-        self.next_row += rows as u64;
+        self.next_row += rows;
         let lists = guarded(&self.path, || (self.next)(rows))?;
         if lists.len() < rows {
             return Err(TableError::parquet(&self.path, format!("column '{}' ends early", self.column)));
         }
-        let list = |(row, list): (u64, Option<Vec<f64>>)| {
+        let list = |(row, list): (usize, Option<Vec<f64>>)| {
             let problem = "null; expected a list of numbers";
             list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem))
         };

@@ -42,7 +42,6 @@ pub enum TableError {
 }
 
 impl TableError {
-    /// An error of the operating system.
     pub fn io(path: &Path, source: std::io::Error) -> TableError {
         match source.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
@@ -50,7 +49,6 @@ impl TableError {
         }
     }
 
-    /// An error of the Parquet library.
     pub fn parquet(path: &Path, cause: impl ToString) -> TableError {
         TableError::table(path, format!("not a readable Parquet file ({})", cause.to_string()))
     }
@@ -65,7 +63,7 @@ impl TableError {
     }
 
     /// A value that cannot be; `row` counts from 0, in words from 1.
-    pub fn value(path: &Path, row: u64, column: &str, problem: impl ToString) -> TableError {
+    pub fn value(path: &Path, row: usize, column: &str, problem: impl ToString) -> TableError {
         let problem = problem.to_string();
         TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
     }

@@ -12,7 +12,7 @@ use arrow_schema::{DataType, Field, Schema};
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
-use super::file::{Partition, RowGroup, Table};
+use super::file::{Partition, RowGroup, Table, or_error};
 use super::lists::Lists;
 use super::rows::side_by_side;
 
@@ -38,7 +38,7 @@ pub struct Motion {
     pub tm_s: f64,
     pub tp_s: f64,
     pub acceleration_m_s2: Vec<f64>,
-    pub row: u64,
+    pub row: usize,
 }
 
 /// Columns of some motions, and their samples.
@@ -68,13 +68,11 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableErr
 /// Returns all motions of a table in parts.
 pub fn parts(table: &Table) -> impl Iterator<Item = Result<Part, TableError>> + Send {
     table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-        if group.count() <= LARGEST_PART {
+        if group.rows.len() <= LARGEST_PART {
             return Box::new(std::iter::once(Ok(Part::Unread(group))));
         }
-        match read_group(table, &group, LARGEST_PART) {
-            Ok(read) => Box::new(read.map(|read| read.map(Part::Read))),
-            Err(error) => Box::new(std::iter::once(Err(error))),
-        }
+        let read = or_error(read_group(table, &group, LARGEST_PART));
+        Box::new(read.map(|read| read.map(Part::Read)))
     })
 }
 
@@ -136,7 +134,7 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
         tm_s: tm[at],
         tp_s: tp[at],
         acceleration_m_s2,
-        row: batch.first_row + at as u64,
+        row: batch.first_row + at,
     };
     Ok((batch.path.clone(), samples.into_iter().enumerate().map(motion).collect()))
 }

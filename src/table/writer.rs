@@ -23,17 +23,14 @@ const PARTIAL: &str = ".partial";
 
 pub struct TableWriter {
     path: PathBuf,
-    partial: NamedTempFile,
-    writer: ArrowWriter<File>,
+    writer: ArrowWriter<NamedTempFile>,
 }
 
 impl TableWriter {
     pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
-        let partial = partial_beside(path)?;
-        let file = partial.as_file().try_clone().map_err(|source| TableError::io(path, source))?;
-        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(schema)));
+        let writer = ArrowWriter::try_new(partial_beside(path)?, schema.clone(), Some(properties(schema)));
         let writer = writer.map_err(|cause| cannot_write(path, cause))?;
-        Ok(TableWriter { path: path.to_path_buf(), partial, writer })
+        Ok(TableWriter { path: path.to_path_buf(), writer })
     }
 
     pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
@@ -43,8 +40,8 @@ impl TableWriter {
     /// Ends the table and renames it.
     pub fn finish(mut self, made: &Provenance) -> Result<(), TableError> {
         self.writer.append_key_value_metadata(made.key_value());
-        self.writer.finish().map_err(|cause| cannot_write(&self.path, cause))?;
-        persist(self.partial, &self.path)
+        let partial = self.writer.into_inner().map_err(|cause| cannot_write(&self.path, cause))?;
+        persist(partial, &self.path)
     }
 }
 

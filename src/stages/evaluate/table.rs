@@ -103,7 +103,7 @@ fn with_probabilities<'a>(
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, doubts, warnings): (Vec<_>, Vec<_>, Vec<_>) = rows.into_iter().collect();
     for (row, warnings) in warnings.into_iter().enumerate() {
-        let place = format!("row {}", batch.first_row + row as u64 + 1);
+        let place = format!("row {}", batch.first_row + row + 1);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
     }
     let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<DoubtsRow>(&doubts)?])?;

@@ -8,7 +8,6 @@ use crate::plausibility::MAGNITUDES;
 use crate::records::RecordedMotion;
 use crate::sheet::{Sheet, SheetError};
 
-/// What a table says about records.
 #[derive(Default)]
 pub struct About {
     /// By the name of the file, with its ending or without.

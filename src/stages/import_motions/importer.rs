@@ -19,7 +19,6 @@ use crate::rocking::Record;
 use crate::table::keys;
 use crate::warning::Warning;
 
-/// The files of a call, and what is done to them.
 pub struct Importer {
     pub files: Vec<PathBuf>,
     /// How many files share a stem or a name.

@@ -141,22 +141,19 @@ impl Stage for ImportMotions {
         }
         let (work, mut refused) = importer.work(context)?;
         let (mut ids, mut contents, mut summary) = (HashSet::new(), HashMap::new(), Summary::default());
-        let bar = context.bar(work.len() as u64);
+        let bar = context.bar(work.len());
         pipelined(
             work.chunks(AT_ONCE).map(Ok),
             |work| {
-                bar.advance(work.len() as u64)?;
+                bar.advance(work.len())?;
                 Ok(work.par_iter().flat_map_iter(|work| importer.import(work)).collect::<Vec<_>>())
             },
             |results| {
                 for result in results {
-                    let imported = match result {
-                        Ok(imported) => imported,
-                        Err(refusal) => {
-                            refused.push(refusal);
-                            continue;
-                        }
-                    };
+                    let imported = result.unwrap_or_else(|refusal| {
+                        refused.push(refusal);
+                        Vec::new()
+                    });
                     for motion in &imported {
                         let SourceFile { path, blake3 } = &motion.source;
                         let first = contents.entry(blake3.clone()).or_insert_with(|| path.clone());
@@ -164,8 +161,8 @@ impl Stage for ImportMotions {
                             anyhow::bail!("{path}: the same record as {first}; leave out one");
                         }
                         if !ids.insert(motion.motion_id.clone()) {
-                            let (file, id) = (&motion.source.path, &motion.motion_id);
-                            anyhow::bail!("{file}: two motions are called '{id}'; rename the file");
+                            let id = &motion.motion_id;
+                            anyhow::bail!("{path}: two motions are called '{id}'; rename the file");
                         }
                     }
                     let warning = |motion: &ImportedMotion| {

@@ -27,10 +27,8 @@ impl Summary {
         for motion in imported {
             self.pulses += usize::from(motion.pulse.is_some());
             self.magnitudes += usize::from(motion.record.mw.is_some());
-            *self
-                .kinds
-                .entry(format!("{} in {}", motion.record.format, motion.record.unit.name))
-                .or_default() += 1;
+            let kind = format!("{} in {}", motion.record.format, motion.record.unit.name);
+            *self.kinds.entry(kind).or_default() += 1;
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
         }

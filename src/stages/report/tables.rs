@@ -33,7 +33,7 @@ pub struct Tables {
     /// Objects with annual rates, the worst first.
     pub objects: Vec<Answer<RatesRow>>,
     /// Each file with its number of rows and, if it is ours, what made it.
-    pub files: Vec<(PathBuf, u64, Option<Provenance>)>,
+    pub files: Vec<(PathBuf, usize, Option<Provenance>)>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
     strangers: Vec<&'static str>,
@@ -42,7 +42,7 @@ pub struct Tables {
 /// A column of annual rates, by which their table is known whatever it is called.
 const RATES: &str = "overturning_per_year";
 /// Motions of a row group that rockfrag wrote.
-const MOTIONS_IN_GROUP: u64 = 64;
+const MOTIONS_IN_GROUP: usize = 64;
 
 /// Structure and, of synthetic motions, suite.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
@@ -170,10 +170,9 @@ impl Tables {
     pub fn motions(&self) -> Result<Vec<Motion>, TableError> {
         let Some(path) = self.place("motions") else { return Ok(Vec::new()) };
         let table = motions::open(&path, None)?;
-        let middle = (table.rows() / MOTIONS_IN_GROUP / 2) as usize;
+        let middle = table.rows() / MOTIONS_IN_GROUP / 2;
         let part = motions::parts(&table).nth(middle).or_else(|| motions::parts(&table).next());
-        let at_once = MOTIONS_IN_GROUP as usize;
-        let some = part.map(|part| motions::read_part(&table, part?, at_once)?.next().transpose());
+        let some = part.map(|part| motions::read_part(&table, part?, MOTIONS_IN_GROUP)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
     }
 }
