@@ -2,7 +2,7 @@
 
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA, PGV and
 magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general
-(src/hazard/velocity.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
+(src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
 `judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the levels of the first
 two by Vs30, and the means of all at the rate of once in 2475 years, to tests/reference/fits, and prints their lines.
 Needs openquake.engine (scripts/check_exports.sh tells how).

@@ -17,7 +17,7 @@ use super::provenance::{CREATED_BY, Provenance};
 
 /// Rows per row group: of a narrow table, and of one with samples.
 const ROWS_IN_GROUP: usize = 32_768;
-const MOTIONS_IN_GROUP: usize = 64;
+pub const MOTIONS_IN_GROUP: usize = 64;
 /// Suffix of files being written.
 const PARTIAL: &str = ".partial";
 

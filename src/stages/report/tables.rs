@@ -15,6 +15,7 @@ use crate::table::keys::key_of;
 use crate::table::motions::{self, Motion};
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
+use crate::table::writer::MOTIONS_IN_GROUP;
 
 /// What most of the report needs; further tables are read where they are shown.
 #[derive(Default)]
@@ -41,8 +42,6 @@ pub struct Tables {
 
 /// A column of annual rates, by which their table is known whatever it is called.
 const RATES: &str = "overturning_per_year";
-/// Motions of a row group that rockfrag wrote.
-const MOTIONS_IN_GROUP: usize = 64;
 
 /// Structure and, of synthetic motions, suite.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
