@@ -16,7 +16,7 @@ from scipy.stats import norm
 import site_rates as R
 
 DRAWS = 10_000
-SOURCE = (R.root / "src/hazard/velocity.rs").read_text()
+SOURCE = (R.root / "src/hazard/pgv_pga.rs").read_text()
 Z = np.linspace(-5, 5, 31)
 WEIGHT = norm.pdf(Z) / norm.pdf(Z).sum()
 AT = np.log(0.4 * 9.81)
