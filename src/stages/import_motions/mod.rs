@@ -6,7 +6,6 @@ mod columns;
 mod importer;
 mod summary;
 
-use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
@@ -22,7 +21,7 @@ use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
-use crate::records::processing::{ImportedMotion, Processing, PulseSearch, SourceFile};
+use crate::records::processing::{ImportedMotion, Processing, PulseSearch};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, Scaling};
 use crate::records::{Format, ReadOptions};
@@ -140,7 +139,7 @@ impl Stage for ImportMotions {
             importer.about.expect_any(path, &importer.files)?;
         }
         let (work, mut refused) = importer.work(context)?;
-        let (mut ids, mut contents, mut summary) = (HashSet::new(), HashMap::new(), Summary::default());
+        let mut summary = Summary::default();
         let bar = context.bar(work.len());
         pipelined(
             work.chunks(AT_ONCE).map(Ok),
@@ -154,34 +153,23 @@ impl Stage for ImportMotions {
                         refused.push(refusal);
                         Vec::new()
                     });
-                    for motion in &imported {
-                        let SourceFile { path, blake3 } = &motion.source;
-                        let first = contents.entry(blake3.clone()).or_insert_with(|| path.clone());
-                        if first != path {
-                            anyhow::bail!("{path}: the same record as {first}; leave out one");
-                        }
-                        if !ids.insert(motion.motion_id.clone()) {
-                            let id = &motion.motion_id;
-                            anyhow::bail!("{path}: two motions are called '{id}'; rename the file");
-                        }
-                    }
+                    summary.add(&imported)?;
                     let warning = |motion: &ImportedMotion| {
                         let text = format!("{}: {}", motion.motion_id, motion.warning?);
                         Some((Warning::ImplausibleRecord, text))
                     };
                     context.warn(imported.iter().filter_map(warning).collect());
-                    summary.add(&imported);
                     writer.append(&batch(&imported, &periods)?)?;
                 }
                 Ok(())
             },
         )?;
-        if ids.is_empty() && refused.is_empty() {
+        if summary.is_empty() && refused.is_empty() {
             let verticals = counted(importer.left_out(), "vertical component");
             anyhow::bail!("no horizontal component; {verticals}, which --vertical imports");
         }
-        if ids.is_empty() || !refused.is_empty() && !self.keep_going {
-            let others = if ids.is_empty() { "" } else { "\n--keep-going imports the others" };
+        if summary.is_empty() || !refused.is_empty() && !self.keep_going {
+            let others = if summary.is_empty() { "" } else { "\n--keep-going imports the others" };
             anyhow::bail!(
                 "{} of {} files cannot be imported:\n{}{others}",
                 refused.len(),

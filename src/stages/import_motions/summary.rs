@@ -1,11 +1,13 @@
 //! What was imported, in words.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use anyhow::bail;
 
 use crate::motion::MotionMeasures;
 use crate::number::{count, counted, fixed};
 use crate::pipeline::options::listed;
-use crate::records::processing::ImportedMotion;
+use crate::records::processing::{ImportedMotion, SourceFile};
 use crate::units::G_M_S2;
 
 /// Kinds of files that the summary names.
@@ -14,6 +16,9 @@ const NAMED: usize = 10;
 /// What was read, so that a wrong unit is seen.
 #[derive(Default)]
 pub struct Summary {
+    ids: HashSet<String>,
+    /// By the hashes of their contents.
+    files: HashMap<String, String>,
     pulses: usize,
     magnitudes: usize,
     /// How many motions came of each format and unit.
@@ -23,8 +28,18 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub fn add(&mut self, imported: &[ImportedMotion]) {
+    /// Adds motions, which must differ from those before in their names and files.
+    pub fn add(&mut self, imported: &[ImportedMotion]) -> anyhow::Result<()> {
         for motion in imported {
+            let SourceFile { path, blake3 } = &motion.source;
+            let first = self.files.entry(blake3.clone()).or_insert_with(|| path.clone());
+            if first != path {
+                bail!("{path}: the same record as {first}; leave out one");
+            }
+            let id = &motion.motion_id;
+            if !self.ids.insert(id.clone()) {
+                bail!("{path}: two motions are called '{id}'; rename the file");
+            }
             self.pulses += usize::from(motion.pulse.is_some());
             self.magnitudes += usize::from(motion.record.mw.is_some());
             let kind = format!("{} in {}", motion.record.format, motion.record.unit.name);
@@ -32,6 +47,11 @@ impl Summary {
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
         }
+        Ok(())
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.peaks.is_empty()
     }
 
     pub fn text(&self, verticals: usize) -> String {

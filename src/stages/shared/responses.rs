@@ -96,18 +96,7 @@ fn add(
     let parameters = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
     for rows in frame::groups((0..names.len()).map(group))? {
         let group = group(rows[0]);
-        let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
-        if place == all.len() {
-            let structure = batch.structure(rows[0], group.structure, parameters(rows[0]))?;
-            all.push(Cases::new(group.suite, structure));
-        }
-        let cases = &mut all[place];
-        expect_same(batch, &cases.structure, &rows, parameters)?;
-        if cases.len() + rows.len() > MOST_CASES {
-            let name = group.structure;
-            let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
-            return Err(TableError::table(&batch.path, problem).into());
-        }
+        let cases = cases_of(all, batch, group, &rows, parameters)?;
         let some = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
         cases.edp.extend(some(&edp));
@@ -130,6 +119,29 @@ fn add(
         }
     }
     Ok(())
+}
+
+/// The cases of a suite and structure, which have room for these rows and their p, alpha and eta.
+fn cases_of<'a>(
+    all: &'a mut Vec<Cases>,
+    batch: &Batch,
+    group: Group,
+    rows: &[usize],
+    parameters: impl Fn(usize) -> [f64; 3],
+) -> Result<&'a mut Cases, TableError> {
+    let name = group.structure;
+    let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
+    if place == all.len() {
+        let structure = batch.structure(rows[0], name, parameters(rows[0]))?;
+        all.push(Cases::new(group.suite, structure));
+    }
+    let cases = &mut all[place];
+    expect_same(batch, &cases.structure, rows, parameters)?;
+    if cases.len() + rows.len() > MOST_CASES {
+        let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
+        return Err(TableError::table(&batch.path, problem));
+    }
+    Ok(cases)
 }
 
 /// The demands, which only overturned structures lack.

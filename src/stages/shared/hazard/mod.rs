@@ -126,6 +126,11 @@ impl Found {
             self.curves.push(openquake(sheet, years, file)?);
             return Ok(());
         }
+        self.add_columns(sheet, years, file)
+    }
+
+    /// Adds the curves of a table, or its joint hazard, by what its headings say.
+    fn add_columns(&mut self, sheet: &Sheet, years: Option<f64>, file: String) -> anyhow::Result<()> {
         let (mut intensities, mut frequencies, mut others) = (Vec::new(), Vec::new(), Vec::new());
         for (at, heading) in sheet.headings.iter().enumerate() {
             match content(heading, years) {
