@@ -101,8 +101,8 @@ impl Stage for RankIms {
 
 /// The first sets of each suite, structure and target.
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
-    let shown: Vec<&RankedSet> = sets.iter().filter(|set| set.rank <= SHOWN).collect();
-    let frame = frame::of_batch(&rows::batch_of::<RankedSet, _>(&shown)?)?;
+    let shown = sets.iter().filter(|set| set.rank <= SHOWN);
+    let frame = frame::of_batch(&rows::batch(shown)?)?;
     const COLUMNS: &str = "suite structure target rank measures form log_score loss loss_error aic status";
     let order = SortMultipleOptions::default().with_maintain_order(true);
     Ok(frame::text(&frame.select(COLUMNS.split(' '))?.sort(["suite", "structure", "target", "rank"], order)?))

@@ -186,10 +186,11 @@ fn synthesize(
 }
 
 fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
-    let (names, scenarios): (Vec<&MotionName>, Vec<Scenario>) =
-        some.iter().map(|motion| (&motion.name, motion.scenario)).unzip();
-    let measures: Vec<_> = some.iter().map(|motion| motion.measured.measures).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
-    let known = [rows::batch_of::<MotionName, _>(&names)?, rows::batch(&scenarios)?, rows::batch(&measures)?];
+    let known = [
+        rows::batch(some.iter().map(|motion| &motion.name))?,
+        rows::batch(some.iter().map(|motion| &motion.scenario))?,
+        rows::batch(some.iter().map(|motion| &motion.measured.measures))?,
+    ];
     motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
 }

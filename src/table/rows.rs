@@ -54,13 +54,9 @@ pub fn schema<R: Row>() -> SchemaRef {
     Arc::new(Schema::new(columns.collect::<Vec<_>>()))
 }
 
-pub fn batch<R: Row>(rows: &[R]) -> anyhow::Result<RecordBatch> {
-    batch_of::<R, R>(rows)
-}
-
-/// Converts rows, or references to them, to a batch.
-pub fn batch_of<R: Row, S: Serialize>(rows: &[S]) -> anyhow::Result<RecordBatch> {
-    let arrays = serde_arrow::to_arrow(&fields::<R>(), rows)?;
+pub fn batch<'a, R: Row + 'a>(rows: impl IntoIterator<Item = &'a R>) -> anyhow::Result<RecordBatch> {
+    let rows: Vec<&R> = rows.into_iter().collect();
+    let arrays = serde_arrow::to_arrow(&fields::<R>(), &rows)?;
     let columns = arrays.into_iter().flat_map(|array| match array.as_struct_opt() {
         Some(limited) => limited.columns().to_vec(),
         None => vec![array],

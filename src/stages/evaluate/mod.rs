@@ -255,13 +255,10 @@ impl Evaluate {
             let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
             context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
         }
-        let objects: Vec<&ObjectRow> = all.iter().map(|answer| &answer.object).collect();
-        let predicted: Vec<&R> = all.iter().map(|answer| &answer.row).collect();
-        let doubts: Vec<&DoubtsRow> = all.iter().map(|answer| &answer.doubts).collect();
         let rows = rows::side_by_side(&[
-            rows::batch_of::<ObjectRow, _>(&objects)?,
-            rows::batch_of::<R, _>(&predicted)?,
-            rows::batch_of::<DoubtsRow, _>(&doubts)?,
+            rows::batch(all.iter().map(|answer| &answer.object))?,
+            rows::batch(all.iter().map(|answer| &answer.row))?,
+            rows::batch(all.iter().map(|answer| &answer.doubts))?,
         ])?;
         self.write(&[rows], text, context)
     }

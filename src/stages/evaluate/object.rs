@@ -127,9 +127,17 @@ impl DoubtsRow {
 
     /// The parts that are there, in words.
     pub fn words(&self) -> Vec<&'static str> {
-        let row = serde_json::json!(self);
-        let is_known = |part: &&Part| row[format!("error_{part}")].is_number();
-        Part::ALL.iter().filter(is_known).map(|part| part.words()).collect()
+        let parts = [
+            self.error_fit,
+            self.error_magnitude,
+            self.error_velocity,
+            self.error_eta,
+            self.error_object,
+            self.error_floor,
+            self.error_hazard,
+        ];
+        let known = Part::ALL.iter().zip(parts).filter(|(_, sd)| sd.is_some());
+        known.map(|(part, _)| part.words()).collect()
     }
 }
 
