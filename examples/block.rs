@@ -1,7 +1,7 @@
 //! Probability that a block overturns in one motion, and its annual rate at a site.
 
-use rockfrag::fragility::{GivenPeak, Kind, Model, Peak, Scenarios};
-use rockfrag::hazard::{HazardCurve, PgvPgaRatio, rates_over_curve};
+use rockfrag::fragility::{Kind, Model, Peak, Scenarios};
+use rockfrag::hazard::{Hazard, HazardCurve, PeakHazard, Site};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
@@ -13,17 +13,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let motion = IntensityMeasures::new(&block, 0.5 * G_M_S2, 0.6, None, None);
     if let Some(given) = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking {
         let p = given.p_ro;
-        println!("PGA 0.5 g, PGV 0.6 m/s: overturns with {:.3} ({:.3} to {:.3})", p.value, p.low, p.high);
+        println!(
+            "PGA 0.5 g, PGV 0.6 m/s: overturns with probability {:.3} ({:.3} to {:.3})",
+            p.value, p.low, p.high
+        );
     }
 
     // PGA in g, and how often a year it is exceeded.
     let rates = [(0.1, 1e-2), (0.2, 3e-3), (0.5, 5e-4), (1.0, 8e-5), (2.0, 8e-6), (4.0, 4e-7)];
-    let hazard = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
-    // PGV/PGA is that of sites in general, in earthquakes of magnitude 6.5.
-    let ratio = PgvPgaRatio::of_model(&model, Peak::Pga, None).at(6.5, 0.0);
-    let directions = [(block.clone(), model.clone())];
-    let given_pga = GivenPeak { directions: &directions, peak: Peak::Pga, ratio, mw: Some(6.5) };
-    let [rocks, fails, overturns] = rates_over_curve(&given_pga, &hazard).map(|rate| rate.value);
-    println!("a year it rocks {rocks:.1e}, fails {fails:.1e} and overturns {overturns:.1e} times");
+    let curve = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
+    // PGV/PGA is that of an average site, in earthquakes of magnitude 6.5.
+    let hazard = Hazard::Curve(PeakHazard { peak: Peak::Pga, curve, fractiles: None, velocity: None });
+    let (mw, vs30_m_s) = (Some(6.5), None);
+    let site = Site { hazard, mw, vs30_m_s, extrapolate: false, responses: Vec::new() };
+    if let [Some(rate), Some(low), Some(high)] = site.rates(&[(block, model)], &[]).overturning {
+        println!("overturns {rate:.1e} times a year ({low:.1e} to {high:.1e})");
+    }
     Ok(())
 }

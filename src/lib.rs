@@ -13,14 +13,14 @@
 //!
 //! # The probability that a block overturns
 //!
-//! Without simulating, from the universal surface, a fit to the responses of many structures:
+//! Without simulation, by the universal surface: a regression on the responses of many structures.
 //!
 //! ```
 //! use rockfrag::fragility::{Kind, Model, Scenarios};
 //! use rockfrag::motion::IntensityMeasures;
 //! use rockfrag::rocking::Structure;
 //!
-//! // 0.5 m wide and 2 m high; eta after Housner. Failure: a rotation above a tenth of the slenderness.
+//! // 0.5 m wide and 2 m high; eta after Housner. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
 //! let model = Model::shipped(Kind::Recorded, &block, 0.10);
 //!
@@ -33,7 +33,7 @@
 //! # Ok::<(), rockfrag::rocking::StructureError>(())
 //! ```
 //!
-//! [`hazard::Site::rates`] integrates it over the hazard of a site.
+//! [`hazard::Site::rates`] integrates it over the hazard of a site, with limits: see `examples/block.rs`.
 //!
 //! # The response to a record
 //!
@@ -51,25 +51,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`rocking::trace`] gives the rotation over time. The folder `examples` has three whole programs: the
-//! probability and rate of a block, the response to your own record, and the way from earthquake
-//! scenarios to a fragility curve.
+//! [`rocking::trace`] gives the rotation over time. The folder `examples` has three programs: the probability
+//! and rate of a block, the response to your own record, and the way from earthquake scenarios to a fragility
+//! curve.
 //!
 //! # What is where
 //!
 //! | module | holds | in the paper |
 //! |---|---|---|
-//! | [`motion`] | scenarios, synthetic motions, intensity measures | section 2.1, Eqs. 1 to 3 and 13 |
+//! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
 //! | [`hazard`] | hazard curves, annual rates | not in the paper |
 //! | [`records`] | recorded motions: formats, processing, pulses | not in the paper |
-//! | [`studies`] | ranking of measures, validation, the paper's numbers beside ours | Table II |
+//! | [`studies`] | ranking of measures, validation, comparison with the paper | tables, worked example |
 //! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
 //! | [`paper`] | what the paper publishes | sections 2 and 3 |
-//!
-//! Reviewers: start with [`rocking::reference`], the equation of motion, uplift and impact (Eqs. 4 to 6) as
-//! they are printed.
 //!
 //! # Conventions
 //!
@@ -81,24 +78,7 @@
 //! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
 //! Before 1.0, any version may change them.
 //!
-//! # The command
-//!
-//! The command `rockfrag` runs the stages of this diagram over Parquet files; `data/columns.csv` lists their
-//! columns.
-//!
-//! ```text
-//! sample-scenarios -> scenarios -> synthesize-motions -> motions
-//!                            records -> import-motions -> motions
-//!
-//! motions -> simulate -> responses -> fit-pex -> pex --|-> compare-paper
-//!                                  -> fit-pro -> pro --|-> evaluate
-//!                                  -> rank-ims         |-> export
-//!                                  -> validate
-//!
-//! report: all of these files, in figures and a page
-//! run: all of pipeline.yaml, skipping what is up to date
-//! inspect: what a file holds and where it came from
-//! ```
+//! The command `rockfrag` runs these steps over Parquet files: `rockfrag --help`.
 
 #![warn(missing_docs)]
 

@@ -1,4 +1,4 @@
-//! Units as people write them, and physical constants.
+//! Units and physical constants.
 
 /// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;

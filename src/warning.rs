@@ -1,4 +1,4 @@
-//! Warnings about results: a warning is a value, worded once.
+//! Warnings about results.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ struct Subjects {
 /// Subjects that a line names.
 const NAMED: usize = 3;
 /// The name of a structure that has none.
-pub const UNNAMED: &str = "structure";
+pub(crate) const UNNAMED: &str = "structure";
 
 impl Warnings {
     /// Returns one line for each warning, the most important first, with the first subjects that it is about.

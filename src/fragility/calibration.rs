@@ -17,12 +17,13 @@ use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::{independent_errors, variance};
 use crate::warning::Warning;
 
-/// Whether the limits of a probability contain the scatter between earthquakes (tau); its value is the same.
+/// Whether the limits of a probability include the standard deviation between earthquakes, tau; its value is
+/// the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scenarios {
-    /// One earthquake: they do.
+    /// One earthquake: they include it.
     One,
-    /// Many, as over a hazard: the scatter averages out.
+    /// An average over many, as over a hazard: they do not.
     Many,
 }
 

@@ -21,7 +21,7 @@ pub enum KnownCapacity {
     Above(f64),
 }
 
-/// A lognormal distribution of capacities: median theta and dispersion beta, with 95 % limits.
+/// A lognormal distribution of capacities: median theta, in their unit, and dispersion beta, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
@@ -37,8 +37,9 @@ pub struct CapacityFit {
 /// (divisor n - 1), with the exact limits of a normal sample. Else by maximum likelihood, capacities above or
 /// below an intensity counting with the probability of that (Baker 2015, Efficient analytical fragility
 /// function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599); limits from the
-/// information in ln theta and ln beta, too narrow for few. Motions of one cluster (`clusters`, one number
-/// per capacity) may depend on each other: limits are wider by as much as the standard error of the mean is.
+/// information in ln theta and ln beta, which are too narrow for few capacities. Motions of one cluster
+/// (`clusters`, one number per capacity) may depend on each other: limits widen by the ratio of the clustered
+/// to the unclustered standard error of the mean.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.

@@ -8,7 +8,7 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, Response, Structure};
 
 /// The most cases of one structure and suite.
-pub const MOST_CASES: usize = 20_000_000;
+pub(crate) const MOST_CASES: usize = 20_000_000;
 
 keywords! {
     /// The event whose probability is fitted.
@@ -81,7 +81,7 @@ impl Cluster {
     }
 }
 
-/// The responses of one structure to one suite; all columns are as long.
+/// The responses of one structure to one suite; all columns have the same length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cases {
     /// Suite of the motions, if they have one.

@@ -10,7 +10,7 @@ use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::numerics::{first, quadrature};
 
-/// The motions of one peak, as they meet an object.
+/// Motions of a given PGA or PGV, and the object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenPeak<'a> {
     /// A structure with the model that predicts for it, in each direction in which the object falls.
@@ -25,7 +25,7 @@ pub struct GivenPeak<'a> {
 
 /// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of
 /// its directions, which fall independently under one motion. NaN where a model has none.
-pub fn limit_states_at(
+pub(crate) fn limit_states_at(
     directions: &[(Structure, Model)],
     [pga_m_s2, pgv_m_s]: [f64; 2],
     mw: Option<f64>,
@@ -101,7 +101,7 @@ impl GivenPeak<'_> {
 
     /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under
     /// pulses has a dispersion of 0.03.
-    pub fn widest_panel(&self) -> f64 {
+    pub(crate) fn widest_panel(&self) -> f64 {
         let is_of_paper = |(_, model): &(Structure, Model)| matches!(model, Model::Paper { .. });
         if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.2 }
     }

@@ -1,4 +1,4 @@
-//! Fragility: the probability of rocking too far, and of overturning, given the intensity of the motion
+//! Fragility: the probability of exceeding a rotation limit, and of overturning, given the intensity of the motion
 //! (sections 2.3 and 3).
 //!
 //! ```text
@@ -29,12 +29,13 @@ mod tree;
 
 pub use calibration::{Calibration, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
-pub(crate) use cases::grouped;
-pub use cases::{Cases, Cluster, Event, Group, MOST_CASES, Sample};
+pub use cases::{Cases, Cluster, Event, Group, Sample};
+pub(crate) use cases::{MOST_CASES, grouped};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};
-pub use given_peak::{GivenPeak, limit_states_at};
+pub use given_peak::GivenPeak;
+pub(crate) use given_peak::limit_states_at;
 pub use measure::{Measure, Pair};
 pub use model::{Model, paper_probabilities};
 pub use overturning::{CurveFit, fit_curve, fit_curves};

@@ -27,7 +27,8 @@ pub enum Model {
 const CONFIDENCE: f64 = 0.95;
 
 impl Model {
-    /// Makes the model of a structure without fits: the surface for this kind of motion.
+    /// Makes the model of a structure without fits: the surface for this kind of motion. `limit_state` is the
+    /// demand |theta|max / alpha of failure, such as 0.10.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
         Model::Calibrated {
             overturning: Calibration::shipped(kind, structure, None),
@@ -47,7 +48,8 @@ impl Model {
         }
     }
 
-    /// The probabilities of the tree at an intensity (Eq. 12).
+    /// The probabilities of the tree at an intensity (Eq. 12). A magnitude that is not known is estimated by
+    /// PGV / PGA.
     pub fn probabilities(
         &self,
         structure: &Structure,

@@ -25,9 +25,10 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
     im_x.powf(lambda / (1.0 + lambda)) * im_y.powf(1.0 / (1.0 + lambda))
 }
 
-/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood. The likelihood is the
-/// product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro where it did not
-/// (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln IM - mu) / beta =
+/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood, to `Event::Overturning` or
+/// `Event::Rocking`; the other events need a limit state, which a curve does not have. The likelihood of
+/// overturning is the product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro
+/// where it did not (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln IM - mu) / beta =
 /// b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and [`beta`].
 ///
 /// [`log_likelihood`]: crate::statistics::log_likelihood

@@ -60,12 +60,12 @@ impl RatioGiven {
     }
 
     /// Returns the fields in their order.
-    pub fn to_numbers(self) -> Vec<f64> {
+    pub(super) fn to_numbers(self) -> Vec<f64> {
         vec![self.intercept, self.slope, self.knot, self.bend, self.sd_below, self.sd_above]
     }
 
     /// Of the fields in their order; `None` for another number of numbers.
-    pub fn of_numbers(numbers: &[f64]) -> Option<RatioGiven> {
+    pub(super) fn of_numbers(numbers: &[f64]) -> Option<RatioGiven> {
         let &[intercept, slope, knot, bend, sd_below, sd_above] = numbers else { return None };
         Some(RatioGiven { intercept, slope, knot, bend, sd_below, sd_above })
     }

@@ -36,7 +36,7 @@ impl Kind {
     }
 }
 
-/// What the surface says of one case, to be calibrated.
+/// The logit of the surface and its terms for one case, to be calibrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Predictor {
     /// L, the logit of the surface.

@@ -1,4 +1,4 @@
-//! One budget of errors: what is not known exactly, how much of a result each part moves, and the limits that
+//! One budget of errors: what is not known exactly, how much each part moves a result, and the limits that
 //! follow.
 
 use crate::fragility::Z_95;

@@ -30,7 +30,8 @@ pub enum HazardError {
 }
 
 impl HazardCurve {
-    /// Checks intensities and their annual rates of exceedance, from frequent to rare or the other way.
+    /// Checks intensities (m/s2 or m/s) and their annual rates of exceedance, from frequent to rare or the other
+    /// way.
     ///
     /// # Errors
     /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates

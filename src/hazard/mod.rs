@@ -23,8 +23,7 @@ pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
-pub use rates::{PairOfPeaks, Rate, Rates, exceedance, mean_annual_rates};
-pub use rates::{median_intensity, rates_over_curve, rates_over_pairs};
+pub use rates::{PairOfPeaks, Rate, Rates, exceedance, mean_annual_rates, rates_over_curve};
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

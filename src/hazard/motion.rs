@@ -9,9 +9,9 @@ use crate::statistics::Limits;
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
-    /// m/s2.
+    /// PGA, m/s2.
     pub pga_m_s2: Option<f64>,
-    /// m/s.
+    /// PGV, m/s.
     pub pgv_m_s: Option<f64>,
     /// Moment magnitude.
     pub mw: Option<f64>,
@@ -42,7 +42,9 @@ impl Motion {
         }
     }
 
-    /// The probabilities for an object in its directions, averaged over the peak that is not known.
+    /// The probabilities for an object in its directions, of which there is one or more, averaged over the peak
+    /// that is not known. `unknowns` are its uncertain inputs: the same directions with one of them at its
+    /// quantiles.
     pub fn probabilities(
         &self,
         directions: &[(Structure, Model)],

@@ -21,7 +21,7 @@ keywords! {
         Given = "ratio",
         /// The motions that the model was fitted to.
         Motions = "motions",
-        /// Ground-motion models, at sites in general.
+        /// Ground-motion models, at an average site.
         Sites = "sites",
     }
 }
@@ -94,7 +94,7 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Magnitude of the motions that matter: its median, by the mean of the disaggregation if it is given, and what
+/// Magnitude of the controlling earthquakes: its median, by the mean of the disaggregation if it is given, and what
 /// is not known of it.
 pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
     let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
@@ -187,7 +187,7 @@ impl PgvPgaRatio {
         Ok(PgvPgaRatio { ratio: line, per_magnitude, sd: SD_BY_CURVES[usize::from(is_spectrum)], source })
     }
 
-    /// What is not known of it: ln of a factor.
+    /// Its uncertainty, as ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
         Unknown { part: Part::Velocity, quantiles: [-Z_95, Z_95].map(|off| off * self.sd) }
     }

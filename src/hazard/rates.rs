@@ -53,13 +53,13 @@ pub fn mean_annual_rates<const N: usize>(
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Rate {
     pub value: f64,
-    /// What motions stronger than the last of the curve contribute to the value, by the probability at it.
+    /// The part of it above the last intensity of the curve, with the probability at that intensity.
     pub of_last: f64,
-    /// What they could add to it.
+    /// What would come on top if each stronger motion caused the event.
     pub beyond: f64,
 }
 
-/// Annual rates of LS1 to LS3; NaN where the model has no probability.
+/// Annual rates of LS1 to LS3 without limits; NaN where the model has no probability.
 pub type Rates = [Rate; 3];
 
 /// Integrates the probabilities given one peak over its hazard curve.
@@ -77,7 +77,11 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
 }
 
 /// Sums the probabilities of an object in its directions over bins of PGA and PGV.
-pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, bins: &[PairOfPeaks]) -> Rates {
+pub(super) fn rates_over_pairs(
+    directions: &[(Structure, Model)],
+    mw: Option<f64>,
+    bins: &[PairOfPeaks],
+) -> Rates {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
         limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many).map(|state| state.value)
@@ -87,7 +91,7 @@ pub fn rates_over_pairs(directions: &[(Structure, Model)], mw: Option<f64>, bins
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
 /// range.
-pub fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
+pub(super) fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
     const STEPS: i32 = 100;
     let [(first, _), (last, rate_beyond)] = curve.ends();
     let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));

@@ -39,4 +39,4 @@ pub use stochastic::{LowCut, StochasticModel};
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};
 
 /// Largest number of samples of a motion; its spectra and velocities take many times the memory.
-pub const LONGEST_MOTION: usize = 1 << 24;
+pub(crate) const LONGEST_MOTION: usize = 1 << 24;

@@ -1,4 +1,4 @@
-//! Recorded ground motions: from the bytes of files to motions ready to simulate. Pure functions.
+//! Recorded ground motions: from the bytes of files to motions ready to simulate.
 //!
 //! ```text
 //! recorded_motion  a record as in its file, and options for reading files

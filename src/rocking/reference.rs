@@ -1,4 +1,6 @@
 //! Section 2.2 as the paper prints it, for one structure and in small steps: the readable form of the solver.
+//! It rocks by theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta - theta)] (Eq. 4) from
+//! |a| = g tan alpha on (Eq. 5), and theta'+ = eta theta'- at an impact (Eq. 6).
 //!
 //! [`simulate_all`](super::simulate_all) solves the same equations by Taylor series in vector registers,
 //! hundreds of times faster; a test compares both.
@@ -79,7 +81,7 @@ keywords! {
 pub struct TracePoint {
     /// Time from the start of the record, s.
     pub time_s: f64,
-    /// Rotation theta, rad.
+    /// Rotation theta, rad; a positive ground acceleration turns a structure at rest to negative theta.
     pub theta_rad: f64,
     /// Angular velocity, rad/s; after an impact, if there is one.
     pub theta_dot_rad_s: f64,
@@ -147,7 +149,7 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
 }
 
 /// Simulates as [`solve`] and returns the rotation at each sample and event. The record ends with its last
-/// sample; [`with_tail`] appends quiet time for free rocking.
+/// sample, or where theta reaches pi/2; [`with_tail`] appends quiet time for free rocking.
 pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoint>) {
     let mut points = Vec::new();
     let response = solve(structure, record, |point| points.push(point));

@@ -67,7 +67,7 @@ impl Structure {
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
     }
 
-    /// Makes a solid rectangular block of width 2b and height 2h (m); `eta` as given, or [`housner_eta`].
+    /// Makes a solid rectangular block of full width and height (m); `eta` as given, or [`housner_eta`].
     ///
     /// # Errors
     /// If a dimension is not positive and finite, or `eta` is out of range (of a very stocky block).
@@ -87,7 +87,7 @@ impl Structure {
         Structure::new(name, rectangular_p(0.5 * width_m.hypot(height_m)), alpha_rad, eta)
     }
 
-    /// Makes a frame of rocking columns (solid rectangles of width 2b and height 2h, m) with a rigid beam;
+    /// Makes a frame of rocking columns (solid rectangles of full width and height, m) with a rigid beam;
     /// `beam_mass_ratio` is the mass of the beam over that of all columns, `eta` as given, or [`frame_eta`].
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! linear         least squares (Eqs. 16 and 17)
-//! binary         probit regression by maximum likelihood (Eqs. 19 to 24)
+//! binary         probit regression by maximum likelihood (Eqs. 19 to 22)
 //! fit            coefficients, covariance and status of a regression
 //! design         design matrix
 //! newton         maximum of a log-likelihood

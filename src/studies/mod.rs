@@ -1,5 +1,4 @@
-//! Studies of the fits: which measures predict best, how probabilities do on other data, how ours stand to
-//! the paper's.
+//! Studies of the fits: which measures predict best, validation on other data, comparison with the paper.
 //!
 //! ```text
 //! ranking     sets of measures by AIC and by log score on cells left out
