@@ -189,7 +189,6 @@ fn probabilities_never_fall_along_20000_lines() {
                 (last, at) = (p, step(line, at, 1.0 + 0.4 * wide / 10.0));
             }
         }
-        eprintln!("{kind}: largest falls {largest:.6?}");
         assert!(largest.iter().all(|fall| *fall <= 0.001), "{kind} {largest:?}");
     }
 }
@@ -301,18 +300,16 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
 fn what_lies_outside_is_warned_once() {
     let inside = measures(&equipment(), 5.0, 0.6);
     let shipped = Model::shipped(Kind::Csgm, &equipment(), 0.1);
-    assert_eq!(shipped.warnings(&equipment(), &inside), []);
-    assert_eq!(shipped.warnings(&equipment(), &measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
-    assert_eq!(shipped.warnings(&equipment(), &measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
-    assert_eq!(
-        Model::shipped(Kind::Csgm, &equipment(), 2.0).warnings(&equipment(), &inside),
-        [Warning::Extrapolated]
-    );
+    let by = |model: &Model, of_motion| model.warnings(&equipment(), &of_motion);
+    assert_eq!(by(&shipped, inside), []);
+    assert_eq!(by(&shipped, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
+    assert_eq!(by(&shipped, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
+    assert_eq!(by(&Model::shipped(Kind::Csgm, &equipment(), 2.0), inside), [Warning::Extrapolated]);
     let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
     assert!(shipped.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
     // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
     let own = calibrated(&rocking(400));
-    assert!(own.warnings(&equipment(), &inside).contains(&Warning::Extrapolated));
+    assert!(by(&own, inside).contains(&Warning::Extrapolated));
 }
 
 #[test]

@@ -69,8 +69,6 @@ fn synthetic_motions_agree_with_quadruple_precision() {
     let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
     assert!(safe.len() > 70);
     let middle = median(safe.iter().map(|c| c.relative_error()).collect());
-    let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
-    println!("{} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
     assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
     // The effect of rounding the samples is the best possible accuracy in double precision.
     for c in safe {
@@ -91,8 +89,6 @@ fn real_records_agree_with_quadruple_precision() {
     let answers: Vec<Answer> = rows("rocking/fema_p695.csv");
     let compared = compare(motions(&known("fema_p695_near_fault_pulse.parquet")), &answers);
     assert_eq!(compared.len(), 56);
-    let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
-    println!("28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
     for c in compared {
         assert!(c.outcome_agrees(), "{:?}: {:?}", c.answer, c.response);
         if c.is_safe() {
