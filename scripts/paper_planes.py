@@ -1,10 +1,10 @@
 """Hotelling's T2 of each published plane of Table II about ours over seeds: python scripts/paper_planes.py
 
-Reads data/seed_spread.csv (ours, a value a seed) and writes the columns t2 and t2_p of data/paper.csv, in the rows
-low_plane and high_plane: whether the four printed numbers (ln a, b1, b2, R2), which depend on each other, could be those
-of one more seed. The rounding of the print counts as an error of variance width^2 / 12. T2 (n - k) / (k (n - 1)) of k
-numbers and n seeds is F with k and n - k degrees of freedom (Hotelling 1931, Annals of Mathematical Statistics 2,
-360-378). Needs pandas and scipy.
+Reads data/seed_spread.csv (ours, a value a seed) and writes the columns t2 and t2_p of data/paper.csv, in the
+rows low_plane and high_plane: whether the four printed numbers (ln a, b1, b2, R2), which depend on each
+other, could be those of one more seed. The rounding of the print counts as an error of variance width^2 / 12.
+T2 (n - k) / (k (n - 1)) of k numbers and n seeds is F with k and n - k degrees of freedom (Hotelling 1931,
+Annals of Mathematical Statistics 2, 360-378). Needs pandas and scipy.
 """
 
 import pathlib
@@ -17,12 +17,13 @@ data = pathlib.Path(__file__).parent.parent / "data"
 paper = pd.read_csv(data / "paper.csv", dtype=str, keep_default_na=False)
 seeds = pd.read_csv(data / "seed_spread.csv", comment="#", keep_default_na=False)
 ours = seeds.pivot(index=["suite", "structure", "seed"], columns="quantity", values="value")
-published = paper.set_index(["suite", "structure", "quantity"])[["published", "print_low", "print_high"]].sort_index()
+published = paper.set_index(["suite", "structure", "quantity"]).sort_index()
 
 paper[["t2", "t2_p"]] = ""
 for row in paper[paper.quantity.isin(["low_plane", "high_plane"])].itertuples():
     quantities = [row.quantity.replace("plane", number) for number in ("ln_a", "b1", "b2", "r2")]
-    values, low, high = published.loc[row.suite, row.structure].loc[quantities].astype(float).to_numpy().T
+    prints = published.loc[row.suite, row.structure].loc[quantities, ["published", "print_low", "print_high"]]
+    values, low, high = prints.astype(float).to_numpy().T
     of_seeds = ours.loc[row.suite, row.structure][quantities]
     n, k = of_seeds.shape
     # One more seed and the mean of ours: (1 + 1/n) times the covariance of one.

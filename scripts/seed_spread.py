@@ -1,4 +1,5 @@
-"""Runs the paper's set-up with the seeds 1 to 20 and writes data/seed_spread.csv: python scripts/seed_spread.py ROCKFRAG
+"""Runs the paper's set-up with the seeds 1 to 20 and writes data/seed_spread.csv: python
+scripts/seed_spread.py ROCKFRAG
 
 Each published number as ours has it (column `ours` of compare-paper), a row a seed. Needs pandas and pyarrow.
 """

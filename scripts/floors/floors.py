@@ -1,7 +1,7 @@
 """Motions on floors: python floors.py AT2_FOLDER COMPONENTS.csv OUT.parquet
 
-Each component at eight floors of buildings drawn (T1 log-uniform .1 to 3 s, level uniform .1 to 1), .5 to 2.5 times as
-strong; its id is NAME|earthquake|magnitude|PGA|PGV of the ground|T1|level."""
+Each component at eight floors of buildings drawn (T1 log-uniform .1 to 3 s, level uniform .1 to 1), .5 to 2.5
+times as strong; its id is NAME|earthquake|magnitude|PGA|PGV of the ground|T1|level."""
 
 import sys
 

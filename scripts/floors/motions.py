@@ -27,8 +27,8 @@ def fema():
         data = load_ground_motions(name)
         magnitude = data.records.set_index("RecordSequenceNumber").EarthquakeMagnitude
         for row in data.ground_motions.itertuples():
-            mw = float(magnitude[row.RecordSequenceNumber])
-            yield row.ComponentName, key(row.ComponentName, mw), mw, G * np.asarray(row.RecordedAcceleration), row.DT
+            name, mw = row.ComponentName, float(magnitude[row.RecordSequenceNumber])
+            yield name, key(name, mw), mw, G * np.asarray(row.RecordedAcceleration), row.DT
 
 
 def records(folder, table):

@@ -1,24 +1,26 @@
 """How often an object falls in either of two directions under both components of a record: python pairs.py
 
-FEMA P695's 50 pairs at eight scales; widths and depths of 12 objects; the annual rate over scales of a hazard that falls
-with the power 2.2: of falls in both directions, summed or independent, over that of either. Needs numba."""
+FEMA P695's 50 pairs at eight scales; widths and depths of 12 objects; the annual rate over scales of a hazard
+that falls with the power 2.2: of falls in both directions, summed or independent, over that of either. Needs
+numba."""
 
 import numpy as np
 
 import motions
 from two_sided import TAIL_S, body, overturns
 
-OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (0.6, 0.8, 1.8), (0.6, 0.6, 2.2),
-           (0.8, 0.8, 2.2), (0.8, 1.0, 2.4), (1.0, 1.0, 3.0), (1.0, 1.2, 4.0), (0.25, 0.35, 0.8), (1.5, 1.5, 5.0)]  # fmt: skip
+OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (0.6, 0.8, 1.8),
+           (0.6, 0.6, 2.2), (0.8, 0.8, 2.2), (0.8, 1.0, 2.4), (1.0, 1.0, 3.0), (1.0, 1.2, 4.0),
+           (0.25, 0.35, 0.8), (1.5, 1.5, 5.0)]  # fmt: skip
 SCALES = np.geomspace(0.25, 3.0, 8)
-
 
 records = [(motions.rested(a, dt, TAIL_S), dt) for *_, a, dt in motions.fema()]
 weights = -np.diff(SCALES**-2.2, append=0.0)
 ratios = []
 for width, depth, height in OBJECTS:
     sides = [np.array(body(side, height, 0.0)) for side in (width, depth)]
-    fell = np.array([[[overturns(scale * a, dt, side) for side in sides] for scale in SCALES] for a, dt in records])
+    of_scale = lambda a, dt, scale: [overturns(scale * a, dt, side) for side in sides]
+    fell = np.array([[of_scale(a, dt, scale) for scale in SCALES] for a, dt in records])
     # Of each scale: pair, component and side.
     fell = fell.reshape(-1, 2, len(SCALES), 2).transpose(2, 0, 1, 3)
     one_way, other_way = fell[..., 0, 0] | fell[..., 1, 1], fell[..., 0, 1] | fell[..., 1, 0]
@@ -27,4 +29,5 @@ for width, depth, height in OBJECTS:
     both = of_side.sum(axis=1), of_side.sum(axis=1) - of_side.prod(axis=1)
     ratios.append([weights @ p / (weights @ either) for p in both])
     print(width, depth, height, "sum and independent over either: {:.2f} {:.2f}".format(*ratios[-1]))
-print("all:", *(f"{np.exp(np.log(of).mean()):.2f} ({of.min():.2f} to {of.max():.2f})" for of in np.array(ratios).T))
+for of in np.array(ratios).T:
+    print(f"all: {np.exp(np.log(of).mean()):.2f} ({of.min():.2f} to {of.max():.2f})")

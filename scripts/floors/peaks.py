@@ -2,7 +2,8 @@
 
 u = ln(T1/Tg), Tg = 2 pi PGV/PGA, u_i = u - ln(2i - 1), G_i the participation of mode i:
 r_i = 1/(1 + exp(k (u_i - b))), D_i = d/(exp(-l (u_i - e)) + exp(h (u_i - e))),
-A = 1 - sum G_i (1 - r_i), B = sum G_i^2 D_i^2, ln(floor/ground) = ln(A^2 + B)/2 with an sd of s sqrt(B/(A^2 + B)).
+A = 1 - sum G_i (1 - r_i), B = sum G_i^2 D_i^2,
+ln(floor/ground) = ln(A^2 + B)/2 with an sd of s sqrt(B/(A^2 + B)).
 """
 
 import sys
@@ -60,15 +61,15 @@ def main():
     table = pl.DataFrame(list(rows(*sys.argv[1:3])), names, orient="row")
     earthquakes = table["earthquake"].unique().sort()
     print(len(table) // len(PERIODS) // len(LEVELS), "components of", len(earthquakes), "earthquakes")
-    fold_of = dict(zip(np.random.default_rng(1).permutation(earthquakes), np.arange(len(earthquakes)) % FOLDS))
-    fold = table["earthquake"].replace_strict(fold_of).to_numpy()
+    drawn = np.random.default_rng(1).permutation(earthquakes)
+    fold = table["earthquake"].replace_strict({name: k % FOLDS for k, name in enumerate(drawn)}).to_numpy()
     u, level, off = table["u"].to_numpy(), table["level"].to_numpy(), []
     for peak, start in START.items():
         y = table[peak].to_numpy()
         b = fit(u, level, y, start)
         mean, share = median(b, u, level)
         off.append((y - mean) / np.sqrt(share))
-        print(peak, *(f"{name} {value:.3f}" for name, value in zip("bkdelhs", b)), f"sd {np.std(y - mean):.3f}")
+        print(peak, *map("{} {:.3f}".format, "bkdelhs", b), f"sd {np.std(y - mean):.3f}")
         left, sds = np.zeros((2, len(y)))
         for k in range(FOLDS):
             out = fold == k
@@ -76,8 +77,8 @@ def main():
             mean, share = median(bk, u[out], level[out])
             left[out], sds[out] = y[out] - mean, bk[6] * np.sqrt(share)
         cells = table.with_columns(left=left).group_by("period", "level").agg(pl.col("left").mean())["left"]
-        print(f"   earthquakes left out: bias {left.mean():.3f}, sd {left.std():.3f}, cells {cells.min():.2f} to"
-              f" {cells.max():.2f}, within 1.96 sd {np.mean(abs(left / sds) < 1.96):.3f}")
+        print(f"   earthquakes left out: bias {left.mean():.3f}, sd {left.std():.3f}, cells {cells.min():.2f}"
+              f" to {cells.max():.2f}, within 1.96 sd {np.mean(abs(left / sds) < 1.96):.3f}")
     print("correlation", f"{np.corrcoef(*off)[0, 1]:.2f}")
 
 

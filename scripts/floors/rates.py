@@ -1,7 +1,8 @@
-"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2_FOLDER COMPONENTS.csv FOLDER [yielding]
+"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2_FOLDER COMPONENTS.csv FOLDER
+[yielding]
 
-Every fourth component scaled to PGA of .1 to 1.6 g, filtered to ten floors; twelve objects; a hazard that falls with the
-power 2.2 of PGA. With `yielding` the floors are those of yielding.py, which needs numba."""
+Every fourth component scaled to PGA of .1 to 1.6 g, filtered to ten floors; twelve objects; a hazard that
+falls with the power 2.2 of PGA. With `yielding` the floors are those of yielding.py, which needs numba."""
 
 import pathlib
 import subprocess
@@ -14,8 +15,8 @@ import motions
 
 STRONGEST_M_S = 5.0
 LEVELS_G = np.geomspace(0.1, 1.6, 8)
-OBJECTS = [(0.3, 0.9), (0.3, 1.2), (0.4, 1.6), (0.5, 1.8), (0.6, 1.8), (0.6, 2.2), (0.8, 2.2), (0.8, 2.6), (1.0, 3.0),
-           (1.2, 4.0), (0.25, 0.8), (0.45, 2.0)]  # fmt: skip
+OBJECTS = [(0.3, 0.9), (0.3, 1.2), (0.4, 1.6), (0.5, 1.8), (0.6, 1.8), (0.6, 2.2), (0.8, 2.2), (0.8, 2.6),
+           (1.0, 3.0), (1.2, 4.0), (0.25, 0.8), (0.45, 2.0)]  # fmt: skip
 rockfrag, at2, components, folder, *yielding = sys.argv[1:]
 folder = pathlib.Path(folder)
 floors_of = __import__("yielding").floors if yielding else motions.floors

@@ -1,7 +1,8 @@
 """Fits what a floor adds to the surface: python surface.py UNIVERSAL.csv FLOOR_RESPONSES
 
-logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own peaks and
-the magnitude, f the resonant share of the floor's velocity. The responses are those to the motions of floors.py."""
+logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own
+peaks and the magnitude, f the resonant share of the floor's velocity. The responses are those to the motions
+of floors.py."""
 
 import pathlib
 import sys
@@ -69,7 +70,8 @@ for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
     z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
     print(event, fit(event, cases).round(3), "log score as on the ground and with earthquakes left out:",
           score(z, happened).round(4), score(left, happened).round(4))
-    by = cases.with_columns(ground=logistic(z), floor=logistic(left)).group_by(T1=PERIODS).agg(
-        ground=pl.col("happened").sum() / pl.col("ground").sum(), floor=pl.col("happened").sum() / pl.col("floor").sum()
+    sums = cases.with_columns(ground=logistic(z), floor=logistic(left)).group_by(T1=PERIODS).agg(
+        pl.col("happened", "ground", "floor").sum()
     )  # fmt: skip
-    print("observed over expected:", by.sort("T1"))
+    ratios = {name: pl.col("happened") / pl.col(name) for name in ("ground", "floor")}
+    print("observed over expected:", sums.sort("T1").select("T1", **ratios))

@@ -1,9 +1,10 @@
-"""How often bodies with the centre of mass off the middle overturn, and the symmetric block of their weaker side:
-python two_sided.py
+"""How often bodies with the centre of mass off the middle overturn, and the symmetric block of their weaker
+side: python two_sided.py
 
-Both edges in turn (theta'' = -p_i^2 (sin(alpha_i - |theta|) + ...), impacts by conservation of angular momentum about
-the new edge), by Runge-Kutta in small steps, and 200 cases again by scipy's DOP853 with events. FEMA P695's 100
-components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Needs numba.
+Both edges in turn (theta'' = -p_i^2 (sin(alpha_i - |theta|) + ...), impacts by conservation of angular
+momentum about the new edge), by Runge-Kutta in small steps, and 200 cases again by scipy's DOP853 with
+events. FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half
+width. Needs numba.
 """
 
 import itertools
@@ -15,15 +16,15 @@ from scipy.integrate import solve_ivp
 
 import motions
 
-SIZES = [(0.2, 0.6), (0.25, 0.75), (0.3, 0.9), (0.35, 1.6), (0.4, 1.2), (0.4, 1.8), (0.5, 2.0), (0.6, 1.2), (0.6, 1.8),
-         (0.8, 2.2), (1.0, 3.0), (1.5, 4.0)]  # fmt: skip
+SIZES = [(0.2, 0.6), (0.25, 0.75), (0.3, 0.9), (0.35, 1.6), (0.4, 1.2), (0.4, 1.8), (0.5, 2.0), (0.6, 1.2),
+         (0.6, 1.8), (0.8, 2.2), (1.0, 3.0), (1.5, 4.0)]  # fmt: skip
 OFFSETS = [0.1, 0.2, 0.3, 0.4]
 SCALES = [0.5, 1.0, 1.5, 2.5]
 SUBSTEPS, TAIL_S = 4, 8.0
 
 
 def body(width, height, offset):
-    """(alpha, p, eta of the impact onto that edge) of the right edge, which the centre of mass is nearer to, and the left."""
+    """(alpha, p, eta of the impact onto it) of the edge that the centre of mass is nearer to, and the other."""
     b, h, inertia = width / 2, height / 2, (width**2 + height**2) / 12
     near, far = b - offset * b, b + offset * b
     sides = []
@@ -97,7 +98,8 @@ def by_scipy(a, dt, sides):
     """The same with roots of events; uplift to a hundredth of a sample."""
     ground = lambda t: np.interp(t, dt * np.arange(len(a)), a)
     times = np.arange(0, (len(a) - 1) * dt, dt / 100)
-    uplifts = times[(-ground(times) > math.tan(sides[0][0]) * 9.81) | (ground(times) > math.tan(sides[1][0]) * 9.81)]
+    low, high = -9.81 * math.tan(sides[0][0]), 9.81 * math.tan(sides[1][0])
+    uplifts = times[(ground(times) < low) | (ground(times) > high)]
     impact, over = (lambda t, y: y[0] + 1e-12), (lambda t, y: y[0] - math.pi / 2)
     impact.terminal = over.terminal = True
     impact.direction = -1

@@ -1,8 +1,9 @@
-"""Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after site_rates.py
+"""Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after
+site_rates.py
 
-Seven cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give rates by a
-quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln, stand beside those of
-the limits of evaluate.
+Seven cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give
+rates by a quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln,
+stand beside those of the limits of evaluate.
 """
 
 import re
@@ -42,14 +43,16 @@ def matched(pga, pgv, scatter):
     weight, middle = -np.diff(exceeds(pga, x)), 0.5 * (x[1:] + x[:-1])
     rates = np.geomspace(min(2e-2, 0.5 * pga[0, 1], pgv[0, 1]), max(1e-6, 2 * pga[-1, 1], pgv[-1, 1]), 16)
     levels = np.interp(-np.log(rates), -np.log(pgv[:, 1]), np.log(pgv[:, 0]))
-    of = lambda b: norm.sf((levels[:, None] - middle - b[0] - b[1] * (middle - AT)) / scatter) @ weight + pga[-1, 1]
+    off = lambda b: levels[:, None] - middle - b[0] - b[1] * (middle - AT)
+    of = lambda b: norm.sf(off(b) / scatter) @ weight + pga[-1, 1]
     return least_squares(lambda b: np.log(of(b) / rates), [-2.9, 0.0]).x
 
 
 def expected_magnitude():
     """Intercept and slope of magnitude on ln(PGV / PGA)."""
-    lines = (line.split(",") for line in open(R.root / "data/universal.csv"))
-    return next([float(cell) for cell in line[2:4]] for line in lines if line[:2] == ["magnitude", "recorded"])
+    lines = open(R.root / "data/universal.csv").read().splitlines()
+    cells = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
+    return [float(cell) for cell in cells[2:4]]
 
 
 def surface(truth):
@@ -106,7 +109,7 @@ def case(k, name, route, random):
     below, above = median - least, most - median
     print(name, route, *R.names[k][1:], "rate {:.1e} (ours {:.1e}, median of draws {:.1e})".format(
         *np.exp([value, at_medians, median])), f"limits -{value - low:.2f} +{high - value:.2f}",
-        f"draws -{below:.2f} +{above:.2f} ratio {(value - low) / below:.2f} {(high - value) / above:.2f}", flush=True)
+        f"draws -{below:.2f} +{above:.2f} ratio {(value - low) / below:.2f} {(high - value) / above:.2f}")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
-"""Annual rates counted by numpy and scipy, for tests/fits/counted_rates.rs: python counted_rates.py MOTIONS.csv ANSWERS.csv
+"""Annual rates counted by numpy and scipy, for tests/fits/counted_rates.rs: python counted_rates.py
+MOTIONS.csv ANSWERS.csv
 
-Motions of 35 cells with a PGA (g) and whether each overturns a structure, in the order of their PGA; annual rates of
-overturning at a site where H = 1e-3 PGA^-2.5, in bins of equal numbers of motions; limits from cells drawn anew 20,000
-times, and by Fay & Feuer (1997).
+Motions of 35 cells with a PGA (g) and whether each overturns a structure, in the order of their PGA; annual
+rates of overturning at a site where H = 1e-3 PGA^-2.5, in bins of equal numbers of motions; limits from cells
+drawn anew 20,000 times, and by Fay & Feuer (1997).
 """
 
 import sys
@@ -38,8 +39,8 @@ def binned(times):
     numbers, first = np.unique(place[drawn], return_index=True)
     edges = exceeded[drawn][first]
     edges[0] = 1e-3 * LEAST**-2.5
-    sums = [np.bincount(place[drawn], values[drawn], minlength=bins)[numbers] for values in (times, times * happened)]
-    return edges - np.append(edges[1:], 0.0), *sums
+    total = lambda values: np.bincount(place[drawn], values[drawn], minlength=bins)[numbers]
+    return -np.diff(edges, append=0.0), total(times), total(times * happened)
 
 
 def rate(times):
@@ -55,4 +56,5 @@ high = spread / (2 * above) * chi2.ppf(0.975, 2 * above**2 / spread)
 draw = lambda: np.bincount(rng.integers(0, cells, cells), minlength=cells)[cell].astype(float)
 drawn = np.quantile([rate(draw()) for _ in range(20_000)], [0.025, 0.975])
 names = "value drawn_low drawn_high poisson_low poisson_high".split()
-pd.DataFrame([[value, *drawn, low, high]], columns=names).to_csv(sys.argv[2], index=False, float_format="%.12e")
+answers = pd.DataFrame([[value, *drawn, low, high]], columns=names)
+answers.to_csv(sys.argv[2], index=False, float_format="%.12e")

@@ -1,8 +1,9 @@
 """Data for the fits and other programs' answers: python fits.py tests/reference/fits
 
-cases.csv has two measures, a demand and an event, 20 rows a cell; nearly_separated.csv classes that barely overlap,
-so that the slope is steep and Newton's steps are long; capacities.csv samples of overturning intensities, and the
-limits of their median and dispersion by Student's t and chi squared. Needs scipy, statsmodels and pyFragility.
+cases.csv has two measures, a demand and an event, 20 rows a cell; nearly_separated.csv classes that barely
+overlap, so that the slope is steep and Newton's steps are long; capacities.csv samples of overturning
+intensities, and the limits of their median and dispersion by Student's t and chi squared. Needs scipy,
+statsmodels and pyFragility.
 """
 
 import pathlib
@@ -49,7 +50,7 @@ for name, columns, squares in [("x", [x], [x * x]), ("xy", [x, y], [x * x, y * y
     wider = np.column_stack([design, *squares])
     ols, probit, fit = sm.OLS(demand, design).fit(), newton(event, design), scoring(event, design)
     for k, numbers in enumerate(zip(ols.params, ols.bse, *ols.conf_int(0.05).T)):
-        answers |= {f"ols_{name}_{what}{k}": number for what, number in zip(("b", "se", "low", "high"), numbers)}
+        answers |= dict(zip((f"ols_{name}_{what}{k}" for what in ("b", "se", "low", "high")), numbers))
     answers |= {f"ols_{name}_r2": ols.rsquared, f"ols_{name}_sd": np.sqrt(ols.mse_resid)}
     for k, (b, se) in enumerate(zip(probit.params, probit.bse)):
         answers |= {f"probit_{name}_b{k}": b, f"probit_{name}_se{k}": se}
@@ -68,17 +69,17 @@ for name, columns, squares in [("x", [x], [x * x]), ("xy", [x, y], [x * x, y * y
     of_clusters |= {f"ols_{name}_clustered{k}": error for k, error in enumerate(errors)}
     of_clusters[f"ols_{name}_hc1_1"] = ols.get_robustcov_results("HC1").bse[1]
     of_clusters[f"ols_{name}_misfit_p"] = sm.OLS(demand, wider).fit().compare_f_test(ols)[1]
-tails = {"chi_squared": stats.chi2.sf(7.3, 5), "chi_squared_even": stats.chi2.sf(21.4, 8), "f": stats.f.sf(4.2, 2, 37)}
+tails = {"chi_squared": stats.chi2.sf(7.3, 5), "chi_squared_even": stats.chi2.sf(21.4, 8)}
 write_answers("answers.csv", answers)
-write_answers("uncertainty_answers.csv", of_clusters | tails)
+write_answers("uncertainty_answers.csv", of_clusters | tails | {"f": stats.f.sf(4.2, 2, 37)})
 
 random = np.random.default_rng(15)
 x, y = random.normal(0, 1, 300), random.normal(0, 1, 300)
 event = (x + y + random.normal(0, 0.05, 300) > 0).astype(int)
 write("nearly_separated.csv", {"x": x, "y": y, "event": event})
 fit = newton(event, sm.add_constant(np.column_stack([x, y])))
-of_each = {f"{what}{k}": v for what, values in [("b", fit.params), ("se", fit.bse)] for k, v in enumerate(values)}
-write_answers("nearly_separated_answers.csv", of_each | {"llf": fit.llf})
+b, se = ({f"{what}{k}": v for k, v in enumerate(of)} for what, of in [("b", fit.params), ("se", fit.bse)])
+write_answers("nearly_separated_answers.csv", b | se | {"llf": fit.llf})
 
 samples = {
     "few": [0.7, 1.1, 1.3, 2.9],

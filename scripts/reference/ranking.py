@@ -1,7 +1,8 @@
 """Other programs' answers for the ranking of intensity measures: python ranking.py tests/reference/fits
 
-Reads cases.csv (of fits.py; 20 rows make a cell, and cell c falls into fold c mod 10) and writes ranking_answers.csv. The
-measures are im4 = exp(x) and im3 = exp(y); the demand breaks at IM4 = 1.3. Needs numpy, scipy and statsmodels.
+Reads cases.csv (of fits.py; 20 rows make a cell, and cell c falls into fold c mod 10) and writes
+ranking_answers.csv. The measures are im4 = exp(x) and im3 = exp(y); the demand breaks at IM4 = 1.3. Needs
+numpy, scipy and statsmodels.
 """
 
 import pathlib

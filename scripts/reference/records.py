@@ -1,8 +1,9 @@
 """Measures and pulses of motions by other programs: python records.py tests/reference
 
-Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias intensity
-and durations) and records/pulses.csv (the indicator of Baker 2007 with PyWavelets' db4 at full resolution; the fit of
-Eq. 1 by differential evolution). Needs numpy, scipy, pandas, pyarrow, eqsig and PyWavelets.
+Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias
+intensity and durations) and records/pulses.csv (the indicator of Baker 2007 with PyWavelets' db4 at full
+resolution; the fit of Eq. 1 by differential evolution). Needs numpy, scipy, pandas, pyarrow, eqsig and
+PyWavelets.
 """
 
 import pathlib

@@ -1,8 +1,10 @@
-"""Answers for a motions file in quadruple precision: python rocking.py MOTIONS.parquet ANSWERS.csv P:ALPHA:ETA ...
+"""Answers for a motions file in quadruple precision: python rocking.py MOTIONS.parquet ANSWERS.csv
+P:ALPHA:ETA ...
 
-By another formulation than the program's own: Taylor series of phi = alpha - |theta| of order 20 in steps between
-samples, events by scanning and bisection, in numbers of 113 bits. The condition is the relative change of the demand
-under motions stronger by 1e-15. Needs gmpy2 and pyarrow; 60 motions and two structures take some minutes.
+By another formulation than the program's own: Taylor series of phi = alpha - |theta| of order 20 in steps
+between samples, events by scanning and bisection, in numbers of 113 bits. The condition is the relative
+change of the demand under motions stronger by 1e-15. Needs gmpy2 and pyarrow; 60 motions and two structures
+take some minutes.
 """
 
 import sys
@@ -136,5 +138,6 @@ with open(answers, "w") as file:
             outcome, edp, impacts = simulate(*map(mpfr, numbers), dt, u)
             nearby = simulate(*map(mpfr, numbers), dt, [w * (1 + SHIFT) for w in u])[1]
             condition = abs(nearby / edp - 1) / SHIFT if edp > 0 else mpfr(0)
-            of_structure = ",".join(f"{number:.17g}" for number in numbers)
-            print(f"{motion['motion_id']},{of_structure},{outcome},{edp:.20e},{impacts},{condition:.3e}", file=file)
+            of_structure = (f"{number:.17g}" for number in numbers)
+            cells = outcome, f"{edp:.20e}", impacts, f"{condition:.3e}"
+            print(motion["motion_id"], *of_structure, *cells, sep=",", file=file)

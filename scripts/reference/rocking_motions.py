@@ -1,7 +1,7 @@
 """Makes the motions of the solver's reference: python rocking_motions.py OUT.parquet
 
-Sixty motions with a fixed seed: velocity pulses, pulses under decaying noise, half-sine and rectangular pulses, and
-records that touch the uplift threshold of alpha = 0.15 exactly. Needs numpy and pyarrow.
+Sixty motions with a fixed seed: velocity pulses, pulses under decaying noise, half-sine and rectangular
+pulses, and records that touch the uplift threshold of alpha = 0.15 exactly. Needs numpy and pyarrow.
 """
 
 import sys
@@ -61,4 +61,5 @@ table = {
     "acceleration_m_s2": [samples for _, samples in motions],
 }
 encoding = {"acceleration_m_s2.list.element": "BYTE_STREAM_SPLIT", "motion_id": "PLAIN", "dt_s": "PLAIN"}
-pq.write_table(pa.table(table), sys.argv[1], compression="zstd", use_dictionary=False, column_encoding=encoding)
+options = {"compression": "zstd", "use_dictionary": False, "column_encoding": encoding}
+pq.write_table(pa.table(table), sys.argv[1], **options)

@@ -1,8 +1,8 @@
 """Judges rates of evaluate --hazard at the sites of sites.py: python site_rates.py FOLDER ROCKFRAG
 
-The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own magnitude. The
-table has, for each route, the rates over the truth, and how often the 95 % limits hold truths whose c, ln s and eta are
-drawn from their distributions.
+The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
+magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
+whose c, ln s and eta are drawn from their distributions.
 """
 
 import json
@@ -50,7 +50,8 @@ def surface(width, height, eta, mw):
     keep = (np.exp(a) > 9.81 * np.tan(alpha)) & (np.exp(a) <= 4.5 * 9.81) & (np.exp(v) <= 5)
     table = pd.DataFrame({"pga_m_s2": np.exp(a)[keep], "pgv_m_s": np.exp(v)[keep], "mw": mw})
     table.to_csv(folder / "grid.csv", index=False)
-    call("--in", folder / "grid.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--out", folder / "out.csv", "--force")
+    structure = "--p", p, "--alpha", alpha, "--eta", eta
+    call("--in", folder / "grid.csv", *structure, "--out", folder / "out.csv", "--force")
     result = np.full(a.shape, -np.inf)
     result[keep] = logit(pd.read_csv(folder / "out.csv")["p_ro"])
     return result
@@ -96,9 +97,9 @@ def write(k):
 
 
 ROUTES = [
-    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV", "PGA, PGV, M",
-    "joint",
-]
+    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV",
+    "PGA, PGV, M", "joint",
+]  # fmt: skip
 
 
 def answers(k, route):
@@ -106,21 +107,20 @@ def answers(k, route):
     paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in "MV")
     mw = ["--magnitude", f"{mean_mw[k]:.2f}"] if "M" in given else []
     vs30 = ["--vs30", names[k][3]] if "V" in given else []
-    rows = json.loads(call("--structures", folder / "objects.csv", "--hazard", paths, *mw, *vs30, "--format", "json"))
+    options = "--hazard", paths, *mw, *vs30, "--format", "json"
+    rows = json.loads(call("--structures", folder / "objects.csv", *options))
     return {row["structure"]: row for row in rows}
 
 
 def judged():
-    """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a truth that is
-    drawn, and the logarithm of their ratio."""
+    """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
+    truth that is drawn, and the logarithm of their ratio."""
     truths = {name: Truth(*size) for name, size in OBJECTS.items()}
     for k, kind in enumerate(names[:, 0]):
         write(k)
         true = {name: truth.rate(joint[k]) for name, truth in truths.items()}
-        drawn = {
-            name: [truth.rate(joint[k], *(random.normal(size=4) * [*truth.sds, SD_OF_LOSS])) for _ in range(DRAWS)]
-            for name, truth in truths.items()
-        }
+        draw = lambda truth: truth.rate(joint[k], *(random.normal(size=4) * [*truth.sds, SD_OF_LOSS]))
+        drawn = {name: [draw(truth) for _ in range(DRAWS)] for name, truth in truths.items()}
         for route in ROUTES:
             for name, row in answers(k, route).items():
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
@@ -133,8 +133,8 @@ def summary(rows):
     off = rows["off"]
     return pd.Series({
         "n": len(off), "median": np.exp(off.median()), "rms ln": np.sqrt((off**2).mean()),
-        "in 1.5": (off.abs() < np.log(1.5)).mean(), "worst": np.exp(off.abs().max()), "held": rows["held"].mean(),
-        "high/low": np.exp(rows["width"].mean()),
+        "in 1.5": (off.abs() < np.log(1.5)).mean(), "worst": np.exp(off.abs().max()),
+        "held": rows["held"].mean(), "high/low": np.exp(rows["width"].mean()),
     })  # fmt: skip
 
 

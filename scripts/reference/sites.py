@@ -1,11 +1,11 @@
 """Hazards of PGA, PGV and SA(1.0 s) at sites of ground-motion models: python sites.py FOLDER
 
-Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA, PGV and
-magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general
-(src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
-`judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the levels of the first
-two by Vs30, and the means of all at the rate of once in 2475 years, to tests/reference/fits, and prints their lines.
-Needs openquake.engine (scripts/check_exports.sh tells how).
+Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA,
+PGV and magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in
+general (src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
+the sites `judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the
+levels of the first two by Vs30, and the means of all at the rate of once in 2475 years, to
+tests/reference/fits, and prints their lines. Needs openquake.engine (scripts/check_exports.sh tells how).
 """
 
 import itertools
@@ -142,7 +142,7 @@ def site(model, vs30, sources, rho):
     mw, _, rate = ruptures.T
     accelerations, velocities = LEVELS_G * G, np.geomspace(0.005, 6, 40)
     curves = {}
-    for k, (name, levels) in enumerate({"pga": accelerations, "pgv": velocities, "sa": accelerations}.items()):
+    for k, (name, levels) in enumerate([("pga", accelerations), ("pgv", velocities), ("sa", accelerations)]):
         rates = norm.sf((np.log(levels)[:, None] - mean[k]) / sd[k]) @ rate
         curves[name] = np.column_stack([levels, rates])
     weight = norm.sf((np.log(inverse(*curves["pga"].T, 1 / 2475)) - mean[0]) / sd[0]) * rate
@@ -150,8 +150,8 @@ def site(model, vs30, sources, rho):
 
 
 def line(joints, mean_mw, vs30, peak):
-    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about it, and the
-    sd between sites of one magnitude, of one magnitude and Vs30."""
+    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about
+    it, and the sd between sites of one magnitude, of one magnitude and Vs30."""
     level, middle, low, high, axis = {
         "pga": (X, 0.4 * G, 0.15 * G, 1.5 * G, 2), "pgv": (Y, 0.4, 0.1, 2.0, 1)
     }[peak]  # fmt: skip
@@ -162,9 +162,8 @@ def line(joints, mean_mw, vs30, peak):
         variance = (rates * ratio**2).sum(axis=axis) / total - mean**2
     kept = (np.exp(level) > low) & (np.exp(level) < high) & (total > 1e-7)
     of_site, bins = np.nonzero(kept)
-    rows = np.column_stack([
-        np.ones(len(bins)), level[bins] - np.log(middle), mean_mw[of_site] - 6.3, np.log(vs30[of_site] / USUAL_VS30)
-    ])  # fmt: skip
+    columns = level[bins] - np.log(middle), mean_mw[of_site] - 6.3, np.log(vs30[of_site] / USUAL_VS30)
+    rows = np.column_stack([np.ones(len(bins)), *columns])
     between = []
     for columns in (rows[:, :3], rows):
         b = np.linalg.lstsq(columns, mean[kept], rcond=None)[0]
@@ -187,8 +186,8 @@ def at_rate(curves, rate):
 
 
 def by_spectrum(data, among):
-    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with magnitude,
-    and the sd between sites, with and without magnitude."""
+    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with
+    magnitude, and the sd between sites, with and without magnitude."""
     rows, off = [], []
     for rate in np.geomspace(2e-3, 1e-5, 12):
         pga, pgv, sa = (at_rate(data[name], rate)[among] for name in ("pga", "pgv", "sa"))
@@ -214,14 +213,15 @@ if __name__ == "__main__":
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):
             found = line(joints[among], mean_mw[among], vs30[among], peak)
-            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter, sd between sites, of one Vs30:",
-                  *np.round(found, 2))
-        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude, sd between sites with and without it:",
-              *np.round(by_spectrum(data, among), 3))
+            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter,",
+                  "sd between sites, of one Vs30:", *np.round(found, 2))
+        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude,",
+              "sd between sites with and without it:", *np.round(by_spectrum(data, among), 3))
     write = lambda name, rows, digits, header: np.savetxt(
         reference / name, rows, [f"%.{n}f" for n in digits], ",", header=header, comments=""
     )
-    write("site_levels.csv", levels(joints[chosen], mean_mw[chosen], vs30[chosen]), [0, 3, 4], "vs30,mw,ln_ratio")
+    of_vs30 = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
+    write("site_levels.csv", of_vs30, [0, 3, 4], "vs30,mw,ln_ratio")
     columns = np.stack([mean_mw, *(at_rate(data[name], 1 / 2475) for name in ("pga", "sa", "pgv"))])
     means = np.array([columns[:, kinds == kind].mean(axis=1) for kind in SETS])
     means[:, 1:] = np.exp(means[:, 1:])
