@@ -26,4 +26,3 @@ fi
     shapely 'pyproj~=3.7.2' requests h3 'alpha_shapes~=1.1.0' 'pyzmq~=26.0' 'fiona~=1.10.1' 2> "$python/conflicts" ||
     { cat "$python/conflicts" >&2; exit 1; }
 "$python/openquake/bin/python" scripts/check_openquake.py "$rockfrag"
-du -sm "$python/openquake" "$python/pelicun" | awk '{ split($2, part, "/"); print "check_exports:", part[length(part)], $1, "MB" }'

@@ -1,7 +1,7 @@
 """Writes made-up records to try import-motions on: example_records.py FOLDER [NUMBER]
 
-Each is a velocity pulse (Mavroeidis & Papageorgiou 2003) with high frequencies on it, in the AT2 format of PEER. They are of no
-earthquake: for figures of a publication take real records.
+Each is a velocity pulse (Mavroeidis & Papageorgiou 2003) with high frequencies on it, in the AT2 format of
+PEER. They are of no earthquake: for figures of a publication take real records.
 """
 
 import math
@@ -22,39 +22,29 @@ def pulse(t, amplitude, period, gamma, phase):
     return amplitude / 2 * (1 + math.cos(x / gamma)) * math.cos(x + phase)
 
 
-def envelope(t):
-    """1 at 8 s, and 0 with its slope at both ends."""
-    return math.exp(-(((t - 8) / 3) ** 2))
-
-
 def acceleration(rng):
     """Samples in g, with no velocity left at the end."""
     amplitude, period = math.exp(rng.uniform(math.log(0.3), math.log(2.0))), rng.uniform(1.0, 4.0)
     gamma, phase = rng.uniform(1.2, 2.5), rng.uniform(0, 2 * math.pi)
     rest = rng.uniform(0.3, 1.2)
     waves = [(2 * math.pi * rng.uniform(2, 12), rng.uniform(0, 2 * math.pi)) for _ in range(30)]
-    shake = lambda t: envelope(t) * sum(rest / w**2 * math.sin(w * t + start) for w, start in waves)
+    # Its envelope is 1 at 8 s, and 0 with its slope at both ends.
+    shape = lambda t: math.exp(-(((t - 8) / 3) ** 2))
+    shake = lambda t: shape(t) * sum(rest / w**2 * math.sin(w * t + start) for w, start in waves)
     noise = [shake(DT * i) for i in range(-1, SAMPLES + 1)]
     speed = [pulse(DT * (i - 0.5), amplitude, period, gamma, phase) for i in range(SAMPLES + 1)]
-    return [
-        ((noise[i] - 2 * noise[i + 1] + noise[i + 2]) / DT**2 + (speed[i + 1] - speed[i]) / DT) / G for i in range(SAMPLES)
-    ]
+    bend = lambda i: (noise[i] - 2 * noise[i + 1] + noise[i + 2]) / DT**2
+    return [(bend(i) + (speed[i + 1] - speed[i]) / DT) / G for i in range(SAMPLES)]
 
 
-def main():
-    folder, number = pathlib.Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 40
-    folder.mkdir(parents=True, exist_ok=True)
-    for index in range(1, number + 1):
-        samples = acceleration(random.Random(index))
-        lines = [
-            "MADE-UP RECORD, OF NO EARTHQUAKE",
-            f"Example {index}, 1/1/2000, Nowhere, 0",
-            "ACCELERATION TIME SERIES IN UNITS OF G",
-            f"NPTS= {SAMPLES}, DT= {DT:.4f} SEC",
-        ]
-        for start in range(0, SAMPLES, 5):
-            lines.append("".join(f"{value:15.6E}" for value in samples[start : start + 5]))
-        (folder / f"example-{index:02}.AT2").write_text("\n".join(lines) + "\n")
-
-
-main()
+HEAD = """MADE-UP RECORD, OF NO EARTHQUAKE
+Example {}, 1/1/2000, Nowhere, 0
+ACCELERATION TIME SERIES IN UNITS OF G
+NPTS= {}, DT= {:.4f} SEC
+"""
+folder = pathlib.Path(sys.argv[1])
+folder.mkdir(parents=True, exist_ok=True)
+for index in range(1, int(sys.argv[2]) + 1 if len(sys.argv) > 2 else 41):
+    samples = acceleration(random.Random(index))
+    rows = [f"{value:15.6E}" + "\n" * (k % 5 == 4) for k, value in enumerate(samples)]
+    (folder / f"example-{index:02}.AT2").write_text(HEAD.format(index, SAMPLES, DT) + "".join(rows))

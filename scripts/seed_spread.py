@@ -1,13 +1,15 @@
-"""Runs the paper's set-up with the seeds 1 to 20 and writes data/seed_spread.csv: python scripts/seed_spread.py ROCKFRAG
+"""Runs the paper's set-up with the seeds 1 to 20 and writes data/seed_spread.csv: python
+scripts/seed_spread.py ROCKFRAG
 
-Each published number as ours has it (column `ours` of compare-paper), a row a seed. Needs nothing but the program.
+Each published number as ours has it (column `ours` of compare-paper), a row a seed. Needs pandas and pyarrow.
 """
 
-import csv
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+import pandas as pd
 
 rockfrag, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parents[1]
 numbers = []
@@ -15,12 +17,9 @@ with tempfile.TemporaryDirectory() as folder:
     pipeline = (root / "pipeline.yaml").read_text().replace("report: {}", "")
     (pathlib.Path(folder) / "pipeline.yaml").write_text(pipeline)
     for seed in range(1, 21):
-        subprocess.run([rockfrag, "run", "--quiet", f"--seed={seed}"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        show = [rockfrag, "inspect", "out/paper.parquet", "--head=1000", "--format=csv"]
-        rows = csv.DictReader(subprocess.run(show, cwd=folder, check=True, capture_output=True, text=True).stdout.splitlines())
-        keys = ["quantity", "suite", "structure"]
-        numbers += [[*(row[key] for key in keys), seed, row["ours"]] for row in rows if row["ours"]]
-with open(root / "data/seed_spread.csv", "w", newline="") as file:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["quantity", "suite", "structure", "seed", "value"])
-    writer.writerows(sorted(numbers, key=lambda row: row[3]))
+        run = [rockfrag, "run", "--quiet", f"--seed={seed}"]
+        subprocess.run(run, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        paper = pd.read_parquet(f"{folder}/out/paper.parquet").dropna(subset="ours")
+        numbers.append(paper.assign(seed=seed).rename(columns={"ours": "value"}))
+columns = ["quantity", "suite", "structure", "seed", "value"]
+pd.concat(numbers)[columns].to_csv(root / "data/seed_spread.csv", index=False)

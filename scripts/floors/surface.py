@@ -1,7 +1,8 @@
-"""Fits what a floor adds to the surface: python surface.py UNIVERSAL.csv GROUND_RESPONSES FLOOR_RESPONSES
+"""Fits what a floor adds to the surface: python surface.py UNIVERSAL.csv FLOOR_RESPONSES
 
-logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own peaks and the
-magnitude, f the resonant share of the floor's velocity; on the ground f is 0."""
+logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own
+peaks and the magnitude, f the resonant share of the floor's velocity. The responses are those to the motions
+of floors.py."""
 
 import pathlib
 import sys
@@ -10,91 +11,67 @@ import numpy as np
 import polars as pl
 from scipy.optimize import minimize
 
-import motions
 import peaks
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "universal"))
-from surface import Surface, some  # noqa: E402
+from calibration import apply, logistic  # noqa: E402
+from cases import counted  # noqa: E402
+from surface import NO_LIMIT, Surface  # noqa: E402
 
-PFV = peaks.START["pfv"]
 FOLDS = 8
+PERIODS = pl.col("period").cut([0.3, 0.7, 1.4])
 
 
-def read(ground, floor):
-    names = ["structure", "p_rad_s", "alpha_rad", "eta", "outcome", "edp", "pga_m_s2", "pgv_m_s"]
-    ground = pl.read_parquet(ground).with_columns(mw=pl.col("magnitude").cast(pl.Float64))
-    ground = ground.with_columns(
-        cluster=pl.col("earthquake").str.slice(0, 4).str.to_uppercase() + pl.format(" {}", pl.col("mw").round(1)),
-        period=pl.lit(1.0), level=pl.lit(0.0), ground_pga=pl.col("pga_m_s2"), ground_pgv=pl.col("pgv_m_s"),
+def read(file):
+    """Cases that rock, with the earthquake and the floor that the id of a motion names."""
+    part = lambda k: pl.col("motion_id").str.split("|").list.get(k)
+    cases = pl.read_parquet(file).filter(pl.col("im4") > 1.0).with_columns(
+        cluster=part(1), mw=part(2).cast(float), period=part(5).cast(float), level=part(6).cast(float),
+        overturned=pl.col("outcome") == "overturning", pga=part(3).cast(float), pgv=part(4).cast(float),
     )  # fmt: skip
-    parts = pl.col("motion_id").str.split("|").list
-    floor = pl.read_parquet(floor).with_columns(
-        cluster=parts.get(1), ground_pga=parts.get(3).cast(float), ground_pgv=parts.get(4).cast(float),
-        period=parts.get(5).cast(float), level=parts.get(6).cast(float), mw=parts.get(2).cast(float),
-    )  # fmt: skip
-    columns = [*names, "cluster", "mw", "period", "level", "ground_pga", "ground_pgv"]
-    rows = pl.concat([frame.select(columns).cast({pl.Float32: pl.Float64}) for frame in (ground, floor)])
-    rows = rows.with_columns(
-        im4=pl.col("pga_m_s2") / (9.81 * pl.col("alpha_rad").tan()),
-        im5=pl.col("p_rad_s") * pl.col("pgv_m_s") / (9.81 * pl.col("alpha_rad").tan()),
-        im3=pl.col("pga_m_s2") / (pl.col("p_rad_s") * pl.col("pgv_m_s")), overturned=pl.col("outcome") == "overturning",
-    ).filter(pl.col("im4") > 1.0)  # fmt: skip
-    cases = {name: rows[name].to_numpy() for name in rows.columns}
-    u = np.log(cases["period"] * cases["ground_pga"] / (2 * np.pi * cases["ground_pgv"]))
-    shares = motions.participation(cases["level"][:, None])
-    A, B = peaks.terms(np.array(PFV), u, shares)
-    cases["share"] = B / (A**2 + B)
-    return cases
+    u = (pl.col("period") * pl.col("pga") / (2 * np.pi * pl.col("pgv"))).log()
+    u, level = cases.select(u=u, level="level").to_numpy().T
+    return cases.with_columns(share=peaks.median(peaks.START["pfv"], u, level)[1])
 
 
-def columns(cases, limit):
-    narrow = np.log(cases["p_rad_s"] * cases["period"])
-    return cases["share"] * np.stack([np.ones_like(narrow), narrow, np.full_like(narrow, np.log(limit / 0.1))])
+def of_limit(surface, event, cases, limit):
+    cases = counted(event, cases, limit)
+    z = apply(surface.prior(event, "recorded", limit), surface.parts(event, "recorded", cases))
+    return cases.with_columns(z=z)
 
 
-def fit(z, terms, happened):
-    """The numbers of the terms that are added to z."""
+def terms(event, cases):
+    """f, f ln(p T1) and, of P_ex, f ln(limit/0.1): n x 2 or 3."""
+    narrow, limit = (pl.col("p_rad_s") * pl.col("period")).log(), (pl.col("limit") / 0.1).log()
+    columns = {"a": pl.lit(1.0), "b": narrow} | ({"h": limit} if event == "pex" else {})
+    return cases.select(**{name: pl.col("share") * factor for name, factor in columns.items()}).to_numpy()
 
-    def loss(b):
-        full = z + b @ terms
-        p = 1 / (1 + np.exp(-full))
-        return (np.logaddexp(0, full) - happened * full).mean() + 1e-9 * b @ b, terms @ (p - happened) / len(z) + 2e-9 * b
 
-    return minimize(loss, np.zeros(len(terms)), jac=True, method="BFGS").x
+def fit(event, cases):
+    z, happened, columns = cases["z"].to_numpy(), cases["happened"].to_numpy(), terms(event, cases)
+    loss = lambda b: -score(z + columns @ b, happened) + 1e-9 * b @ b
+    return minimize(loss, np.zeros(columns.shape[1]), method="BFGS").x
 
 
 def score(z, happened):
     return -(np.logaddexp(0, z) - happened * z).mean()
 
 
-def main():
-    surface = Surface(sys.argv[1])
-    cases = read(*sys.argv[2:4])
-    cases = some(cases, cases["level"] > 0)
-    names = sorted(set(cases["cluster"]))
-    place = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
-    for event, limits in (("pro", (0.2,)), ("pex", (0.05, 0.1, 0.2, 0.5))):
-        of = cases if event == "pro" else some(cases, ~cases["overturned"])
-        fold = np.array([place[name] for name in of["cluster"]])
-        z, terms, happened, folds = [], [], [], []
-        for limit in limits:
-            of_limit = np.full(len(fold), limit)
-            z.append(surface.z(event, "recorded", of, limit))
-            terms.append(columns(of, limit)[: 2 if event == "pro" else 3])
-            happened.append((of["overturned"] if event == "pro" else of["edp"] > limit).astype(float))
-            folds.append(fold)
-        z, terms, happened, folds = np.concatenate(z), np.concatenate(terms, axis=1), np.concatenate(happened), np.concatenate(folds)
-        known = np.isfinite(z)
-        z, terms, happened, folds = z[known], terms[:, known], happened[known], folds[known]
-        left = z.copy()
-        for k in range(FOLDS):
-            left[folds == k] += fit(z[folds != k], terms[:, folds != k], happened[folds != k]) @ terms[:, folds == k]
-        p = 1 / (1 + np.exp(-left))
-        print(event, np.round(fit(z, terms, happened), 3), f"log score as on the ground {score(z, happened):.4f} (observed/expected {happened.sum() / (1 / (1 + np.exp(-z))).sum():.3f}), earthquakes left out {score(left, happened):.4f} ({happened.sum() / p.sum():.3f})")
-        for low, high in ((0.1, 0.3), (0.3, 0.7), (0.7, 1.4), (1.4, 3.0)):
-            here = np.tile((of["period"] > low) & (of["period"] <= high), len(limits))[known]
-            print(f"   T1 {low} to {high} s: observed/expected {happened[here].sum() / p[here].sum():.2f}, as on the ground {happened[here].sum() / (1 / (1 + np.exp(-z[here]))).sum():.2f}")
-
-
-if __name__ == "__main__":
-    main()
+surface, floors = Surface(open(sys.argv[1])), read(sys.argv[2])
+names = floors["cluster"].unique().sort()
+fold_of = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
+for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
+    cases = pl.concat([of_limit(surface, event, floors, limit) for limit in limits])
+    cases = cases.filter(pl.col("z").is_finite()).with_columns(fold=pl.col("cluster").replace_strict(fold_of))
+    left = cases["z"].to_numpy().copy()
+    for k in range(FOLDS):
+        out = cases["fold"].to_numpy() == k
+        left[out] += terms(event, cases.filter(out)) @ fit(event, cases.filter(~out))
+    z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
+    print(event, fit(event, cases).round(3), "log score as on the ground and with earthquakes left out:",
+          score(z, happened).round(4), score(left, happened).round(4))
+    sums = cases.with_columns(ground=logistic(z), floor=logistic(left)).group_by(T1=PERIODS).agg(
+        pl.col("happened", "ground", "floor").sum()
+    )  # fmt: skip
+    ratios = {name: pl.col("happened") / pl.col(name) for name in ("ground", "floor")}
+    print("observed over expected:", sums.sort("T1").select("T1", **ratios))

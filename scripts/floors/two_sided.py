@@ -1,11 +1,13 @@
-"""How often bodies with the centre of mass off the middle overturn, and the symmetric block of their weaker side:
-python two_sided.py
+"""How often bodies with the centre of mass off the middle overturn, and the symmetric block of their weaker
+side: python two_sided.py
 
-Both edges in turn (theta'' = -p_i^2 (sin(alpha_i - |theta|) + ...), impacts by conservation of angular momentum about the
-new edge), by Runge-Kutta in small steps, and 200 cases again by scipy's DOP853 with events. FEMA P695's 100 components,
-both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Needs numba.
+Both edges in turn (theta'' = -p_i^2 (sin(alpha_i - |theta|) + ...), impacts by conservation of angular
+momentum about the new edge), by Runge-Kutta in small steps, and 200 cases again by scipy's DOP853 with
+events. FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half
+width. Needs numba.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -14,14 +16,15 @@ from scipy.integrate import solve_ivp
 
 import motions
 
-SIZES = [(0.2, 0.6), (0.25, 0.75), (0.3, 0.9), (0.35, 1.6), (0.4, 1.2), (0.4, 1.8), (0.5, 2.0), (0.6, 1.2), (0.6, 1.8), (0.8, 2.2), (1.0, 3.0), (1.5, 4.0)]
+SIZES = [(0.2, 0.6), (0.25, 0.75), (0.3, 0.9), (0.35, 1.6), (0.4, 1.2), (0.4, 1.8), (0.5, 2.0), (0.6, 1.2),
+         (0.6, 1.8), (0.8, 2.2), (1.0, 3.0), (1.5, 4.0)]  # fmt: skip
 OFFSETS = [0.1, 0.2, 0.3, 0.4]
 SCALES = [0.5, 1.0, 1.5, 2.5]
 SUBSTEPS, TAIL_S = 4, 8.0
 
 
 def body(width, height, offset):
-    """(alpha, p, eta of the impact onto that edge) of the right and the left edge; the centre of mass lies towards the right."""
+    """(alpha, p, eta of the impact onto it) of the edge that the centre of mass is nearer to, and the other."""
     b, h, inertia = width / 2, height / 2, (width**2 + height**2) / 12
     near, far = b - offset * b, b + offset * b
     sides = []
@@ -92,72 +95,53 @@ def overturns(a, dt, sides):
 
 
 def by_scipy(a, dt, sides):
-    """The same with roots of events."""
-    last = len(a) - 1
-    limits = [math.tan(sides[0][0]) * 9.81, math.tan(sides[1][0]) * 9.81]
-    at = lambda t: np.interp(t, dt * np.arange(len(a)), a)
-    t, end = 0.0, last * dt
-    state = None
-    while t < end:
-        if state is None:
-            k = int(t / dt + 1e-9)
-            found = None
-            while k < last and found is None:
-                if -a[k] > limits[0] or a[k] > limits[1]:
-                    found = max(t, k * dt)
-                else:
-                    for side, value in ((0, -a[k + 1]), (1, a[k + 1])):
-                        if value > limits[side]:
-                            start = -a[k] if side == 0 else a[k]
-                            found = (k + (limits[side] - start) / (value - start)) * dt
-                    if found is not None and found < t:
-                        found = t
-                k += 1
-            if found is None:
+    """The same with roots of events; uplift to a hundredth of a sample."""
+    ground = lambda t: np.interp(t, dt * np.arange(len(a)), a)
+    times = np.arange(0, (len(a) - 1) * dt, dt / 100)
+    low, high = -9.81 * math.tan(sides[0][0]), 9.81 * math.tan(sides[1][0])
+    uplifts = times[(ground(times) < low) | (ground(times) > high)]
+    impact, over = (lambda t, y: y[0] + 1e-12), (lambda t, y: y[0] - math.pi / 2)
+    impact.terminal = over.terminal = True
+    impact.direction = -1
+    t, speed = 0.0, 0.0
+    while t < times[-1]:
+        if speed < 1e-5:
+            if not (uplifts >= t).any():
                 return False
-            t = found
-            side = 0 if at(t) < 0 else 1
-            state = (0.0, 0.0)
+            t, speed = uplifts[uplifts >= t][0], 0.0
+            side = 0 if ground(t) < 0 else 1
         alpha, p, _ = sides[side]
-        sign = 1.0 if side == 0 else -1.0
-        f = lambda t, y: (y[1], -p * p * (math.sin(alpha - y[0]) + sign * at(t) / 9.81 * math.cos(alpha - y[0])))
-        impact, over = (lambda t, y: y[0] + 1e-12), (lambda t, y: y[0] - math.pi / 2)
-        impact.terminal = over.terminal = True
-        impact.direction = -1
-        flight = solve_ivp(f, (t, end), state, "DOP853", events=(impact, over), rtol=1e-8, atol=1e-11, max_step=dt)
+        pull = lambda t, r: math.sin(alpha - r) + (1 - 2 * side) * ground(t) / 9.81 * math.cos(alpha - r)
+        flight = solve_ivp(
+            lambda t, y: (y[1], -p * p * pull(t, y[0])), (t, times[-1]), (0.0, speed), "DOP853",
+            events=(impact, over), rtol=1e-8, atol=1e-11, max_step=dt,
+        )  # fmt: skip
         if len(flight.t_events[1]):
             return True
-        t = flight.t[-1]
-        if len(flight.t_events[0]):
-            side = 1 - side
-            speed = -flight.y[1, -1] * sides[side][2]
-            state = None if speed < 1e-5 else (0.0, speed)
+        side = 1 - side
+        t, speed = flight.t[-1], -flight.y[1, -1] * sides[side][2]
     return False
 
 
 def main():
-    records = [(a, dt) for _, _, _, a, dt in motions.fema()]
+    records = [(motions.rested(a, dt, TAIL_S), dt) for *_, a, dt in motions.fema()]
     counts = np.zeros((len(SIZES), len(OFFSETS), len(SCALES), 2))
-    two = [[np.array(body(*size, offset)) for offset in OFFSETS] for size in SIZES]
-    one = [[np.array(weaker(*size, offset)) for offset in OFFSETS] for size in SIZES]
     cases = []
-    for number, (a, dt) in enumerate(records):
-        a = np.concatenate([a, np.zeros(int(TAIL_S / dt))])
-        for i in range(len(SIZES)):
-            for j in range(len(OFFSETS)):
-                for k, scale in enumerate(SCALES):
-                    found = [overturns(sign * scale * a, dt, two[i][j]) for sign in (1.0, -1.0)]
-                    counts[i, j, k, 0] += sum(found)
-                    counts[i, j, k, 1] += 2 * overturns(scale * a, dt, one[i][j])
-                    cases.append((number, i, j, k, found[0]))
-    n = 2 * len(records)
-    share = counts[..., 0] / n
+    for (i, size), (j, offset), (k, scale) in itertools.product(*map(enumerate, (SIZES, OFFSETS, SCALES))):
+        two, one = np.array(body(*size, offset)), np.array(weaker(*size, offset))
+        for a, dt in records:
+            found = [overturns(sign * scale * a, dt, two) for sign in (1.0, -1.0)]
+            counts[i, j, k] += sum(found), 2 * overturns(scale * a, dt, one)
+            cases.append((scale, a, dt, two, found[0]))
+    share = counts[..., 0] / (2 * len(records))
     for low, high in ((0.2, 0.95), (0.05, 0.2), (0.005, 0.05)):
         within = (share >= low) & (share < high)
-        ratios = [counts[:, j, :, 1][within[:, j]].sum() / counts[:, j, :, 0][within[:, j]].sum() for j in range(len(OFFSETS))]
-        print(f"P {low} to {high}:", *(f"offset {offset}: {ratio:.2f} ({within[:, j].sum()} cells)" for j, (offset, ratio) in enumerate(zip(OFFSETS, ratios))), f"all {counts[..., 1][within].sum() / counts[..., 0][within].sum():.2f}")
+        of_offset = [counts[:, j][within[:, j]].sum(axis=0) for j in range(len(OFFSETS))]
+        two, one = sum(of_offset)
+        print(f"P {low} to {high}: weaker side over body {one / two:.2f}; offsets",
+              *(f"{offset}: {one / two:.2f}" for offset, (two, one) in zip(OFFSETS, of_offset)))
     drawn = [cases[at] for at in np.random.default_rng(0).choice(len(cases), 200, replace=False)]
-    same = sum(by_scipy(SCALES[k] * np.concatenate([records[number][0], np.zeros(int(TAIL_S / records[number][1]))]), records[number][1], two[i][j]) == found for number, i, j, k, found in drawn)
+    same = sum(by_scipy(scale * a, dt, two) == found for scale, a, dt, two, found in drawn)
     print(f"{same} of 200 cases are the same by DOP853; {sum(found for *_, found in drawn)} overturn")
 
 

@@ -1,8 +1,9 @@
-"""Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after site_rates.py
+"""Holds the budget of errors against draws of all unknowns: python budget_draws.py FOLDER ROCKFRAG, after
+site_rates.py
 
-Seven cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give rates by a
-quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln, stand beside those of
-the limits of evaluate.
+Seven cases: routes, objects and sites. 10,000 draws of c, ln s, m, magnitude, level of PGV/PGA and eta give
+rates by a quadrature of our own; the distances of their 2.5 and 97.5 % quantiles from the median, in ln,
+stand beside those of the limits of evaluate.
 """
 
 import re
@@ -14,18 +15,18 @@ from scipy.special import expit
 from scipy.stats import norm
 
 import site_rates as R
+from sites import X, Y
 
 DRAWS = 10_000
+# Of PGV/PGA, by name.
 SOURCE = (R.root / "src/hazard/pgv_pga.rs").read_text()
+FOUND = re.findall(r"const (\w+): (?:\[f64; \d\]|f64) = \[?([-\d., ]+)", SOURCE)
+CONSTANTS = {name: [float(number) for number in numbers.split(",")] for name, numbers in FOUND}
+(MIDDLE,), (SCATTER,), (SD_OF_MEAN,) = (CONSTANTS[name] for name in ("MIDDLE", "SCATTER", "SD_OF_MEAN"))
+MAGNITUDE, SD_OF_MAGNITUDE = CONSTANTS["MAGNITUDE"]
 Z = np.linspace(-5, 5, 31)
 WEIGHT = norm.pdf(Z) / norm.pdf(Z).sum()
 AT = np.log(0.4 * 9.81)
-
-
-def constants(name):
-    found = re.search(name + r": (?:\[f64; \d\]|f64) = \[?([^;\]]*)", SOURCE)[1]
-    values = [float(x) for x in found.split(",")]
-    return values if len(values) > 1 else values[0]
 
 
 def thinned(curve):
@@ -42,32 +43,35 @@ def matched(pga, pgv, scatter):
     weight, middle = -np.diff(exceeds(pga, x)), 0.5 * (x[1:] + x[:-1])
     rates = np.geomspace(min(2e-2, 0.5 * pga[0, 1], pgv[0, 1]), max(1e-6, 2 * pga[-1, 1], pgv[-1, 1]), 16)
     levels = np.interp(-np.log(rates), -np.log(pgv[:, 1]), np.log(pgv[:, 0]))
-    of = lambda b: norm.sf((levels[:, None] - middle - b[0] - b[1] * (middle - AT)) / scatter) @ weight + pga[-1, 1]
+    off = lambda b: levels[:, None] - middle - b[0] - b[1] * (middle - AT)
+    of = lambda b: norm.sf(off(b) / scatter) @ weight + pga[-1, 1]
     return least_squares(lambda b: np.log(of(b) / rates), [-2.9, 0.0]).x
 
 
 def expected_magnitude():
     """Intercept and slope of magnitude on ln(PGV / PGA)."""
-    lines = (line.split(",") for line in open(R.root / "data/universal.csv"))
-    return next([float(cell) for cell in line[2:4]] for line in lines if line[:2] == ["magnitude", "recorded"])
+    lines = open(R.root / "data/universal.csv").read().splitlines()
+    cells = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
+    return [float(cell) for cell in cells[2:4]]
 
 
 def surface(truth):
     """Logits less c by ln loss, ln PGA and ln PGV; below uplift they fall off."""
     logits = np.where(np.isfinite(truth.logits), truth.logits - truth.c, -60.0)
-    return RegularGridInterpolator((R.LN_LOSS, R.ln_pga, R.ln_pgv), logits)
+    return RegularGridInterpolator((R.LN_LOSS, X, Y), logits)
 
 
 def rates(k, truth, line, scatter, draws):
     """The rates of a site for draws of c, ln s, m, magnitude, level and ln loss."""
     curve = thinned(R.data["pga"][k])
-    x = np.linspace(np.log(9.81 * truth.tan_alpha) + 1e-3, np.log(min(curve[-1, 0], np.exp(R.ln_pga[-1]) * (1 - 1e-9))), 60)
+    highest = min(np.log(curve[-1, 0]), X[-1] - 1e-9)
+    x = np.linspace(np.log(9.81 * truth.tan_alpha) + 1e-3, highest, 60)
     h = exceeds(curve, x)
     ln_pga, weight = np.append(0.5 * (x[1:] + x[:-1]), x[-1]), np.append(-np.diff(h), h[-1])
     of, result, (intercept, slope) = surface(truth), [], expected_magnitude()
     for c, ln_s, m, mw, level, loss in draws:
         ln_pgv = ln_pga[:, None] + line(ln_pga, mw)[:, None] + level + scatter * Z
-        ln_pgv = np.clip(ln_pgv, R.ln_pgv[0], np.log(4.9))
+        ln_pgv = np.clip(ln_pgv, Y[0], np.log(4.9))
         loss = np.clip(loss, R.LN_LOSS[0], R.LN_LOSS[-1])
         z = of(np.stack(np.broadcast_arrays(loss, ln_pga[:, None], ln_pgv), -1))
         # By two curves PGV / PGA tells an unknown magnitude.
@@ -79,23 +83,21 @@ def rates(k, truth, line, scatter, draws):
 
 def case(k, name, route, random):
     truth = R.Truth(*R.OBJECTS[name])
-    level, slope, scatter, per_mw, sd_level = constants("GIVEN_PGA")
-    mw, sd_mw = constants("MAGNITUDE")
-    if route.endswith("M"):
-        mw, sd_mw = R.mean_mw[k], constants("SD_OF_MEAN")
-    line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (mw - constants("MIDDLE"))
+    level, slope, scatter, per_mw, sd_level = CONSTANTS["GIVEN_PGA"]
+    mw, sd_mw = (R.mean_mw[k], SD_OF_MEAN) if route.endswith("M") else (MAGNITUDE, SD_OF_MAGNITUDE)
     if "PGV" in route or "SA" in route:
-        pga, pgv, per_mw = thinned(R.data["pga"][k]), thinned(R.data["pgv"][k]), 0.0
+        pga, pgv, per_mw, scatter = thinned(R.data["pga"][k]), thinned(R.data["pgv"][k]), 0.0, SCATTER
+        sd_level = CONSTANTS["SD_BY_CURVES"]["SA" in route]
         if "SA" in route:
-            factor, of_pga, per_mw = constants("BY_SPECTRUM")
-            pgv = thinned(R.data["sa1"][k]).copy()
+            factor, of_pga, per_mw = CONSTANTS["BY_SPECTRUM"]
+            pgv = thinned(R.data["sa"][k]).copy()
             as_often = np.exp(np.interp(-np.log(pgv[:, 1]), -np.log(pga[:, 1]), np.log(pga[:, 0])))
             pgv[:, 0] = factor * pgv[:, 0] ** (1 - of_pga) * as_often**of_pga
-        scatter, sd_level = constants("SCATTER"), constants("SD_BY_CURVES")["SA" in route]
-        a, b = matched(pga, pgv, scatter)
-        of_mw = lambda mw: per_mw * (np.where(np.isnan(mw), constants("MAGNITUDE")[0], mw) - constants("MIDDLE"))
-        line = lambda ln_pga, mw: a + b * (ln_pga - AT) + of_mw(mw)
-        mw, sd_mw = (mw, sd_mw) if route.endswith("M") else (np.nan, 0.0)
+        level, slope = matched(pga, pgv, scatter)
+        if not route.endswith("M"):
+            mw, sd_mw = np.nan, 0.0
+    known = lambda mw: np.where(np.isnan(mw), MAGNITUDE, mw)
+    line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (known(mw) - MIDDLE)
     sds = np.array([*truth.sds, sd_mw, sd_level, R.SD_OF_LOSS])
     draws = random.normal(size=(DRAWS, 6)) * sds + [0, 0, 0, mw, 0, 0]
     drawn = np.log(rates(k, truth, line, scatter, draws))
@@ -103,17 +105,18 @@ def case(k, name, route, random):
     R.write(k)
     row = R.answers(k, route)[name]
     value, low, high = (np.log(row[f"overturning_per_year{end}"]) for end in ("", "_low", "_high"))
-    quantiles = np.quantile(drawn, [0.025, 0.5, 0.975])
-    below, above = quantiles[1] - quantiles[0], quantiles[2] - quantiles[1]
-    geometry, model, vs30 = R.names[k][1:]
-    print(f"{name:8} {route:9} {geometry:12.12} {model:12.12} {vs30:6} rate {np.exp(value):.1e} (ours {np.exp(at_medians):.1e}, "
-          f"median of draws {np.exp(quantiles[1]):.1e})  limits -{value - low:.2f} +{high - value:.2f}  draws -{below:.2f} +{above:.2f}  "
-          f"ratio {(value - low) / below:.2f} {(high - value) / above:.2f}", flush=True)
+    least, median, most = np.quantile(drawn, [0.025, 0.5, 0.975])
+    below, above = median - least, most - median
+    print(name, route, *R.names[k][1:], "rate {:.1e} (ours {:.1e}, median of draws {:.1e})".format(
+        *np.exp([value, at_medians, median])), f"limits -{value - low:.2f} +{high - value:.2f}",
+        f"draws -{below:.2f} +{above:.2f} ratio {(value - low) / below:.2f} {(high - value) / above:.2f}")
 
 
 if __name__ == "__main__":
     generator = np.random.default_rng(7)
-    (R.folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in R.OBJECTS.items()))
-    for site, thing, way in [(14, "cabinet", "PGA"), (50, "shelf", "PGA"), (20, "rack", "PGA, M"),
-                             (30, "cabinet", "PGA, SA"), (40, "rack", "PGA, SA, M"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M")]:
+    R.write_objects()
+    for site, thing, way in [
+        (14, "cabinet", "PGA"), (50, "shelf", "PGA"), (20, "rack", "PGA, M"), (30, "cabinet", "PGA, SA"),
+        (40, "rack", "PGA, SA, M"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M"),
+    ]:  # fmt: skip
         case(site, thing, way, generator)

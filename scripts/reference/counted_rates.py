@@ -1,12 +1,15 @@
-"""Annual rates counted by numpy and scipy, for tests/fits/counted_rates.rs: python counted_rates.py MOTIONS.csv ANSWERS.csv
+"""Annual rates counted by numpy and scipy, for tests/fits/counted_rates.rs: python counted_rates.py
+MOTIONS.csv ANSWERS.csv
 
-Motions of 35 cells with a PGA (g) and whether each overturns a structure, in the order of their PGA; annual rates of overturning at a site
-where H = 1e-3 PGA^-2.5, in bins of equal numbers of motions; limits from cells drawn anew 20,000 times, and by Fay & Feuer (1997).
+Motions of 35 cells with a PGA (g) and whether each overturns a structure, in the order of their PGA; annual
+rates of overturning at a site where H = 1e-3 PGA^-2.5, in bins of equal numbers of motions; limits from cells
+drawn anew 20,000 times, and by Fay & Feuer (1997).
 """
 
 import sys
 
 import numpy as np
+import pandas as pd
 from scipy.special import ndtr
 from scipy.stats import chi2
 
@@ -20,9 +23,8 @@ shift = 0.4 * rng.standard_normal(cells)
 happened = rng.uniform(size=len(cell)) < ndtr(-1.8 + 1.5 * np.log(pga / 0.35) + shift[cell])
 order = np.argsort(pga, kind="stable")
 pga, cell, happened = pga[order], cell[order], happened[order]
-with open(sys.argv[1], "w") as file:
-    file.write("pga_g,cell,overturned\n")
-    file.writelines(f"{a:.6f},{c},{int(o)}\n" for a, c, o in zip(pga, cell, happened))
+motions = pd.DataFrame({"pga_g": pga, "cell": cell, "overturned": happened.astype(int)})
+motions.to_csv(sys.argv[1], index=False, float_format="%.6f")
 
 rocks = pga >= LEAST
 pga, cell, happened = pga[rocks], cell[rocks], happened[rocks].astype(float)
@@ -37,8 +39,8 @@ def binned(times):
     numbers, first = np.unique(place[drawn], return_index=True)
     edges = exceeded[drawn][first]
     edges[0] = 1e-3 * LEAST**-2.5
-    sums = [np.bincount(place[drawn], values[drawn], minlength=bins)[numbers] for values in (times, times * happened)]
-    return edges - np.append(edges[1:], 0.0), *sums
+    total = lambda values: np.bincount(place[drawn], values[drawn], minlength=bins)[numbers]
+    return -np.diff(edges, append=0.0), total(times), total(times * happened)
 
 
 def rate(times):
@@ -53,6 +55,6 @@ above, spread = value + largest, variance + largest**2
 high = spread / (2 * above) * chi2.ppf(0.975, 2 * above**2 / spread)
 draw = lambda: np.bincount(rng.integers(0, cells, cells), minlength=cells)[cell].astype(float)
 drawn = np.quantile([rate(draw()) for _ in range(20_000)], [0.025, 0.975])
-with open(sys.argv[2], "w") as file:
-    file.write("value,drawn_low,drawn_high,poisson_low,poisson_high\n")
-    file.write(",".join(f"{number:.12e}" for number in (value, *drawn, low, high)) + "\n")
+names = "value drawn_low drawn_high poisson_low poisson_high".split()
+answers = pd.DataFrame([[value, *drawn, low, high]], columns=names)
+answers.to_csv(sys.argv[2], index=False, float_format="%.12e")

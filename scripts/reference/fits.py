@@ -1,67 +1,96 @@
-"""Data for the fits and statsmodels' answers: python fits.py tests/reference/fits
+"""Data for the fits and other programs' answers: python fits.py tests/reference/fits
 
-Writes cases.csv (two measures, a demand, an event) and answers.csv (each number that statsmodels gives). Needs numpy and
-statsmodels.
+cases.csv has two measures, a demand and an event, 20 rows a cell; nearly_separated.csv classes that barely
+overlap, so that the slope is steep and Newton's steps are long; capacities.csv samples of overturning
+intensities, and the limits of their median and dispersion by Student's t and chi squared. Needs scipy,
+statsmodels and pyFragility.
 """
 
-import csv
 import pathlib
 import sys
 
 import numpy as np
+import pandas as pd
+import pyFragility as pf
 import statsmodels.api as sm
+from scipy import stats
 
 folder = pathlib.Path(sys.argv[1])
-random = np.random.default_rng(14)
+
+
+def write(name, columns):
+    pd.DataFrame(columns).to_csv(folder / name, index=False)
+
+
+def write_answers(name, answers):
+    pd.Series(answers, name="value").to_csv(folder / name, index_label="name")
+
+
+def newton(event, design):
+    return sm.Probit(event, design).fit(method="newton", tol=1e-14, maxiter=500, disp=0)
+
+
+def scoring(event, design):
+    family = sm.families.Binomial(link=sm.families.links.Probit())
+    return sm.GLM(event, design, family=family).fit(tol=1e-15, maxiter=300, tol_criterion="params")
+
+
 n = 400
+random = np.random.default_rng(14)
 x = random.normal(0.4, 0.5, n)
 y = random.normal(-0.2, 0.4, n) + 0.3 * x
 demand = -2.3 + 2.6 * x - 1.4 * y + random.normal(0, 0.8, n)
 event = (1.5 * x - 1.0 * y - 1.0 + random.normal(0, 0.6, n) > 0).astype(int)
+cell = np.arange(n) // 20
+write("cases.csv", {"x": x, "y": y, "demand": demand, "event": event})
 
-with open(folder / "cases.csv", "w", newline="") as file:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["x", "y", "demand", "event"])
-    writer.writerows([repr(float(a)), repr(float(b)), repr(float(d)), int(e)] for a, b, d, e in zip(x, y, demand, event))
-
-answers = {}
-for name, columns in [("x", [x]), ("xy", [x, y])]:
+answers, of_clusters = {}, {}
+for name, columns, squares in [("x", [x], [x * x]), ("xy", [x, y], [x * x, y * y, x * y])]:
     design = sm.add_constant(np.column_stack(columns))
-    ols = sm.OLS(demand, design).fit()
-    limits = ols.conf_int(0.05)
-    for k in range(design.shape[1]):
-        answers[f"ols_{name}_b{k}"] = ols.params[k]
-        answers[f"ols_{name}_se{k}"] = ols.bse[k]
-        answers[f"ols_{name}_low{k}"] = limits[k][0]
-        answers[f"ols_{name}_high{k}"] = limits[k][1]
-    answers[f"ols_{name}_r2"] = ols.rsquared
-    answers[f"ols_{name}_sd"] = np.sqrt(ols.mse_resid)
-    probit = sm.Probit(event, design).fit(method="newton", tol=1e-14, maxiter=200, disp=0)
-    for k in range(design.shape[1]):
-        answers[f"probit_{name}_b{k}"] = probit.params[k]
-        answers[f"probit_{name}_se{k}"] = probit.bse[k]
-    answers[f"probit_{name}_llf"] = probit.llf
-    answers[f"probit_{name}_aic"] = probit.aic
-    answers[f"probit_{name}_bic"] = probit.bic
+    wider = np.column_stack([design, *squares])
+    ols, probit, fit = sm.OLS(demand, design).fit(), newton(event, design), scoring(event, design)
+    for k, numbers in enumerate(zip(ols.params, ols.bse, *ols.conf_int(0.05).T)):
+        answers |= dict(zip((f"ols_{name}_{what}{k}" for what in ("b", "se", "low", "high")), numbers))
+    answers |= {f"ols_{name}_r2": ols.rsquared, f"ols_{name}_sd": np.sqrt(ols.mse_resid)}
+    for k, (b, se) in enumerate(zip(probit.params, probit.bse)):
+        answers |= {f"probit_{name}_b{k}": b, f"probit_{name}_se{k}": se}
+    answers |= {f"probit_{name}_{what}": getattr(probit, what) for what in ("llf", "aic", "bic")}
+    # Curves: clustered errors, and the likelihood-ratio test of squares and products.
+    other = pf.fit_binomial(
+        np.exp(design[:, 1:]), event, np.ones(n), link="probit", parametrization="glm", cluster=cell
+    )
+    assert np.allclose(other.params, fit.params, rtol=1e-7)
+    errors = np.sqrt(np.diag(other.covariance("sandwich", small_sample=True)))
+    of_clusters |= {f"probit_{name}_clustered{k}": error for k, error in enumerate(errors)}
+    misfit = 2 * (scoring(event, wider).llf - fit.llf)
+    of_clusters[f"probit_{name}_misfit_p"] = stats.chi2.sf(misfit, len(squares))
+    # Least squares: the same, and errors of cases that are clusters of their own.
+    errors = ols.get_robustcov_results("cluster", groups=cell).bse
+    of_clusters |= {f"ols_{name}_clustered{k}": error for k, error in enumerate(errors)}
+    of_clusters[f"ols_{name}_hc1_1"] = ols.get_robustcov_results("HC1").bse[1]
+    of_clusters[f"ols_{name}_misfit_p"] = sm.OLS(demand, wider).fit().compare_f_test(ols)[1]
+tails = {"chi_squared": stats.chi2.sf(7.3, 5), "chi_squared_even": stats.chi2.sf(21.4, 8)}
+write_answers("answers.csv", answers)
+write_answers("uncertainty_answers.csv", of_clusters | tails | {"f": stats.f.sf(4.2, 2, 37)})
 
-with open(folder / "answers.csv", "w", newline="") as file:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["name", "value"])
-    writer.writerows([name, repr(float(value))] for name, value in answers.items())
-
-# Classes that barely overlap: the slope is steep and Newton's steps are long.
 random = np.random.default_rng(15)
-x = random.normal(0, 1, 300)
-y = random.normal(0, 1, 300)
+x, y = random.normal(0, 1, 300), random.normal(0, 1, 300)
 event = (x + y + random.normal(0, 0.05, 300) > 0).astype(int)
-with open(folder / "nearly_separated.csv", "w", newline="") as file:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["x", "y", "event"])
-    writer.writerows([repr(float(a)), repr(float(b)), int(e)] for a, b, e in zip(x, y, event))
-probit = sm.Probit(event, sm.add_constant(np.column_stack([x, y]))).fit(method="newton", tol=1e-14, maxiter=500, disp=0)
-with open(folder / "nearly_separated_answers.csv", "w", newline="") as file:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["name", "value"])
-    writer.writerows([f"b{k}", repr(float(v))] for k, v in enumerate(probit.params))
-    writer.writerows([f"se{k}", repr(float(v))] for k, v in enumerate(probit.bse))
-    writer.writerow(["llf", repr(float(probit.llf))])
+write("nearly_separated.csv", {"x": x, "y": y, "event": event})
+fit = newton(event, sm.add_constant(np.column_stack([x, y])))
+b, se = ({f"{what}{k}": v for k, v in enumerate(of)} for what, of in [("b", fit.params), ("se", fit.bse)])
+write_answers("nearly_separated_answers.csv", b | se | {"llf": fit.llf})
+
+samples = {
+    "few": [0.7, 1.1, 1.3, 2.9],
+    "thirteen": np.exp(0.4 * np.random.default_rng(13).standard_normal(13)).round(4).tolist(),
+    "many": np.exp(0.3 * np.random.default_rng(200).standard_normal(200)).round(4).tolist(),
+}
+rows = []
+for name, capacities in samples.items():
+    n, mean, sd = len(capacities), np.log(capacities).mean(), np.log(capacities).std(ddof=1)
+    theta = np.exp([mean, *stats.t(n - 1, mean, sd / np.sqrt(n)).ppf([0.025, 0.975])])
+    beta = sd * np.sqrt((n - 1) / stats.chi2(n - 1).ppf([0.975, 0.025]))
+    rows.append([name, *theta, sd, *beta, " ".join(map(str, capacities))])
+names = "sample theta theta_low theta_high beta beta_low beta_high capacities".split()
+pd.DataFrame(rows, columns=names).to_csv(folder / "capacities.csv", index=False)

@@ -1,10 +1,11 @@
 """Accelerations of floors by scipy.signal.lsim: python floors.py tests/reference
 
-Ten motions of rocking/motions.parquet, each with 10 s of rest behind it, on nine floors of a uniform shear beam, by
-state space with all five modes at once; every hundredth sample and the largest, m/s2: records/floors.csv.
+Ten motions of rocking/motions.parquet, each with 10 s of rest behind it, on nine floors of a uniform shear
+beam, by state space with all five modes at once; every hundredth sample and the largest, m/s2:
+records/floors.csv.
 """
 
-import csv
+import itertools
 import pathlib
 import sys
 
@@ -27,13 +28,9 @@ def beam(period, level):
     return StateSpace(a, b, c, [[1 - share.sum()]])
 
 
-with open(folder / "records/floors.csv", "w", newline="") as file:
-    table = csv.writer(file, lineterminator="\n")
-    for row in rows:
+with open(folder / "records/floors.csv", "w") as file:
+    for row, period, level in itertools.product(rows, (0.3, 0.8, 2.0), (0.25, 0.6, 1.0)):
         ground = np.concatenate([row["acceleration_m_s2"], np.zeros(round(10 / row["dt_s"]))])
-        time = row["dt_s"] * np.arange(len(ground))
-        for period in (0.3, 0.8, 2.0):
-            for level in (0.25, 0.6, 1.0):
-                floor = lsim(beam(period, level), ground, time)[1]
-                some = [f"{a:.9g}" for a in (np.abs(floor).max(), *floor[::100])]
-                table.writerow([row["motion_id"], period, level, *some])
+        floor = lsim(beam(period, level), ground, row["dt_s"] * np.arange(len(ground)))[1]
+        some = [f"{a:.9g}" for a in (np.abs(floor).max(), *floor[::100])]
+        print(row["motion_id"], period, level, *some, sep=",", file=file)

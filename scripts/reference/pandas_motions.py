@@ -1,4 +1,5 @@
-"""Writes motions as pandas has them, int32, float32 and an index: python pandas_motions.py tests/reference/files/pandas.parquet"""
+"""Writes motions as pandas has them, int32, float32 and an index: python pandas_motions.py
+tests/reference/files/pandas.parquet"""
 
 import sys
 

@@ -1,7 +1,7 @@
 """Some 70 numbers of the paper's run by the tree at 6769d62: python paper_run.py OUT tests/reference
 
-OUT is the folder that `rockfrag run` filled at that commit (seed 42). Writes paper_run.csv: name, suite, structure, value.
-Needs polars.
+OUT is the folder that `rockfrag run` filled at that commit (seed 42). Writes paper_run.csv: name, suite,
+structure, value. Needs polars.
 """
 
 import pathlib

@@ -1,14 +1,15 @@
 """Other programs' answers for the ranking of intensity measures: python ranking.py tests/reference/fits
 
-Reads cases.csv (of fits.py; 20 rows make a cell, and cell c falls into fold c mod 10) and writes ranking_answers.csv. The
-measures are im4 = exp(x) and im3 = exp(y); the demand breaks at IM4 = 1.3. Needs numpy, scipy and statsmodels.
+Reads cases.csv (of fits.py; 20 rows make a cell, and cell c falls into fold c mod 10) and writes
+ranking_answers.csv. The measures are im4 = exp(x) and im3 = exp(y); the demand breaks at IM4 = 1.3. Needs
+numpy, scipy and statsmodels.
 """
 
-import csv
 import pathlib
 import sys
 
 import numpy as np
+import pandas as pd
 import statsmodels.api as sm
 from scipy import stats
 
@@ -86,7 +87,4 @@ for better, worse in [("p_ro_im4:im3_single", "p_ro_im4_single"), ("p_ex_im4_bro
     clustered = fit.fit(cov_type="cluster", cov_kwds={"groups": cell})
     answers[f"{better}_over"], answers[f"{better}_se"] = clustered.params[0], clustered.bse[0]
 
-with (folder / "ranking_answers.csv").open("w", newline="") as file:
-    writer = csv.writer(file)
-    writer.writerow(["name", "value"])
-    writer.writerows((name, repr(float(value))) for name, value in answers.items())
+pd.Series(answers, name="value").to_csv(folder / "ranking_answers.csv", index_label="name")

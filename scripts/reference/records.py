@@ -1,16 +1,17 @@
 """Measures and pulses of motions by other programs: python records.py tests/reference
 
-Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias intensity and durations) and records/pulses.csv
-(the indicator of Baker 2007 with PyWavelets' db4 at full resolution; the fit of Eq. 1 by differential evolution). Needs
-numpy, scipy, pyarrow, eqsig and PyWavelets.
+Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias
+intensity and durations) and records/pulses.csv (the indicator of Baker 2007 with PyWavelets' db4 at full
+resolution; the fit of Eq. 1 by differential evolution). Needs numpy, scipy, pandas, pyarrow, eqsig and
+PyWavelets.
 """
 
-import csv
 import pathlib
 import sys
 
 import eqsig
 import numpy as np
+import pandas as pd
 import pyarrow.parquet as pq
 import pywt
 from scipy.optimize import differential_evolution
@@ -42,7 +43,7 @@ def measures(acceleration, dt):
     # Its durations too, at 64 parts of a step.
     fine = np.interp(np.arange(64 * (len(acceleration) - 1) + 1) / 64, np.arange(len(acceleration)), acceleration)
     energy = np.append(0, np.cumsum(fine[:-1] ** 2 + fine[:-1] * fine[1:] + fine[1:] ** 2))
-    moments = np.interp([0.05 * energy[-1], 0.75 * energy[-1], 0.95 * energy[-1]], energy, np.arange(len(fine)) * dt / 64)
+    moments = np.interp(np.array([0.05, 0.75, 0.95]) * energy[-1], energy, np.arange(len(fine)) * dt / 64)
     yield "d5_75_s", moments[1] - moments[0]
     yield "d5_95_s", moments[2] - moments[0]
     housner = np.linspace(0.1, 2.5, 49)
@@ -99,25 +100,20 @@ def unexplained(parameters, velocity, t):
     return ((velocity - basis @ fit) ** 2).sum() / (velocity**2).sum()
 
 
-def write(name, header, rows):
-    (folder / "records").mkdir(exist_ok=True)
-    with open(folder / "records" / name, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
-
-
-write(
-    "measures.csv",
-    ["motion_id", "measure", "value"],
-    [(name, measure, f"{value:.9g}") for name, dt, a in motions for measure, value in measures(a, dt)],
-)
-pulses = []
-for name, dt, acceleration in motions:
+def pulse(acceleration, dt):
     velocity = eqsig.AccSignal(acceleration, dt).velocity
-    t = np.arange(len(velocity)) * dt
     value, period, centre = indicator(velocity, dt)
     bounds = [(0.25, 15), (1, 5), (centre - period, centre + period)]
-    fit = differential_evolution(unexplained, bounds, args=(velocity, t), seed=1, tol=1e-8, maxiter=400)
-    pulses.append((name, f"{value:.6f}", f"{period:.5f}", f"{1 - fit.fun:.6f}", *(f"{p:.6f}" for p in fit.x)))
-write("pulses.csv", ["motion_id", "indicator", "period_s", "r2", "tp_s", "gamma", "t0_s"], pulses)
+    of_velocity = (velocity, np.arange(len(velocity)) * dt)
+    fit = differential_evolution(unexplained, bounds, args=of_velocity, seed=1, tol=1e-8, maxiter=400)
+    return f"{value:.6f}", f"{period:.5f}", f"{1 - fit.fun:.6f}", *(f"{p:.6f}" for p in fit.x)
+
+
+def write(name, columns, rows):
+    pd.DataFrame(rows, columns=columns.split()).to_csv(folder / "records" / name, index=False)
+
+
+found = [(name, measure, f"{value:.9g}") for name, dt, a in motions for measure, value in measures(a, dt)]
+write("measures.csv", "motion_id measure value", found)
+pulses = [(name, *pulse(a, dt)) for name, dt, a in motions]
+write("pulses.csv", "motion_id indicator period_s r2 tp_s gamma t0_s", pulses)

@@ -1,7 +1,7 @@
 """Makes the motions of the solver's reference: python rocking_motions.py OUT.parquet
 
-Sixty motions with a fixed seed: velocity pulses, pulses under decaying noise, half-sine and rectangular pulses, and
-records that touch the uplift threshold of alpha = 0.15 exactly. Needs numpy and pyarrow.
+Sixty motions with a fixed seed: velocity pulses, pulses under decaying noise, half-sine and rectangular
+pulses, and records that touch the uplift threshold of alpha = 0.15 exactly. Needs numpy and pyarrow.
 """
 
 import sys
@@ -55,11 +55,11 @@ add(0.01, np.minimum(threshold, 3.0 * t) * (t <= 2.0))
 add(0.02, 1.05 * threshold * np.sin(7.0 * t))
 add(0.1, 8.0 * np.sin(4.0 * t[::10]))
 
-table = pa.table(
-    {
-        "motion_id": pa.array(range(len(motions)), pa.int64()),
-        "dt_s": pa.array([float(dt) for dt, _ in motions]),
-        "acceleration_m_s2": pa.array([samples for _, samples in motions], pa.list_(pa.float32())),
-    }
-)
-pq.write_table(table, sys.argv[1], compression="zstd", use_dictionary=False, column_encoding={"acceleration_m_s2.list.element": "BYTE_STREAM_SPLIT", "motion_id": "PLAIN", "dt_s": "PLAIN"})
+table = {
+    "motion_id": pa.array(range(len(motions)), pa.int64()),
+    "dt_s": [float(dt) for dt, _ in motions],
+    "acceleration_m_s2": [samples for _, samples in motions],
+}
+encoding = {"acceleration_m_s2.list.element": "BYTE_STREAM_SPLIT", "motion_id": "PLAIN", "dt_s": "PLAIN"}
+options = {"compression": "zstd", "use_dictionary": False, "column_encoding": encoding}
+pq.write_table(pa.table(table), sys.argv[1], **options)

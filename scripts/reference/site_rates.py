@@ -1,18 +1,17 @@
 """Judges rates of evaluate --hazard at the sites of sites.py: python site_rates.py FOLDER ROCKFRAG
 
-The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own magnitude. The
-table has, for each route, the rates over the truth, and how often the 95 % limits hold truths whose c, ln s and eta are
-drawn from their distributions.
+The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
+magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
+whose c, ln s and eta are drawn from their distributions.
 """
 
-import csv
-import io
 import json
 import pathlib
 import subprocess
 import sys
 
 import numpy as np
+import pandas as pd
 from scipy.special import expit, logit
 
 import sites as S
@@ -27,33 +26,34 @@ folder, binary = pathlib.Path(sys.argv[1]), sys.argv[2]
 root = pathlib.Path(__file__).resolve().parents[2]
 data = np.load(folder / "sites.npz")
 names, joint, mean_mw = data["names"], data["joint"], data["mw"]
-ln_pga = 0.5 * (S.LN_PGA[1:] + S.LN_PGA[:-1])
-ln_pgv = 0.5 * (S.LN_PGV[1:] + S.LN_PGV[:-1])
 random = np.random.default_rng(1)
 
 
 def call(*options):
-    run = subprocess.run([binary, "evaluate", *map(str, options), "--quiet"], capture_output=True, text=True, check=True)
-    return run.stdout
+    command = [binary, "evaluate", *map(str, options), "--quiet"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 def calibration():
     """c, ln s, m and their standard deviations, of P_ro under recorded motions."""
-    rows = csv.reader(line for line in open(root / "data/universal.csv") if line.startswith("calibration,recorded,pro"))
-    return next([float(cell) for cell in row[3:9]] for row in rows)
+    lines = open(root / "data/universal.csv").read().splitlines()
+    cells = next(line.split(",") for line in lines if line.startswith("calibration,recorded,pro"))
+    return [float(cell) for cell in cells[3:9]]
 
 
 def surface(width, height, eta, mw):
     """Logits of P_ro at the bins of PGA and PGV; -inf below uplift."""
-    a, v = np.meshgrid(ln_pga, ln_pgv, indexing="ij")
+    a, v = np.meshgrid(S.X, S.Y, indexing="ij")
+    # The program takes other ratios for a wrong unit; no rates are there.
+    v = np.clip(v, a + np.log(0.0051), a + np.log(2.9))
     p, alpha = np.sqrt(3 * 9.81 / (2 * np.hypot(width, height))), np.arctan(width / height)
     keep = (np.exp(a) > 9.81 * np.tan(alpha)) & (np.exp(a) <= 4.5 * 9.81) & (np.exp(v) <= 5)
-    table = np.column_stack([np.exp(a)[keep], np.exp(v)[keep], np.full(keep.sum(), mw)])
-    np.savetxt(folder / "grid.csv", table, delimiter=",", header="pga_m_s2,pgv_m_s,mw", comments="")
-    call("--in", folder / "grid.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--out", folder / "out.csv", "--force")
-    p_ro = np.array([float(row["p_ro"]) for row in csv.DictReader(open(folder / "out.csv"))])
+    table = pd.DataFrame({"pga_m_s2": np.exp(a)[keep], "pgv_m_s": np.exp(v)[keep], "mw": mw})
+    table.to_csv(folder / "grid.csv", index=False)
+    structure = "--p", p, "--alpha", alpha, "--eta", eta
+    call("--in", folder / "grid.csv", *structure, "--out", folder / "out.csv", "--force")
     result = np.full(a.shape, -np.inf)
-    result[keep] = logit(p_ro)
+    result[keep] = logit(pd.read_csv(folder / "out.csv")["p_ro"])
     return result
 
 
@@ -78,27 +78,28 @@ class Truth:
         return sum(expit(z + of(mw)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
 
 
-def write_curve(name, heading, unit, curve):
-    kept = curve[(curve[:, 1] > 1e-9) & (curve[:, 1] < 0.5)]
-    lines = [f"{level / unit:.6g},{rate:.6e}" for level, rate in kept]
-    (folder / name).write_text("\n".join([f"{heading},annual_rate_of_exceedance", *lines]) + "\n")
+def write_objects():
+    objects = pd.DataFrame(OBJECTS, ["width", "height"]).T
+    objects.to_csv(folder / "objects.csv", index_label="name")
 
 
 def write(k):
     """The files of a site as an engineer has them."""
-    write_curve("pga.csv", "pga_g", 9.81, data["pga"][k])
-    write_curve("pgv.csv", "pgv_m_s", 1, data["pgv"][k])
-    write_curve("sa.csv", "SA(1.0) (g)", 9.81, data["sa1"][k])
-    lines = ["pga_m_s2,pgv_m_s,mw,annual_rate_of_occurrence"]
-    for m, a, v in np.argwhere(joint[k] > 1e-10):
-        lines.append(f"{np.exp(ln_pga[a]):.6g},{np.exp(ln_pgv[v]):.6g},{S.MAGNITUDES[m]},{joint[k][m, a, v]:.6e}")
-    (folder / "joint.csv").write_text("\n".join(lines) + "\n")
+    headings = {"pga": ("pga_g", 9.81), "pgv": ("pgv_m_s", 1), "sa": ("SA(1.0) (g)", 9.81)}
+    for name, (heading, unit) in headings.items():
+        levels, rates = data[name][k].T
+        curve = pd.DataFrame({heading: levels / unit, "annual_rate_of_exceedance": rates})
+        curve[(rates > 1e-9) & (rates < 0.5)].to_csv(folder / f"{name}.csv", index=False)
+    m, a, v = np.nonzero(joint[k] > 1e-10)
+    bins = {"pga_m_s2": np.exp(S.X[a]), "pgv_m_s": np.exp(S.Y[v]), "mw": S.MAGNITUDES[m]}
+    bins["annual_rate_of_occurrence"] = joint[k][m, a, v]
+    pd.DataFrame(bins).to_csv(folder / "joint.csv", index=False)
 
 
 ROUTES = [
-    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV", "PGA, PGV, M",
-    "joint",
-]
+    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV",
+    "PGA, PGV, M", "joint",
+]  # fmt: skip
 
 
 def answers(k, route):
@@ -106,40 +107,38 @@ def answers(k, route):
     paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in "MV")
     mw = ["--magnitude", f"{mean_mw[k]:.2f}"] if "M" in given else []
     vs30 = ["--vs30", names[k][3]] if "V" in given else []
-    rows = json.loads(call("--structures", folder / "objects.csv", "--hazard", paths, *mw, *vs30, "--format", "json"))
+    options = "--hazard", paths, *mw, *vs30, "--format", "json"
+    rows = json.loads(call("--structures", folder / "objects.csv", *options))
     return {row["structure"]: row for row in rows}
 
 
-def main():
-    (folder / "objects.csv").write_text("name,width,height\n" + "".join(f"{n},{w},{h}\n" for n, (w, h) in OBJECTS.items()))
+def judged():
+    """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
+    truth that is drawn, and the logarithm of their ratio."""
     truths = {name: Truth(*size) for name, size in OBJECTS.items()}
-    found = {}
-    for k, (kind, *_) in enumerate(names):
+    for k, kind in enumerate(names[:, 0]):
         write(k)
-        drawn = {}
-        for name, truth in truths.items():
-            sds = [*truth.sds, SD_OF_LOSS]
-            drawn[name] = [truth.rate(joint[k], *(random.normal(size=4) * sds)) for _ in range(DRAWS)]
+        true = {name: truth.rate(joint[k]) for name, truth in truths.items()}
+        draw = lambda truth: truth.rate(joint[k], *(random.normal(size=4) * [*truth.sds, SD_OF_LOSS]))
+        drawn = {name: [draw(truth) for _ in range(DRAWS)] for name, truth in truths.items()}
         for route in ROUTES:
-            rows = answers(k, route)
-            for name, truth in truths.items():
-                true = truth.rate(joint[k])
-                if true > 1e-9:
-                    low, high = [rows[name][f"overturning_per_year_{end}"] for end in ("low", "high")]
-                    value = rows[name]["overturning_per_year"]
-                    if value is None:
-                        continue
+            for name, row in answers(k, route).items():
+                value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
+                if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    entry = (np.log(value / true), held, np.log(high / low), names[k][1], names[k][2])
-                    found.setdefault((str(kind), route), []).append(entry)
+                    yield kind, route, np.log(value / true[name]), held, np.log(high / low)
 
-    print(f"{'sites':6} {'route':12} {'n':>4} {'median':>6} {'rms ln':>6} {'in 1.5':>6} {'worst':>6} {'held':>5} {'high/low':>8}")
-    for (kind, route), rows in found.items():
-        off, held, width = (np.array([row[i] for row in rows]) for i in range(3))
-        print(f"{kind:6} {route:12} {len(off):4} {np.exp(np.median(off)):6.2f} {np.sqrt(np.mean(off**2)):6.2f} "
-              f"{np.mean(abs(off) < np.log(1.5)):6.2f} {np.exp(abs(off).max()):6.1f} {np.mean(held):5.3f} {np.exp(np.mean(width)):8.1f}")
-    json.dump({"|".join(key): rows for key, rows in found.items()}, open(folder / "found.json", "w"))
+
+def summary(rows):
+    off = rows["off"]
+    return pd.Series({
+        "n": len(off), "median": np.exp(off.median()), "rms ln": np.sqrt((off**2).mean()),
+        "in 1.5": (off.abs() < np.log(1.5)).mean(), "worst": np.exp(off.abs().max()),
+        "held": rows["held"].mean(), "high/low": np.exp(rows["width"].mean()),
+    })  # fmt: skip
 
 
 if __name__ == "__main__":
-    main()
+    write_objects()
+    found = pd.DataFrame(judged(), columns=["sites", "route", "off", "held", "width"])
+    print(found.groupby(["sites", "route"], sort=False).apply(summary).round(3).to_string())

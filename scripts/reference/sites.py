@@ -1,13 +1,14 @@
 """Hazards of PGA, PGV and SA(1.0 s) at sites of ground-motion models: python sites.py FOLDER
 
-Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA, PGV and
-magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in general
-(src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them; the sites
-`judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the levels of the first
-two by Vs30, and the means of all at the rate of once in 2475 years, to tests/reference/fits, and prints their lines.
-Needs openquake.engine (scripts/check_exports.sh tells how).
+Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA,
+PGV and magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in
+general (src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
+the sites `judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the
+levels of the first two by Vs30, and the means of all at the rate of once in 2475 years, to
+tests/reference/fits, and prints their lines. Needs openquake.engine (scripts/check_exports.sh tells how).
 """
 
+import itertools
 import pathlib
 import sys
 
@@ -21,6 +22,8 @@ IMTS = ["PGA", "PGV", "SA(1.0)"]
 # Edges of bins, ln of m/s2 and m/s.
 LN_PGA = np.log(0.02 * G) + 0.1 * np.arange(54)
 LN_PGV = np.log(0.003) + 0.1 * np.arange(77)
+# Their middles.
+X, Y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
 MAGNITUDES = np.arange(4.875, 8.2, 0.25)
 LEVELS_G = np.geomspace(0.01, 4, 40)
 # Geometric mean of the sites, m/s.
@@ -44,12 +47,10 @@ def fault(rate, mean, distance, sd=0.15, small=0.0):
     """A fault with characteristic earthquakes, and `small` times as many of M 5 to its largest but .5 along it."""
     mw = mean + sd * np.linspace(-2, 2, 9)
     share = norm.pdf(np.linspace(-2, 2, 9))
-    rows = [(m, distance, rate * s / share.sum()) for m, s in zip(mw, share)]
-    rows = np.array(rows)
-    if small:
-        others = area(small * rate, 5.0, mean - 0.5, 0.9, max(3 * distance, 30.0), distance)
-        rows = np.concatenate([rows, others])
-    return rows
+    rows = np.column_stack([mw, np.full(9, distance), rate * share / share.sum()])
+    if not small:
+        return rows
+    return np.concatenate([rows, area(small * rate, 5.0, mean - 0.5, 0.9, max(3 * distance, 30.0), distance)])
 
 
 FIT = {
@@ -110,23 +111,21 @@ def motions(model, vs30, ruptures):
         "vs30measured": True, "z1pt0": np.exp(-7.15 / 4 * np.log((vs30**4 + 571**4) / (1360**4 + 571**4))),
         "z2pt5": np.exp(7.089 - 1.144 * np.log(vs30)), "sids": 0,
     }
-    for name in ctx.dtype.names:
-        if name in values:
-            ctx[name] = values[name]
+    for name in values.keys() & set(ctx.dtype.names):
+        ctx[name] = values[name]
     mean, sd = maker.get_mean_stds([ctx])[:2, 0]
     unit = np.log([G, 0.01, G])[:, None]
     return mean + unit, sd
 
 
-def bivariate(x_edges, y_edges, mean, sd, rho, rate, mw):
-    """Rates of the bins of magnitude, x and y of bivariate normal variables: given x, y is normal too."""
-    x = 0.5 * (x_edges[1:] + x_edges[:-1])
-    in_x = np.diff(norm.cdf((x_edges[:, None] - mean[0]) / sd[0]), axis=0) * rate
+def bivariate(mean, sd, rho, rate, mw):
+    """Rates of the bins of magnitude, ln PGA and ln PGV, bivariate normal: given PGA, PGV is normal too."""
+    in_x = np.diff(norm.cdf((LN_PGA[:, None] - mean[0]) / sd[0]), axis=0) * rate
     at = np.abs(MAGNITUDES[:, None] - mw).argmin(axis=0)
-    bins = np.zeros((len(MAGNITUDES), len(x), len(y_edges) - 1))
-    for k in range(len(x)):
-        given = mean[1] + rho * sd[1] * (x[k] - mean[0]) / sd[0]
-        in_y = np.diff(norm.cdf((y_edges[:, None] - given) / (sd[1] * np.sqrt(1 - rho**2))), axis=0)
+    bins = np.zeros((len(MAGNITUDES), len(X), len(Y)))
+    for k, x in enumerate(X):
+        given = mean[1] + rho * sd[1] * (x - mean[0]) / sd[0]
+        in_y = np.diff(norm.cdf((LN_PGV[:, None] - given) / (sd[1] * np.sqrt(1 - rho**2))), axis=0)
         np.add.at(bins[:, k], at, (in_y * in_x[k]).T)
     return bins
 
@@ -140,77 +139,58 @@ def inverse(levels, rates, wanted):
 def site(model, vs30, sources, rho):
     ruptures = np.concatenate(sources)
     mean, sd = motions(model, vs30, ruptures)
-    rate, mw = ruptures[:, 2], ruptures[:, 0]
-    exceeds = lambda k, levels: norm.sf((np.log(levels)[:, None] - mean[k]) / sd[k]) @ rate
-    pga = LEVELS_G * G
-    pgv = np.geomspace(0.005, 6, 40)
-    curves = [exceeds(0, pga), exceeds(1, pgv), exceeds(2, pga)]
-    at_2475 = inverse(pga, curves[0], 1 / 2475)
-    weight = norm.sf((np.log(at_2475) - mean[0]) / sd[0]) * rate
-    return {
-        "joint": bivariate(LN_PGA, LN_PGV, mean, sd, rho, rate, mw),
-        "pga": np.column_stack([pga, curves[0]]),
-        "pgv": np.column_stack([pgv, curves[1]]),
-        "sa1": np.column_stack([pga, curves[2]]),
-        "mw": (weight @ mw) / weight.sum(),
-    }
-
-
-def all_sites():
-    for name, (geometries, models, soils, rho) in SETS.items():
-        for geometry, sources in geometries.items():
-            for model in models:
-                for vs30 in soils:
-                    yield name, geometry, model, vs30, site(model, vs30, sources, rho)
+    mw, _, rate = ruptures.T
+    accelerations, velocities = LEVELS_G * G, np.geomspace(0.005, 6, 40)
+    curves = {}
+    for k, (name, levels) in enumerate([("pga", accelerations), ("pgv", velocities), ("sa", accelerations)]):
+        rates = norm.sf((np.log(levels)[:, None] - mean[k]) / sd[k]) @ rate
+        curves[name] = np.column_stack([levels, rates])
+    weight = norm.sf((np.log(inverse(*curves["pga"].T, 1 / 2475)) - mean[0]) / sd[0]) * rate
+    return curves | {"joint": bivariate(mean, sd, rho, rate, mw), "mw": (weight @ mw) / weight.sum()}
 
 
 def line(joints, mean_mw, vs30, peak):
-    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about it, and the
-    sd between sites of one magnitude, of one magnitude and Vs30."""
-    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
-    at, low, high = (x - np.log(0.4 * G), 0.15 * G, 1.5 * G) if peak == "pga" else (y - np.log(0.4), 0.1, 2.0)
-    ratio, axis = y[None, :] - x[:, None], 1 if peak == "pga" else 0
-    rows, means, variances, places = [], [], [], []
-    for k, joint in enumerate(joints):
-        rates = joint.sum(axis=0)
+    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about
+    it, and the sd between sites of one magnitude, of one magnitude and Vs30."""
+    level, middle, low, high, axis = {
+        "pga": (X, 0.4 * G, 0.15 * G, 1.5 * G, 2), "pgv": (Y, 0.4, 0.1, 2.0, 1)
+    }[peak]  # fmt: skip
+    rates, ratio = joints.sum(axis=1), Y - X[:, None]
+    with np.errstate(invalid="ignore"):
         total = rates.sum(axis=axis)
         mean = (rates * ratio).sum(axis=axis) / total
         variance = (rates * ratio**2).sum(axis=axis) / total - mean**2
-        level = x if peak == "pga" else y
-        for i in np.flatnonzero((np.exp(level) > low) & (np.exp(level) < high) & (total > 1e-7)):
-            rows.append([1, at[i], mean_mw[k] - 6.3, np.log(vs30[k] / USUAL_VS30)])
-            means.append(mean[i])
-            variances.append(variance[i])
-            places.append(k)
-    rows, means, places = (np.array(of_all) for of_all in (rows, means, places))
+    kept = (np.exp(level) > low) & (np.exp(level) < high) & (total > 1e-7)
+    of_site, bins = np.nonzero(kept)
+    columns = level[bins] - np.log(middle), mean_mw[of_site] - 6.3, np.log(vs30[of_site] / USUAL_VS30)
+    rows = np.column_stack([np.ones(len(bins)), *columns])
     between = []
     for columns in (rows[:, :3], rows):
-        b = np.linalg.lstsq(columns, means, rcond=None)[0]
-        off = means - columns @ b
-        between.append(np.std([off[places == k].mean() for k in set(places)]))
-    return [*b, np.sqrt(np.mean(variances)), *between]
+        b = np.linalg.lstsq(columns, mean[kept], rcond=None)[0]
+        off = mean[kept] - columns @ b
+        between.append(np.std([off[of_site == k].mean() for k in set(of_site)]))
+    return [*b, np.sqrt(variance[kept].mean()), *between]
 
 
 def levels(joints, mean_mw, vs30):
     """Mean magnitude and mean ln(PGV/PGA) at 0.4 g of the sites of each Vs30."""
-    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
-    at = np.abs(x - np.log(0.4 * G)).argmin()
+    at = np.abs(X - np.log(0.4 * G)).argmin()
     given_pga = joints.sum(axis=1)[:, at]
-    of_site = given_pga @ y / given_pga.sum(axis=1) - x[at]
+    of_site = given_pga @ Y / given_pga.sum(axis=1) - X[at]
     return [(v, mean_mw[vs30 == v].mean(), of_site[vs30 == v].mean()) for v in np.unique(vs30)]
 
 
 def at_rate(curves, rate):
     """ln of the level of each site that is exceeded at a rate."""
-    return np.array([np.log(inverse(curve[:, 0], curve[:, 1], rate)) for curve in curves])
+    return np.array([np.log(inverse(*curve.T, rate)) for curve in curves])
 
 
 def by_spectrum(data, among):
-    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with magnitude,
-    and the sd between sites, with and without magnitude."""
+    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with
+    magnitude, and the sd between sites, with and without magnitude."""
     rows, off = [], []
     for rate in np.geomspace(2e-3, 1e-5, 12):
-        pga, pgv, sa = (at_rate(data[name], rate)[among] for name in ("pga", "pgv", "sa1"))
+        pga, pgv, sa = (at_rate(data[name], rate)[among] for name in ("pga", "pgv", "sa"))
         rows.append(np.column_stack([np.ones(len(pga)), pga - sa, data["mw"][among] - 6.3]))
         off.append(pgv - sa)
     rows, off = np.array(rows), np.array(off)
@@ -220,31 +200,29 @@ def by_spectrum(data, among):
 
 
 if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1])
-    names, data = [], {"joint": [], "pga": [], "pgv": [], "sa1": [], "mw": []}
-    for name, geometry, model, vs30, made in all_sites():
-        names.append((name, geometry, model, str(vs30)))
-        for key, value in made.items():
-            data[key].append(value)
-        print(name, geometry, model, vs30, round(float(made["mw"]), 2), flush=True)
-    data = {name: np.array(of_sites) for name, of_sites in data.items()}
+    folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "tests/reference/fits"
+    names, made = [], []
+    for kind, (geometries, models, soils, rho) in SETS.items():
+        for (geometry, sources), model, vs30 in itertools.product(geometries.items(), models, soils):
+            names.append((kind, geometry, model, str(vs30)))
+            made.append(site(model, vs30, sources, rho))
+    data = {name: np.array([of_site[name] for of_site in made]) for name in made[0]}
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **data)
-    kinds, joints, mean_mw = np.array(names)[:, 0], data["joint"], data["mw"]
-    vs30 = np.array(names)[:, 3].astype(float)
-    chosen = kinds != "judge"
+    kinds, vs30 = np.array(names)[:, 0], np.array(names)[:, 3].astype(float)
+    joints, mean_mw, chosen = data["joint"], data["mw"], kinds != "judge"
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):
             found = line(joints[among], mean_mw[among], vs30[among], peak)
-            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter, sd between sites, of one Vs30:",
-                  *np.round(found, 2))
-        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude, sd between sites with and without it:",
-              *np.round(by_spectrum(data, among), 3))
-    reference = pathlib.Path(__file__).resolve().parents[2] / "tests/reference/fits"
-    rows = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
-    (reference / "site_levels.csv").write_text(
-        "vs30,mw,ln_ratio\n" + "".join(f"{v:.0f},{m:.3f},{level:.4f}\n" for v, m, level in rows))
-    peaks = [at_rate(data[name], 1 / 2475) for name in ("pga", "sa1", "pgv")]
-    means = [[column[kinds == kind].mean() for column in (mean_mw, *peaks)] for kind in SETS]
-    (reference / "site_spectra.csv").write_text(
-        "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s\n"
-        + "".join(f"{m:.3f},{np.exp(a):.4f},{np.exp(s):.4f},{np.exp(v):.5f}\n" for m, a, s, v in means))
+            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter,",
+                  "sd between sites, of one Vs30:", *np.round(found, 2))
+        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude,",
+              "sd between sites with and without it:", *np.round(by_spectrum(data, among), 3))
+    write = lambda name, rows, digits, header: np.savetxt(
+        reference / name, rows, [f"%.{n}f" for n in digits], ",", header=header, comments=""
+    )
+    of_vs30 = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
+    write("site_levels.csv", of_vs30, [0, 3, 4], "vs30,mw,ln_ratio")
+    columns = np.stack([mean_mw, *(at_rate(data[name], 1 / 2475) for name in ("pga", "sa", "pgv"))])
+    means = np.array([columns[:, kinds == kind].mean(axis=1) for kind in SETS])
+    means[:, 1:] = np.exp(means[:, 1:])
+    write("site_spectra.csv", means, [3, 4, 4, 5], "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s")

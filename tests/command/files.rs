@@ -1,9 +1,14 @@
 //! Files: what is damaged, foreign or in the way is named, and nothing of the user's is lost.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::types::Float32Type;
-use arrow_array::{ArrayRef, Float64Array, ListArray, StringArray};
+use arrow_array::{ArrayRef, Float64Array, ListArray, RecordBatch, StringArray};
+use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
 
 use crate::common::{SMALL, bytes, fail, folder_with, made, succeed, write, write_motions};
 
@@ -93,21 +98,25 @@ fn responses_that_cannot_be_right_are_named() {
     succeed(folder.path(), "fit-pro");
 }
 
+/// The first rows of a file, and its metadata.
+fn first_batch(path: &Path) -> (RecordBatch, Option<Vec<KeyValue>>) {
+    let reader = ParquetRecordBatchReaderBuilder::try_new(std::fs::File::open(path).unwrap()).unwrap();
+    let pairs = reader.metadata().file_metadata().key_value_metadata().cloned();
+    (reader.build().unwrap().next().unwrap().unwrap(), pairs)
+}
+
 #[test]
 fn a_fit_without_a_status_is_refused() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
     let path = folder.path().join("out/pro.parquet");
-    let file = std::fs::File::open(&path).unwrap();
-    let reader = parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
-    let batch = reader.build().unwrap().next().unwrap().unwrap();
+    let (batch, _) = first_batch(&path);
     let schema = batch.schema();
     let columns = schema.fields().iter().zip(batch.columns()).map(|(field, column)| {
         let nothing: ArrayRef = Arc::new(StringArray::from(vec![""; batch.num_rows()]));
-        (field.name().clone(), if field.name() == "status" { nothing } else { column.clone() })
+        (field.name().as_str(), if field.name() == "status" { nothing } else { column.clone() })
     });
-    let columns: Vec<(String, ArrayRef)> = columns.collect();
-    write(&path, columns.iter().map(|(name, column)| (name.as_str(), column.clone())).collect());
+    write(&path, columns.collect());
     let call = "evaluate --fits out --model paper --suite csgm --name frame --pga 0.4 --pgv 0.5";
     fail(folder.path(), call, 1, &["pro.parquet", "status"]);
 }
@@ -182,16 +191,11 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
     let path = folder.path().join("out/motions.parquet");
-    let file = std::fs::File::open(&path).unwrap();
-    let reader = parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).unwrap();
-    let pairs = reader.metadata().file_metadata().key_value_metadata().cloned();
-    let schema = reader.schema().clone();
-    let rows: Vec<_> = reader.build().unwrap().map(|batch| batch.unwrap().slice(0, 5)).collect();
-    let properties =
-        parquet::file::properties::WriterProperties::builder().set_key_value_metadata(pairs).build();
+    let (batch, pairs) = first_batch(&path);
+    let properties = WriterProperties::builder().set_key_value_metadata(pairs).build();
     let file = std::fs::File::create(&path).unwrap();
-    let mut writer = parquet::arrow::ArrowWriter::try_new(file, schema, Some(properties)).unwrap();
-    rows.iter().for_each(|batch| writer.write(batch).unwrap());
+    let mut writer = ArrowWriter::try_new(file, batch.schema(), Some(properties)).unwrap();
+    writer.write(&batch.slice(0, 5)).unwrap();
     writer.close().unwrap();
     let (plan, _) = succeed(folder.path(), "run --dry-run");
     assert!(plan.contains("synthesize-motions: run"), "{plan}");

@@ -6,12 +6,10 @@ use std::time::Duration;
 
 use rockfrag::table::provenance::Provenance;
 
-use crate::common::{FILES, SMALL, bytes, folder_with, succeed};
+use crate::common::{FILES, SMALL, bytes, folder_with, rockfrag, succeed};
 
 fn start(folder: &Path, arguments: &str) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_rockfrag"));
-    command.args(arguments.split_whitespace()).current_dir(folder).stdout(Stdio::null());
-    command.stderr(Stdio::piped()).spawn().unwrap()
+    rockfrag(folder, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 #[test]

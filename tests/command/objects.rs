@@ -1,13 +1,20 @@
 //! Objects as they are: bodies, both directions, floors, lists of people, friction, targets.
 
-use std::path::Path;
+use serde_json::Value;
 
 use super::common::{evaluated, fail, folder, near, number, succeed};
 
 const HAZARD: &str = concat!("--hazard ", env!("CARGO_MANIFEST_DIR"), "/data/hazard.csv");
 
-fn rate(folder: &Path, arguments: &str) -> f64 {
-    number(&evaluated(folder, &format!("{arguments} {HAZARD}"))[0], "overturning_per_year")
+/// The answer over the hazard, in a folder without files.
+#[track_caller]
+fn row(arguments: &str) -> Value {
+    evaluated(folder(&[]).path(), &format!("{arguments} {HAZARD}")).remove(0)
+}
+
+#[track_caller]
+fn rate(arguments: &str) -> f64 {
+    number(&row(arguments), "overturning_per_year")
 }
 
 #[test]
@@ -32,8 +39,6 @@ fn a_symmetric_solid_block_on_the_ground_is_the_block_of_its_width_and_height() 
 
 #[test]
 fn an_object_falls_in_either_direction_and_a_lopsided_body_falls_more_often() {
-    let folder = folder(&[]);
-    let rate = |arguments: &str| rate(folder.path(), arguments);
     let [width, depth] = ["--width 0.5 --height 2.2", "--width 0.6 --height 2.2"].map(rate);
     let both = rate("--width 0.5 --depth 0.6 --height 2.2");
     // Both seldom fall under one motion.
@@ -47,8 +52,6 @@ fn an_object_falls_in_either_direction_and_a_lopsided_body_falls_more_often() {
 
 #[test]
 fn what_is_uncertain_widens_the_limits_and_nothing_else_of_a_small_error() {
-    let folder = folder(&[]);
-    let row = |arguments: &str| evaluated(folder.path(), &format!("{arguments} {HAZARD}")).remove(0);
     let plain = row("--width 0.8 --height 2.2");
     let unsure = row("--width 0.8 --height 2.2 --centre-height-sd 0.1 --centre-offset-sd 0.04");
     assert!(plain["error_object"].is_null() && number(&unsure, "error_object") > 0.1);
@@ -64,8 +67,8 @@ fn on_a_roof_an_object_falls_more_often_than_on_the_ground() {
     let folder = folder(&[]);
     let here = folder.path();
     let [ground, middle, roof] = ["0", "0.5", "1"]
-        .map(|level| rate(here, &format!("--width 0.8 --height 2.2 --period 0.6 --level {level}")));
-    assert_eq!(ground, rate(here, "--width 0.8 --height 2.2"));
+        .map(|level| rate(&format!("--width 0.8 --height 2.2 --period 0.6 --level {level}")));
+    assert_eq!(ground, rate("--width 0.8 --height 2.2"));
     assert!(ground < middle && middle < roof && roof > 2.0 * ground, "{ground}, {middle}, {roof}");
     let row = &evaluated(here, "--width 0.8 --height 2.2 --period 0.6 --level 1 --pga 0.3 --pgv 0.3")[0];
     let p_nr = number(row, "p_nr");
@@ -74,18 +77,16 @@ fn on_a_roof_an_object_falls_more_often_than_on_the_ground() {
 
 #[test]
 fn the_width_for_a_target_meets_it() {
-    let folder = folder(&[]);
-    let here = folder.path();
     let object = "--height 2.2 --centre-height 1 --depth 0.9";
-    let row = &evaluated(here, &format!("--width 0.6 --centre-offset 0.03 {object} --target 1% {HAZARD}"))[0];
+    let answer = row(&format!("--width 0.6 --centre-offset 0.03 {object} --target 1%"));
     for (width, of) in [("target_width_m", "p_overturning"), ("target_width_m_high", "p_overturning_high")] {
-        let Some(width) = row[width].as_f64() else { continue };
-        let resized = format!("--width {width} --centre-offset {} {object} {HAZARD}", 0.05 * width);
-        let p = number(&evaluated(here, &resized)[0], of);
+        let Some(width) = answer[width].as_f64() else { continue };
+        let resized = format!("--width {width} --centre-offset {} {object}", 0.05 * width);
+        let p = number(&row(&resized), of);
         assert!(near(p, 0.01, 0.01), "{of} {p} at {width}");
     }
-    assert!(number(row, "target_width_m") > 0.3);
-    let none = &evaluated(here, &format!("--width 0.2 --height 2.2 --target 1e-7% {HAZARD}"))[0];
+    assert!(number(&answer, "target_width_m") > 0.3);
+    let none = row("--width 0.2 --height 2.2 --target 1e-7%");
     assert!(none["target_width_m"].is_null());
 }
 
@@ -123,7 +124,7 @@ fn a_list_is_read_as_a_hospital_keeps_it() {
     assert!(warnings.contains("Brand") && warnings.contains("Tag"), "{warnings}");
     // Of nine objects that rock.
     assert!(text.contains("Of 9 objects"), "{text}");
-    let same = rate(here, "--width 0.6 --depth 0.45 --height 1.9 --period 0.6 --level 0.5");
+    let same = rate("--width 0.6 --depth 0.45 --height 1.9 --period 0.6 --level 0.5");
     assert!(near(number(cabinet, "overturning_per_year"), same, 1e-9));
 }
 
@@ -170,8 +171,8 @@ fn what_is_squat_or_has_too_little_friction_slides() {
     assert_eq!(["a", "b", "c"].map(is_known), [false, true, true]);
     let squat = succeed(here, &format!("evaluate --width 1.6 --height 2 --centre-height 0.4 {HAZARD}")).0;
     assert!(squat.contains("squat"), "{squat}");
-    let wide = rate(here, "--width 0.8 --height 2.2 --friction 0.5");
-    assert_eq!(wide, rate(here, "--width 0.8 --height 2.2"));
+    let wide = rate("--width 0.8 --height 2.2 --friction 0.5");
+    assert_eq!(wide, rate("--width 0.8 --height 2.2"));
     // It slides along its depth, and rocks along its width.
-    assert_eq!(wide, rate(here, "--width 0.8 --depth 1.2 --height 2.2 --friction 0.5"));
+    assert_eq!(wide, rate("--width 0.8 --depth 1.2 --height 2.2 --friction 0.5"));
 }

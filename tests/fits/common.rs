@@ -19,8 +19,7 @@ pub struct Data {
 }
 
 pub fn read<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
-    let path = format!("{}/tests/reference/fits/{name}", env!("CARGO_MANIFEST_DIR"));
-    csv::Reader::from_path(path).unwrap().into_deserialize().map(Result::unwrap).collect()
+    crate::shared::rows(&format!("fits/{name}"))
 }
 
 pub fn data() -> Data {

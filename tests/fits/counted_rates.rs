@@ -1,8 +1,8 @@
 //! Annual rates counted without a curve, against numpy, scipy and closed forms.
 
-use std::path::Path;
-
 use rockfrag::hazard::{CountedMotion, CountedRate, HazardCurve, counted_rate};
+
+use crate::common::read;
 
 /// H = 1e-3 IM^-2.5, of which a curve of two points has every value.
 fn hazard() -> HazardCurve {
@@ -60,16 +60,10 @@ fn motions_that_do_not_rock_and_the_order_of_all_do_not_matter() {
 
 #[test]
 fn numpy_and_scipy_count_the_same() {
-    let read = |name: &str| {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/fits");
-        let text = std::fs::read_to_string(folder.join(name)).unwrap();
-        let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect::<Vec<f64>>();
-        text.lines().skip(1).map(numbers).collect::<Vec<_>>()
-    };
-    let motion =
-        |row: &Vec<f64>| CountedMotion { intensity: row[0], event: row[2] == 1.0, cluster: row[1] as u32 };
-    let rate = counted(0.3, read("counted_motions.csv").iter().map(motion).collect());
-    let [value, drawn_low, drawn_high, low, high] = read("counted_answers.csv")[0][..] else { panic!() };
+    let motions = read::<(f64, u32, u8)>("counted_motions.csv").into_iter();
+    let motion = |(intensity, cluster, event)| CountedMotion { intensity, event: event == 1, cluster };
+    let rate = counted(0.3, motions.map(motion).collect());
+    let [value, drawn_low, drawn_high, low, high] = read::<[f64; 5]>("counted_answers.csv")[0];
     assert!((rate.value / value - 1.0).abs() < 1e-9, "{rate:?} for {value}");
     // Of 500 resamples for 20,000.
     assert!((rate.limits.low / drawn_low.min(low) - 1.0).abs() < 0.1, "{rate:?}");

@@ -133,48 +133,32 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
             (Outcome::SafeRocking, 0.1 + 0.01 * f64::from(k % 7), im4, im3(im4), k)
         }))
     };
-    for (cases, status) in
-        [(line(3, |im4| 1.0 / im4), FitStatus::Degenerate), (line(90, |im4| im4), FitStatus::Degenerate)]
-    {
+    for cases in [line(3, |im4| 1.0 / im4), line(90, |im4| im4)] {
         let fit = fit_plane(&cases);
-        assert_eq!((fit.status, fit.coefficients.len(), fit.beta), (status, 0, None));
+        assert_eq!((fit.status, fit.coefficients.len(), fit.beta), (FitStatus::Degenerate, 0, None));
         assert!(fit.parameters(0.95).is_empty());
         assert_eq!(fit.p_exceeding(&cases.measures(0), 0.1, 0.95), None);
     }
-    let falling = cases((0..90).map(|k| {
-        (
-            Outcome::SafeRocking,
-            (0.3 * f64::from(k % 3) - 0.1 * f64::from(k)).exp(),
-            1.0 + f64::from(k),
-            1.0,
-            k,
-        )
-    }));
+    let demand = |k: u32| (0.3 * f64::from(k % 3) - 0.1 * f64::from(k)).exp();
+    let falling = cases((0..90).map(|k| (Outcome::SafeRocking, demand(k), 1.0 + f64::from(k), 1.0, k)));
     assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
-    let fits = fit_demand(&line(30, |im4| im4), None, 0.95, false);
-    assert!(
-        scan_transition(&line(30, |im4| im4)).is_empty()
-            && fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate)
-    );
+    let few = line(30, |im4| im4);
+    assert!(scan_transition(&few).is_empty());
+    let fits = fit_demand(&few, None, 0.95, false);
+    assert!(fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate));
 }
 
 #[test]
 fn the_variance_of_p_ex_is_that_of_the_textbook() {
     // In 12 clusters of one case a model-based error: few clusters must not matter here, so nine of them.
     let mut random = random(5);
-    let rows: Vec<_> = (0..12)
-        .map(|k| {
-            let im4: f64 = random.random_range(1.0..3.0);
-            (
-                Outcome::SafeRocking,
-                (2.0 * im4.ln() + random.random_range(-0.5..0.5f64)).exp(),
-                im4,
-                1.0,
-                k % 9,
-            )
-        })
-        .collect();
+    let mut row = |k: u32| {
+        let im4: f64 = random.random_range(1.0..3.0);
+        let edp = (2.0 * im4.ln() + random.random_range(-0.5..0.5f64)).exp();
+        (Outcome::SafeRocking, edp, im4, 1.0, k % 9)
+    };
+    let rows: Vec<_> = (0..12).map(&mut row).collect();
     let fit = fit_power_law(&cases(rows.clone()), Measure::Im4);
     assert!(!fit.is_clustered && fit.degrees == Some(10.0));
     let (at, limit, beta) = (1.5f64, 4.0f64, fit.beta.unwrap());
@@ -186,11 +170,8 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     let half_width = t_quantile(0.975, 10.0) * (variance + z * z / 20.0).sqrt();
     let measures = IntensityMeasures { im3: None, ..IntensityMeasures::of_peaks(at, 1.0) };
     let p = fit.p_exceeding(&measures, limit, 0.95).unwrap();
-    close(
-        p.value,
-        normal::cdf((fit.coefficients[0] + fit.coefficients[1] * at.ln() - limit.ln()) / beta),
-        1e-13,
-    );
+    let ln_median = fit.coefficients[0] + fit.coefficients[1] * at.ln();
+    close(p.value, normal::cdf((ln_median - limit.ln()) / beta), 1e-13);
     close(p.low, normal::cdf(z - half_width), 1e-9);
     close(p.high, normal::cdf(z + half_width), 1e-9);
     assert_eq!(fit_plane(&cases(rows)).p_exceeding(&measures, limit, 0.95), None, "IM3 is missing");

@@ -14,6 +14,8 @@ mod overturning;
 mod paper;
 mod ranking;
 mod regression;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod stored;
 mod tree;
 mod validation;

@@ -2,9 +2,7 @@
 
 use rockfrag::statistics::normal::{cdf, ln_cdf, ln_cdf_and_slope, quantile};
 
-fn close(value: f64, expected: f64, tolerance: f64) {
-    assert!((value / expected - 1.0).abs() < tolerance, "{value:e}, expected {expected:e}");
-}
+use crate::common::close;
 
 #[test]
 fn cumulative_probabilities_equal_scipys() {

@@ -1,5 +1,5 @@
 //! Least squares and probit regression against statsmodels and pyFragility
-//! (scripts/reference/{fits,uncertainty}.py).
+//! (scripts/reference/fits.py).
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

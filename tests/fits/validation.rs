@@ -36,13 +36,8 @@ fn forecasts_of_cells_left_out_score_as_statsmodels_has_it() {
         assert!((validation.calibration_intercept.unwrap() - of("intercept")).abs() < 1e-7);
         let bins = forecasts.reliability();
         assert!(bins.len() == 10 && bins.is_sorted_by(|a, b| a.predicted < b.predicted));
-        assert_eq!(
-            bins.iter().map(|bin| (bin.n, bin.observed)).fold((0, 0), |(n, o), bin| (n + bin.0, o + bin.1)),
-            (400, validation.observed)
-        );
-        assert!(
-            bins.iter().all(|bin| bin.n == 40 && bin.share_low <= bin.share && bin.share <= bin.share_high)
-        );
+        assert_eq!(bins.iter().map(|bin| bin.observed).sum::<i64>(), validation.observed);
+        assert!(bins.iter().all(|bin| bin.n == 40 && (bin.share_low..=bin.share_high).contains(&bin.share)));
     }
 }
 

@@ -1,23 +1,15 @@
 //! Motions and peaks of floors against scipy and closed forms.
 
-use std::path::Path;
-
 use rockfrag::motion::{Floor, floor, measures};
-use rockfrag::table::motions::{Motion, open, parts, read_part};
+
+use crate::shared::reference_motions;
 
 const DAMPING: f64 = 0.05;
-
-fn motions() -> Vec<Motion> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/rocking/motions.parquet");
-    let table = open(&path, None).unwrap();
-    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
-    read.flat_map(|batch| batch.unwrap().1).collect()
-}
 
 #[test]
 fn a_floor_moves_as_scipy_has_it() {
     // scripts/reference/floors.py: motion, period, level, peak, and every hundredth sample.
-    let motions = motions();
+    let motions = reference_motions();
     let mut floors = 0;
     for line in include_str!("../reference/records/floors.csv").lines() {
         let (id, numbers) = line.split_once(',').unwrap();
@@ -36,7 +28,7 @@ fn a_floor_moves_as_scipy_has_it() {
 
 #[test]
 fn level_0_is_the_ground_and_a_stiff_building_moves_with_it() {
-    let motion = &motions()[0];
+    let motion = &reference_motions()[0];
     let ground = &motion.acceleration_m_s2;
     assert_eq!(&Floor { period_s: 0.7, level: 0.0 }.motion(ground, motion.dt_s, DAMPING), ground);
     let smooth: Vec<f64> = (0..2000).map(|k| (f64::from(k) * 0.005).sin()).collect();

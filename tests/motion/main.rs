@@ -3,3 +3,5 @@
 mod floor;
 mod measures;
 mod model;
+#[path = "../shared/mod.rs"]
+mod shared;

@@ -2,21 +2,10 @@
 //! The test is ignored; with the records in the folder ROCKFRAG_RECORDS, `cargo test --test records --
 //! --ignored` runs it.
 
-use std::path::PathBuf;
-
 use rockfrag::motion::measures::velocity;
 use rockfrag::records::pulses::indicator::{PulseIndicator, Verdict};
 
-use crate::references::motions;
-
-fn known(name: &str) -> PathBuf {
-    let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
-    PathBuf::from(folder).join(name)
-}
-
-fn pulse_of(acceleration: &[f64], dt_s: f64) -> PulseIndicator {
-    PulseIndicator::of(&velocity(acceleration, dt_s), dt_s).unwrap()
-}
+use crate::shared::{known, motions};
 
 /// Tp of Table 1 of Baker (2007): all of its pulses whose fault-normal component is in the set of FEMA P695.
 const PUBLISHED: [(&str, f64); 12] = [
@@ -42,7 +31,8 @@ fn periods_of_pulses_are_those_that_baker_published() {
     for motion in motions(&known("fema_p695_near_fault_pulse.parquet")) {
         let id = motion.motion_id;
         let Some((_, tp_s)) = PUBLISHED.iter().find(|(name, _)| *name == id) else { continue };
-        let found = pulse_of(&motion.acceleration_m_s2, motion.dt_s);
+        let found =
+            PulseIndicator::of(&velocity(&motion.acceleration_m_s2, motion.dt_s), motion.dt_s).unwrap();
         assert!((found.period_s - tp_s).abs() < 0.06, "{id}: {found:?} for {tp_s}");
         // Narrowly not a pulse for us.
         match id.as_str() {

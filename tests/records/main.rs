@@ -6,6 +6,8 @@ mod plausibility;
 mod processing;
 mod pulses;
 mod references;
+#[path = "../shared/mod.rs"]
+mod shared;
 mod sheet;
 mod slips;
 mod writers;

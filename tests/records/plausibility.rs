@@ -2,13 +2,13 @@
 
 use rockfrag::records::plausibility::{Implausibility, implausibility};
 
-use crate::references::reference_motions;
+use crate::shared::reference_motions;
 use crate::writers::{DT, G, motion};
 
 #[test]
 fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
-    for motion in reference_motions().into_values() {
+    for motion in reference_motions() {
         match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
             None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}

@@ -1,34 +1,19 @@
 //! Measures and pulses against other programs (scripts/reference/records.py).
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use rockfrag::motion::measures::velocity;
 use rockfrag::motion::{MeasurePlan, MeasureScratch, Measured};
 use rockfrag::records::pulses::{FittedPulse, PulseIndicator};
-use rockfrag::table::motions::{Motion, open, parts, read_part};
+use rockfrag::table::motions::Motion;
+
+use crate::shared::{reference_motions, rows};
 
 const SA_PERIODS_S: [f64; 6] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
 
-fn reference(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name)
-}
-
-/// Reads the motions of a file.
-pub fn motions(path: &Path) -> Vec<Motion> {
-    let table = open(path, None).unwrap();
-    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
-    read.flat_map(|part| part.unwrap().1).collect()
-}
-
 /// Motions of the references, by name.
-pub fn reference_motions() -> HashMap<String, Motion> {
-    let motions = motions(&reference("rocking/motions.parquet")).into_iter();
-    motions.map(|motion| (motion.motion_id.clone(), motion)).collect()
-}
-
-fn rows<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
-    csv::Reader::from_path(reference(name)).unwrap().into_deserialize().map(Result::unwrap).collect()
+fn by_name() -> HashMap<String, Motion> {
+    reference_motions().into_iter().map(|motion| (motion.motion_id.clone(), motion)).collect()
 }
 
 /// Our value, with its relative and absolute tolerance.
@@ -55,7 +40,7 @@ fn ours(measured: &Measured, measure: &str, dt_s: f64) -> (f64, f64, f64) {
 
 #[test]
 fn measures_are_those_of_eqsig_and_numpy() {
-    let motions = reference_motions();
+    let motions = by_name();
     let plan = MeasurePlan { housner: true, sa_periods_s: SA_PERIODS_S.to_vec() };
     let answers: Vec<(String, String, f64)> = rows("records/measures.csv");
     assert_eq!(answers.len(), 24 * 15);
@@ -81,7 +66,7 @@ struct PulseAnswer {
 
 #[test]
 fn pulses_are_those_of_full_resolution_and_global_search() {
-    let motions = reference_motions();
+    let motions = by_name();
     let answers: Vec<PulseAnswer> = rows("records/pulses.csv");
     assert_eq!(answers.len(), 24);
     let mut same_period = 0;

@@ -131,20 +131,16 @@ fn similar_blocks_have_the_same_capacity() {
 }
 
 /// A scan of a structure that overturns in these ranges, after this many impacts.
-fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Capacity {
-    let respond = |points: &[ScanPoint]| -> Result<Vec<Response>, std::convert::Infallible> {
-        let of = |point: &ScanPoint| {
-            let range = ranges.iter().find(|(low, high, _)| (*low..*high).contains(&point.intensity));
-            match range {
-                Some((_, _, impacts)) => {
-                    Response { outcome: Outcome::Overturning, edp: 7.0, impacts: *impacts }
-                }
-                None => Response { outcome: Outcome::SafeRocking, edp: 0.9, impacts: 2 },
-            }
-        };
-        Ok(points.iter().map(of).collect())
+fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Vec<ScanResponse> {
+    let of = |point: &ScanPoint| {
+        let range = ranges.iter().find(|(low, high, _)| (*low..*high).contains(&point.intensity));
+        match range {
+            Some(&(_, _, impacts)) => Response { outcome: Outcome::Overturning, edp: 7.0, impacts },
+            None => Response { outcome: Outcome::SafeRocking, edp: 0.9, impacts: 2 },
+        }
     };
-    scan.capacity(&scan.run(1, respond).unwrap()[0])
+    let respond = |points: &[ScanPoint]| Ok::<_, std::convert::Infallible>(points.iter().map(of).collect());
+    scan.run(1, respond).unwrap().remove(0)
 }
 
 #[test]
@@ -154,7 +150,7 @@ fn all_windows_that_are_wide_enough_are_found() {
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
     assert_eq!((scan.levels.len(), scan.levels[0], scan.levels[8]), (9, 1.0, 100.0));
     // A narrow overturning range, a window between two modes, and a window at the end of the scan.
-    let found = scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]);
+    let found = scan.capacity(&scan_of(&scan, &[(2.0, 2.1, 1), (3.0, 5.0, 1), (5.2, 50.0, 0)]));
     close(found.overturning.unwrap(), 2.0, 1e-3);
     close(found.safe_below.unwrap(), 2.0, 1e-3);
     let edges = [(2.1, Some(3.0)), (5.0, Some(5.2)), (50.0, None)];
@@ -166,25 +162,10 @@ fn all_windows_that_are_wide_enough_are_found() {
     }
 }
 
-/// A scan with a demand that is a function of the intensity, overturning from 1.
-fn scan_of_demand(scan: &Scan, demand: impl Fn(f64) -> f64) -> Vec<ScanResponse> {
-    let respond = |points: &[ScanPoint]| {
-        let response = |point: &ScanPoint| {
-            let edp = demand(point.intensity);
-            let outcome = if edp >= 1.0 { Outcome::Overturning } else { Outcome::SafeRocking };
-            Response { outcome, edp, impacts: 2 }
-        };
-        Ok::<_, std::convert::Infallible>(points.iter().map(response).collect())
-    };
-    scan.run(1, respond).unwrap().remove(0)
-}
-
 #[test]
 fn shares_are_those_of_the_logarithm_of_the_intensity() {
     let scan = Scan::new(1.0, 16.0, 4);
-    let bands = [(1.1, 1.3), (1.5, 1.6), (2.5, 7.0)];
-    let overturns = |at: f64| bands.iter().any(|(low, high)| (*low..*high).contains(&at));
-    let responses = scan_of_demand(&scan, |at| if overturns(at) { 3.0 } else { 0.3 });
+    let responses = scan_of(&scan, &[(1.1, 1.3, 2), (1.5, 1.6, 2), (2.5, 7.0, 2)]);
     let shares = scan.overturning_shares(&responses);
     let part = |low: f64, high: f64| (high / low).ln() / 2.0_f64.ln();
     let expected = [part(1.1, 1.3) + part(1.5, 1.6), part(2.5, 4.0), part(4.0, 7.0), 0.0];

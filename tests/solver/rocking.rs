@@ -79,7 +79,6 @@ fn similar_structures_have_the_same_response() {
     let master = pulse(1.0, 1e-4);
     let deviation = |alpha: f64| (pulse(2.5, alpha) / master - 1.0).abs();
     let deviations = [0.01, 0.05, 0.1, 0.2, 0.3].map(deviation);
-    println!("deviation of theta/alpha at alpha 0.01, 0.05, 0.1, 0.2, 0.3: {deviations:?}");
     assert!(deviations[0] < 1e-3, "{deviations:?}");
     assert!(deviations.windows(2).all(|pair| pair[1] > pair[0]), "grows with alpha: {deviations:?}");
     // At equal slenderness the similarity is exact: only time and size change.
@@ -172,17 +171,14 @@ fn impossible_structures_are_refused() {
 
 #[test]
 fn impossible_records_are_refused_where_they_are_wrong() {
-    let refused = |samples: &[f64], dt: f64| Record::new(samples, dt).unwrap_err();
-    assert_eq!(refused(&[0.0, 1.0], 0.0), RecordError::TimeStep(0.0));
-    assert_eq!(refused(&[1.0], 0.01), RecordError::TooShort(1));
-    assert_eq!(
-        refused(&[0.0, 1.0, -f64::INFINITY, f64::NAN], 0.01),
-        RecordError::NotFinite { sample: 2, value: -f64::INFINITY }
-    );
-    assert_eq!(
-        refused(&[0.0, 1e4, 1.0, -1.5e4, 2e4], 0.01),
-        RecordError::TooLarge { sample: 3, value: -1.5e4 }
-    );
+    for (samples, dt, error) in [
+        (&[0.0, 1.0][..], 0.0, RecordError::TimeStep(0.0)),
+        (&[1.0], 0.01, RecordError::TooShort(1)),
+        (&[0.0, -f64::INFINITY, f64::NAN], 0.01, RecordError::NotFinite { sample: 1, value: -f64::INFINITY }),
+        (&[0.0, 1e4, 1.0, -1.5e4, 2e4], 0.01, RecordError::TooLarge { sample: 3, value: -1.5e4 }),
+    ] {
+        assert_eq!(Record::new(samples, dt).unwrap_err(), error);
+    }
     assert_eq!(Record::new(&[0.0, -1e4], 0.01).unwrap().peak_m_s2(), 1e4);
 }
 

