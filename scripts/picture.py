@@ -44,7 +44,9 @@ for outcome, colour, label in [("safe_rocking", BLUE, "rocks"), ("overturning", 
     some = unseen.filter(pl.col("outcome") == outcome)
     left.plot(some["pga_m_s2"] / 9.81, some["pgv_m_s"], "o", ms=2.5, mew=0, alpha=0.5, color=colour, label=label)
 pga, pgv = np.meshgrid(np.geomspace(0.204, 2.0, 120), np.geomspace(0.05, 2.5, 120))
-p_ro = rockfrag.probability(pga, pgv, **EQUIPMENT, fits=folder).p_ro
+# Less PGV is refused.
+possible, p_ro = pgv > 0.05 * pga, np.full(pga.shape, np.nan)
+p_ro[possible] = rockfrag.probability(pga[possible], pgv[possible], **EQUIPMENT, fits=folder).p_ro
 lines = left.contour(pga, pgv, p_ro, [0.02, 0.1, 0.5, 0.9], colors="black", linewidths=1)
 left.clabel(lines, fmt="%g")
 left.set(xscale="log", yscale="log", xlabel="PGA (g)", ylabel="PGV (m/s)", xlim=(0.2, 2), ylim=(0.05, 2.5))
