@@ -11,5 +11,5 @@ import pyarrow.dataset  # noqa: F401, which the read would else import
 import pyarrow.parquet as pq
 
 start = time.perf_counter()
-table = pq.read_table(sys.argv[1])
-json.dump({"read_s": time.perf_counter() - start, "rows": table.num_rows}, sys.stdout)
+pq.read_table(sys.argv[1])
+json.dump({"read_s": time.perf_counter() - start}, sys.stdout)

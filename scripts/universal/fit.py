@@ -6,7 +6,7 @@ import polars as pl
 from scipy.optimize import minimize
 
 from cases import counted
-from surface import DOMAIN, MOST_IM4, NO_LIMIT, design, scaled, uplift
+from surface import DOMAIN, MOST_IM4, NO_LIMIT, design, uplift
 
 SLACK, STEP = 1e-3, 1.02
 SOUGHT = np.log([2.0, 0.2, 0.5])
@@ -58,7 +58,7 @@ def rises(terms, points=(9, 6, 5)):
     grid = dict(zip(axes, (axis.ravel() for axis in np.meshgrid(*axes.values(), indexing="ij"))))
     here = pl.DataFrame(grid).with_columns(im5=pl.col("im4") * pl.col("p_rad_s") / pl.col("ratio"))
     faster = here.with_columns(pl.col("im5") * STEP)
-    there = [scaled(here, STEP), faster, faster.with_columns(pl.col("p_rad_s") * STEP)]
+    there = [here.with_columns(pl.col("im4", "im5") * STEP), faster, faster.with_columns(pl.col("p_rad_s") * STEP)]
     there += [here.with_columns(pl.col("eta") + 0.003), here.with_columns(pl.col("limit") / STEP)]
     gains = np.concatenate([design(terms, cases) - design(terms, here) for cases in there])
     gains = np.pad(gains / np.log(STEP), ((0, 0), (0, 1)))

@@ -59,11 +59,6 @@ def magnitude(cases, line):
     return cases.select(known - 6.9).to_series().to_numpy()
 
 
-def scaled(cases, factor):
-    """The same motions, `factor` times as strong."""
-    return cases.with_columns(pl.col("im4", "im5") * factor)
-
-
 class Surface:
     """What the lines of data/universal.csv hold: numbers by words, such as ("uplift", "csgm", "pro")."""
 
