@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::common::{by, label_of_scaled, observed_shares, ratios, wilson};
+use super::common::{by, label_of_scaled, observed_shares, ratios};
 use crate::fragility::{Z_95, grouped, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
@@ -79,7 +79,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
         let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
         let cases: Vec<_> =
             its.map(|stripe| (stripe.intensity, stripe.outcome == Outcome::Overturning)).collect();
-        let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x), wilson);
+        let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x));
         let shares = shares.iter().step_by(shares.len().div_ceil(LEVELS).max(1)).copied().collect();
         let below = |row: &CapacityRow| Some(ends[0]).filter(|_| row.capacity == CapacityStatus::Below);
         let its = rows.iter().filter(|row| row.group() == fit.group());
