@@ -110,9 +110,9 @@ impl Tables {
         let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
         let input = |name: &str, flag: &str| {
             let path = self.folder.join(format!("{name}.parquet"));
-            let made = self.files.iter().find(|file| file.0 == path).and_then(|file| file.2.as_ref());
-            let keys = made.and_then(|made| made.inputs.get(flag));
-            keys.and_then(|keys| keys.split(' ').next()).map(str::to_string)
+            let (.., made) = self.files.iter().find(|(file, ..)| *file == path)?;
+            let keys = made.as_ref()?.inputs.get(flag)?;
+            keys.split(' ').next().map(str::to_string)
         };
         let responses = key("responses")?.or(input("pro", "in"));
         let motions = input("responses", "in").or(key("motions")?);
