@@ -87,9 +87,9 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
         for ((label, ..), dash) in most.iter().zip(DASHES) {
             layers.push(Layer::curve(label, Ink::Muted, dash, Vec::new(), Vec::new()));
         }
-        for Drawn { cases, shares, .. } in structures.iter().filter(|structure| !structure.shares.is_empty())
-        {
-            layers.push(Layer::estimates("observed fraction", Ink::Muted, Vec::new()));
+        let observed = structures.iter().filter(|structure| !structure.shares.is_empty());
+        for Drawn { cases, shares, .. } in observed {
+            layers.push(Layer::estimates("observed fraction", Ink::Muted, []));
             layers.push(Layer::estimates("", ink(cases), shares.clone()));
         }
         let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
