@@ -136,12 +136,9 @@ impl<'a> Ruler<'a> {
             }
             false => number::plain(value),
         };
-        let all = if self.high / self.low < 1e6 {
-            &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0][..]
-        } else {
-            &[1.0]
-        };
-        let minor = at(all, 1).into_iter().filter(|value| !labelled.contains(value));
+        let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+        let shown = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
+        let minor = at(shown, 1).into_iter().filter(|value| !labelled.contains(value));
         let minor = minor.map(|value| Tick { value, label: None });
         labelled.iter().map(|&value| Tick { value, label: Some(label(value)) }).chain(minor).collect()
     }

@@ -109,11 +109,8 @@ impl Layer {
         let points: Vec<[f64; 2]> =
             points.into_iter().filter(|point| point.iter().all(|v| v.is_finite())).collect();
         let step = points.len().div_ceil(MOST_POINTS).max(1);
-        Layer {
-            label: label.to_string(),
-            ink,
-            marks: Marks::Points(points.into_iter().step_by(step).collect()),
-        }
+        let marks = Marks::Points(points.into_iter().step_by(step).collect());
+        Layer { label: label.to_string(), ink, marks }
     }
 
     pub fn line(label: &str, ink: Ink, points: Vec<[f64; 2]>) -> Layer {
@@ -124,8 +121,9 @@ impl Layer {
         Layer { label: label.to_string(), ink, marks: Marks::Line { points, band, dash } }
     }
 
-    pub fn estimates(label: &str, ink: Ink, estimates: Vec<Estimate>) -> Layer {
-        Layer { label: label.to_string(), ink, marks: Marks::Estimates(estimates) }
+    pub fn estimates(label: &str, ink: Ink, estimates: impl IntoIterator<Item = Estimate>) -> Layer {
+        let marks = Marks::Estimates(estimates.into_iter().collect());
+        Layer { label: label.to_string(), ink, marks }
     }
 }
 

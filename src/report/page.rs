@@ -52,57 +52,41 @@ impl Page {
     /// Writes the page.
     pub fn html(&self) -> String {
         let Page { title, byline, sentence, facts, table, notes, figures, sections, key } = self;
-        let numbered: Vec<String> =
-            (1..).zip(figures).map(|(number, figure)| write_figure(figure, number)).collect();
-        let (first, others) = numbered.split_at(numbered.len().min(1));
-        let beside = format!(
-            "<div>\n{}{}</div>\n",
-            table.iter().map(write_table).collect::<String>(),
-            paragraphs(notes)
-        );
-        let folded = (figures.len() + 1, String::new());
-        let (_, folded) = sections.iter().fold(folded, |(number, written), section| {
-            (number + section.figures.len(), written + &write_section(section, number))
-        });
-        let parts = [
-            ("{title}", escape(title)),
-            ("{key}", escape(key)),
-            ("{byline}", escape(byline)),
-            ("{sentence}", html(sentence)),
-            ("{facts}", paragraphs(facts)),
-            ("{first}", beside + &first.concat()),
-            ("{figures}", others.concat()),
-            ("{sections}", folded),
-        ];
-        fill(include_str!("assets/page.html"), &parts)
+        let mut numbers = 1..;
+        let mut numbered = |figures: &[Figure]| -> Vec<String> {
+            figures.iter().zip(&mut numbers).map(|(figure, number)| write_figure(figure, number)).collect()
+        };
+        let seen = numbered(figures);
+        let (first, others) = seen.split_at(seen.len().min(1));
+        let sections = sections.iter().map(|section| write_section(section, numbered(&section.figures)));
+        format!(
+            include_str!("assets/page.html"),
+            style = include_str!("assets/page.css"),
+            title = escape(title),
+            key = escape(key),
+            byline = escape(byline),
+            sentence = html(sentence),
+            facts = paragraphs(facts),
+            table = table.iter().map(write_table).collect::<String>(),
+            notes = paragraphs(notes),
+            first = first.concat(),
+            figures = others.concat(),
+            sections = sections.collect::<String>(),
+        )
     }
-}
-
-/// Puts the parts into the template, in one pass, so that no part is searched for another.
-fn fill(template: &str, parts: &[(&str, String)]) -> String {
-    let mut page = String::new();
-    let mut rest = template;
-    while let Some((at, (mark, part))) =
-        parts.iter().filter_map(|part| Some((rest.find(part.0)?, part))).min_by_key(|(at, _)| *at)
-    {
-        page.push_str(&rest[..at]);
-        page.push_str(part);
-        rest = &rest[at + mark.len()..];
-    }
-    page + rest
 }
 
 fn paragraphs(marked: &[String]) -> String {
     marked.iter().map(|words| format!("<p>{}</p>\n", html(words))).collect()
 }
 
-fn write_section(Section { heading, paragraphs: words, tables, figures }: &Section, first: usize) -> String {
-    let tables: String = tables.iter().map(write_table).collect();
-    let figures: String =
-        (first..).zip(figures).map(|(number, figure)| write_figure(figure, number)).collect();
-    let figures =
-        if figures.is_empty() { figures } else { format!("<div class=\"figures\">\n{figures}</div>\n") };
-    let (heading, words) = (escape(heading), paragraphs(words));
+fn write_section(section: &Section, figures: Vec<String>) -> String {
+    let (heading, words) = (escape(&section.heading), paragraphs(&section.paragraphs));
+    let tables: String = section.tables.iter().map(write_table).collect();
+    let figures = match &figures[..] {
+        [] => String::new(),
+        _ => format!("<div class=\"figures\">\n{}</div>\n", figures.concat()),
+    };
     format!("<details><summary>{heading}</summary>\n{words}{tables}{figures}</details>\n")
 }
 

@@ -132,16 +132,17 @@ fn planes(compared: &[Comparison]) -> String {
     for plane in compared {
         let Some(side) = plane.quantity.strip_suffix("_plane") else { continue };
         let mut line = vec![format!("{}, {}, {side}", plane.suite, plane.structure)];
-        line.extend(names.map(|name| {
-            let row = compared.iter().find(|row| {
-                (&row.suite, &row.structure) == (&plane.suite, &plane.structure)
-                    && row.quantity == format!("{side}_{name}")
-            });
-            row.map_or(String::new(), both)
-        }));
+        line.extend(names.map(|name| coefficient(compared, plane, name).map_or(String::new(), both)));
         lines.push(line);
     }
     aligned(&lines, |_| false)
+}
+
+/// A coefficient of a plane.
+pub fn coefficient<'a>(compared: &'a [Comparison], plane: &Comparison, name: &str) -> Option<&'a Comparison> {
+    let quantity = plane.quantity.replace("plane", name);
+    let its = (&quantity, &plane.suite, &plane.structure);
+    compared.iter().find(|row| (&row.quantity, &row.suite, &row.structure) == its)
 }
 
 /// A number as published, of this run, and how far they are apart.

@@ -107,16 +107,13 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
         Target::Demand => &[Form::Single, Form::Biplanar],
         Target::Overturning => &[Form::Single],
     };
+    let rate = |set: &[usize], form: Form| {
+        let scores = folds.as_ref().and_then(|folds| contest.left_out(set, form, folds));
+        (contest.rate(cases, set, form, scores.as_deref()), scores)
+    };
     let sets = subsets(contest.names.len(), rules.terms);
-    let sets: Vec<(Vec<usize>, Form)> =
-        sets.into_iter().flat_map(|set| forms.iter().map(move |&form| (set.clone(), form))).collect();
-    let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = sets
-        .into_par_iter()
-        .map(|(set, form)| {
-            let scores = folds.as_ref().and_then(|folds| contest.left_out(&set, form, folds));
-            (contest.rate(cases, &set, form, scores.as_deref()), scores)
-        })
-        .collect();
+    let of_set = |set: &Vec<usize>| forms.iter().map(|&form| rate(set, form)).collect::<Vec<_>>();
+    let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = sets.par_iter().flat_map_iter(of_set).collect();
     // Rounded, so that of equal power laws (IM4 = IM3 IM5) the first stays first.
     let rounded = |value: Option<f64>, worst: f64| value.map_or(worst, |value| (value * 1e9).round());
     rated.sort_by(|(a, _), (b, _)| {
@@ -243,10 +240,8 @@ impl Contest {
         let n = self.y.len();
         let model = self.fit(set, form, &(0..n).collect::<Vec<_>>());
         let most_likely_sd = |law: &LinearFit| (law.rss / law.fit.n as f64).sqrt();
-        let log_likelihood = model
-            .as_ref()
-            .map(|model| self.log_likelihoods(set, model, most_likely_sd).iter().sum::<f64>())
-            .ok();
+        let log_likelihood = |model| self.log_likelihoods(set, model, most_likely_sd).iter().sum::<f64>();
+        let log_likelihood = model.as_ref().ok().map(log_likelihood);
         let parameters = match (self.target, form) {
             (Target::Overturning, _) => set.len() + 1,
             (Target::Demand, Form::Single) => set.len() + 2,

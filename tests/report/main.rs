@@ -10,7 +10,7 @@ use rockfrag::stages::evaluate::{Answer, ObjectRow, RatesRow};
 use rockfrag::stages::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::stages::report::figures::*;
 use rockfrag::stages::report::tables::Tables;
-use rockfrag::studies::ReliabilityBin;
+use rockfrag::studies::{ReliabilityBin, wilson_limits};
 use rockfrag::table::motions::Motion;
 use serde_json::json;
 
@@ -122,8 +122,8 @@ fn figures(count: usize) -> Vec<Figure> {
         overturning(&tables, &suites),
         hybrids(&tables, &suites),
         maps(&tables, &suites),
-        rates(&objects[..count.min(1)]),
-        list(&objects),
+        annual(&objects[..count.min(1)]),
+        annual(&objects),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
         ranking(&sets),
@@ -181,9 +181,10 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 #[test]
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
-    let shares =
-        observed_shares(&cases, equal_ratios([1.0, 100.0], 4), |events, n| [events as f64, n as f64]);
-    let expected = [[5.5 / 3.0, 2.0 / 3.0, 2.0, 3.0, 3.0], [95.0, 0.5, 1.0, 2.0, 2.0]];
+    let shares = observed_shares(&cases, equal_ratios([1.0, 100.0], 4));
+    let [first, last] = [wilson_limits(2, 3), wilson_limits(1, 2)];
+    let expected =
+        [[5.5 / 3.0, 2.0 / 3.0, first.low, first.high, 3.0], [95.0, 0.5, last.low, last.high, 2.0]];
     assert_eq!(Marks::Estimates(shares).numbers(), expected);
 }
 

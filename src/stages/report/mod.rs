@@ -54,15 +54,13 @@ impl Stage for Report {
 
     fn check(&self) -> anyhow::Result<()> {
         let page = self.page();
-        match page.extension().is_some_and(|ending| ending == "html") {
-            true => Ok(()),
-            false => {
-                let page = page.display();
-                Err(UsageError::because(format!(
-                    "out is {page}; expected the name of a page, such as report.html"
-                )))
-            }
+        if page.extension().is_none_or(|ending| ending != "html") {
+            let page = page.display();
+            return Err(UsageError::because(format!(
+                "out is {page}; expected the name of a page, such as report.html"
+            )));
         }
+        Ok(())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

@@ -12,7 +12,7 @@ use crate::pipeline::options::listed;
 use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
 use crate::rocking::{Outcome, Structure};
-use crate::stages::compare_paper::both;
+use crate::stages::compare_paper::{both, coefficient};
 use crate::stages::evaluate::{Answer, RatesRow, expected_number, model_of_all, size};
 use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
@@ -51,17 +51,17 @@ surface, calibrated where there are responses.";
 
 /// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
+    let answer_of = |stage: &str| tables.answer_of(stage).unwrap_or_default().to_string();
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
         ([], []) => (overturned(&tables.groups), outcomes(tables)?, OF_RESPONSES),
-        ([], compared) => (tables.answer_of("compare-paper"), planes(compared), OF_PAPER),
-        (objects, _) => (tables.answer_of("evaluate"), rates(objects), OF_RATES),
+        ([], compared) => (answer_of("compare-paper"), planes(compared), OF_PAPER),
+        (objects, _) => (answer_of("evaluate"), rates(objects), OF_RATES),
     };
     let (seen, more): (_, Vec<Figure>) =
         figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let more = if tables.objects.is_empty() { more } else { Vec::new() };
-    let made = tables.files.iter().filter_map(|(.., made)| made.as_ref());
     let mut joined = Warnings::default();
-    made.for_each(|made| joined.join(&made.warnings));
+    tables.made().for_each(|made| joined.join(&made.warnings));
     let (mut notes, mut others) = (tables.left_out.clone(), joined.lines());
     match &tables.objects[..] {
         [] => notes.extend(others.drain(..others.len().min(MOST_WARNINGS))),
@@ -71,17 +71,14 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Resul
     let is_shown =
         |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || tables.objects.is_empty());
     let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
-    let section = |heading: &str, paragraphs: Vec<String>, tables: Vec<Table>, figures: Vec<Figure>| {
-        let is_there = figures.len() + paragraphs.len() + tables.len() > 0;
-        is_there.then(|| Section { heading: heading.to_string(), paragraphs, tables, figures })
-    };
-    let sections = [
-        section("More figures", Vec::new(), Vec::new(), more),
-        section("Method", method.collect(), Vec::new(), Vec::new()),
-        section("Tests and fits", others, tests(tables)?, Vec::new()),
-        section("Files", Vec::new(), vec![files(tables)], Vec::new()),
+    let section = |heading: &str| Section { heading: heading.to_string(), ..Section::default() };
+    let mut sections = vec![
+        Section { figures: more, ..section("More figures") },
+        Section { paragraphs: method.collect(), ..section("Method") },
+        Section { paragraphs: others, tables: tests(tables)?, ..section("Tests and fits") },
+        Section { tables: vec![files(tables)], ..section("Files") },
     ];
-    let sections = sections.into_iter().flatten().collect();
+    sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     Ok(Page {
         sentence,
         facts: facts(tables),
@@ -114,20 +111,14 @@ fn facts(tables: &Tables) -> Vec<String> {
         facts.extend(doubts.error_largest.map(|part| format!("Largest uncertainty: {}.", part.words())));
         return facts;
     }
-    for stage in ["synthesize-motions", "import-motions"] {
-        let answer = tables.answer_of(stage);
-        if !answer.is_empty() {
-            facts.push(format!("Motions: {answer}."));
-        }
-    }
-    let mut structures: Vec<String> = Vec::new();
-    for Structure { name, p_rad_s, alpha_rad, eta } in tables.groups.iter().map(|cases| &cases.structure) {
+    let motions = ["synthesize-motions", "import-motions"].map(|stage| tables.answer_of(stage));
+    facts.extend(motions.into_iter().flatten().map(|answer| format!("Motions: {answer}.")));
+    let words = |Structure { name, p_rad_s, alpha_rad, eta }: &Structure| {
         let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
-        let structure = format!("{name} (*p* {p} rad/s, *α* {alpha}, *η* {eta})");
-        if !structures.contains(&structure) {
-            structures.push(structure);
-        }
-    }
+        format!("{name} (*p* {p} rad/s, *α* {alpha}, *η* {eta})")
+    };
+    let structures = by(&tables.groups, |cases| words(&cases.structure));
+    let structures: Vec<String> = structures.iter().map(|same| words(&same[0].structure)).collect();
     if !structures.is_empty() {
         facts.push(format!("Structures: {}.", listed(&structures, MOST_NAMED)));
     }
@@ -141,9 +132,7 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     let fields: Vec<&str> = fields.split('|').filter(has_any).collect();
     let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
     let is_number = |value: &Value| match value {
-        Value::String(text) => {
-            text.starts_with(|sign: char| sign.is_ascii_digit() || "-\u{2212}".contains(sign))
-        }
+        Value::String(text) => text.starts_with(|sign: char| "0123456789-\u{2212}".contains(sign)),
         other => other.is_number(),
     };
     let is_measure = |text: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == text);
@@ -152,7 +141,7 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if is_measure(text) => text.to_uppercase(),
-        Value::String(text) if ["structure", "object", "motion_id"].contains(&field) => text.clone(),
+        Value::String(text) if ["structure", "object"].contains(&field) => text.clone(),
         Value::String(text) => plain(text),
         _ => String::new(),
     };
@@ -201,18 +190,10 @@ fn rates(objects: &[Answer<RatesRow>]) -> Table {
 /// Table II: published over ours.
 fn planes(compared: &[Comparison]) -> Table {
     let row = |plane: &Comparison| {
-        let side = plane.quantity.trim_end_matches("_plane");
-        let cell = |coefficient: &str| {
-            let quantity = format!("{side}_{coefficient}");
-            let is_its = |number: &&Comparison| {
-                (&number.quantity, &number.suite, &number.structure)
-                    == (&quantity, &plane.suite, &plane.structure)
-            };
-            compared.iter().find(is_its).map(|number| minus(both(number)))
-        };
+        let cell = |name: &str| coefficient(compared, plane, name).map(|number| minus(both(number)));
         json!({
             "structure": plane.structure, "motions": plane.suite,
-            "plane": if side == "low" { "below" } else { "above" },
+            "plane": if plane.quantity == "low_plane" { "below" } else { "above" },
             "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
         })
     };
@@ -246,16 +227,14 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let calibration = tables.calibrations.iter().find(|row| row.group() == cases.group());
-        let often = calibration.map(|row| row.n_events as f64 / row.expected);
+        let often = tables.calibration(cases).map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
-        let mut capacities = capacities.iter().filter(|fit| fit.group() == cases.group());
-        let of_capacity = capacities.next().map(|fit| [fit.theta, fit.beta]);
-        let mut curves = tables.curves.iter().filter(|fit| fit.group() == cases.group());
-        let curve = curves.find(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
-        let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-        let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
+        let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
+        let of_capacity = capacity.map(|fit| [fit.theta, fit.beta]);
         let of_curve = || {
+            let curve = tables.curve(cases, Measure::Im5, None);
+            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
             [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
                 let row = parameters.iter().find(|row| row.parameter == which);
                 row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
@@ -292,12 +271,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
         validations,
         "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
     );
-    // A client's page has no curves and planes of the paper.
-    if !tables.objects.is_empty() {
-        let both = [outcomes(tables)?, validations];
-        return Ok(both.into_iter().filter(|table| !table.rows.is_empty()).collect());
-    }
-    let mut all = vec![
+    let of_paper = [
         table(
             "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
              over seeds",
@@ -310,11 +284,14 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
         table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
-        validations,
     ];
-    if !tables.compared.is_empty() {
-        all.insert(0, outcomes(tables)?);
-    }
+    let mut all = match (&tables.objects[..], &tables.compared[..]) {
+        ([], []) => Vec::from(of_paper),
+        ([], _) => [vec![outcomes(tables)?], Vec::from(of_paper)].concat(),
+        // A client's page has no curves and planes of the paper.
+        _ => vec![outcomes(tables)?],
+    };
+    all.push(validations);
     all.retain(|table| !table.rows.is_empty());
     Ok(all)
 }

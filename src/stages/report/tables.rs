@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event, Measure};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::paper;
@@ -110,9 +110,9 @@ impl Tables {
         let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
         let input = |name: &str, flag: &str| {
             let path = self.folder.join(format!("{name}.parquet"));
-            let made = self.files.iter().find(|file| file.0 == path).and_then(|file| file.2.as_ref());
-            let keys = made.and_then(|made| made.inputs.get(flag));
-            keys.and_then(|keys| keys.split(' ').next()).map(str::to_string)
+            let (.., made) = self.files.iter().find(|(file, ..)| *file == path)?;
+            let keys = made.as_ref()?.inputs.get(flag)?;
+            keys.split(' ').next().map(str::to_string)
         };
         let responses = key("responses")?.or(input("pro", "in"));
         let motions = input("responses", "in").or(key("motions")?);
@@ -155,14 +155,29 @@ impl Tables {
         if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
     }
 
-    /// What a stage has made.
+    /// What made each file that is ours.
+    pub fn made(&self) -> impl Iterator<Item = &Provenance> {
+        self.files.iter().filter_map(|(.., made)| made.as_ref())
+    }
+
     pub fn made_by(&self, stage: &str) -> Option<&Provenance> {
-        self.files.iter().filter_map(|(.., made)| made.as_ref()).find(|made| made.stage == stage)
+        self.made().find(|made| made.stage == stage)
     }
 
     /// The first line that a stage has printed.
-    pub fn answer_of(&self, stage: &str) -> String {
-        self.made_by(stage).map_or("", |made| &made.summary).lines().next().unwrap_or_default().to_string()
+    pub fn answer_of(&self, stage: &str) -> Option<&str> {
+        self.made_by(stage)?.summary.lines().next()
+    }
+
+    /// The calibration of overturning with some cases.
+    pub fn calibration(&self, cases: &Cases) -> Option<&Calibration> {
+        self.calibrations.iter().find(|row| row.group() == cases.group())
+    }
+
+    /// The curve of overturning of some cases over these measures.
+    pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
+        let mut its = self.curves.iter().filter(|fit| fit.group() == cases.group());
+        its.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
     }
 
     /// The motions of a row group in the middle of the file.

@@ -4,6 +4,7 @@ use crate::fragility::{Cases, DemandFit, DemandModel, Event, Measure};
 use crate::report::Estimate;
 use crate::stages::ida::ScaledMeasure;
 use crate::stages::report::tables::Tables;
+use crate::statistics::Limits;
 use crate::studies::wilson_limits;
 
 /// Label of the demand (Eq. 7).
@@ -81,13 +82,9 @@ pub fn ratios([low, high]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> 
     (0..=steps).map(move |k| low * (high / low).powf(k as f64 / steps as f64))
 }
 
-/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with limits by
-/// `limits` of events and cases, number of cases. Empty bins are left out.
-pub fn observed_shares(
-    cases: &[(f64, bool)],
-    bin: impl Fn(f64) -> usize,
-    limits: impl Fn(usize, usize) -> [f64; 2],
-) -> Vec<Estimate> {
+/// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %
+/// limits, number of cases. Empty bins are left out.
+pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Estimate> {
     let mut bins: Vec<(f64, usize, usize)> = Vec::new();
     for &(value, event) in cases {
         let place = bin(value);
@@ -96,16 +93,10 @@ pub fn observed_shares(
         (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
     }
     let share = |&(sum, n, events): &(f64, usize, usize)| {
-        let [low, high] = limits(events, n);
+        let Limits { low, high } = wilson_limits(events, n);
         Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
     };
     bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
-}
-
-/// Wilson's limits of a share, for [`observed_shares`].
-pub fn wilson(events: usize, n: usize) -> [f64; 2] {
-    let limits = wilson_limits(events, n);
-    [limits.low, limits.high]
 }
 
 /// Bins of equal ratio between two values, for [`observed_shares`].

@@ -107,7 +107,7 @@ pub fn quality(tables: &Tables, groups: &[&Cases]) -> Figure {
                 Some(Estimate { x: x?, y: row as f64 + apart, low: f64::NAN, high: f64::NAN, n: f64::NAN })
             };
             let estimates = values(cases).into_iter().enumerate().filter_map(estimate);
-            Layer::estimates(&name(cases), Ink::Data(number), estimates.collect())
+            Layer::estimates(&name(cases), Ink::Data(number), estimates)
         };
         let x = Axis::linear(label).over(0.0, 1.08 * largest.min(MOST_ZETA * least.max(0.2)));
         let y = Axis::names(Measure::SCALAR.map(name_of));

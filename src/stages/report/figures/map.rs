@@ -48,9 +48,8 @@ fn panel(tables: &Tables, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
 fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
     let structure = &cases.structure;
-    let fitted = tables.calibrations.iter().find(|row| row.group() == cases.group());
     let shipped = || Calibration::shipped(Kind::of_word(cases.suite.as_deref()), structure, None);
-    let calibration = fitted.cloned().unwrap_or_else(shipped);
+    let calibration = tables.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
         let of = calibration.predictor(structure, &measures, None).filter(|_| measures.im4 >= 1.0);

@@ -20,7 +20,7 @@ pub use map::maps;
 pub use motion::{motion, similarity};
 pub use planes::planes;
 pub use probability::{exceedance, hybrids, overturning};
-pub use studies::{Stripe, ida, list, ranking, rates, validation};
+pub use studies::{Stripe, annual, ida, ranking, validation};
 
 /// The most pairs of suite and structure that are drawn, and structures in one panel.
 const MOST_GROUPS: usize = 4;
@@ -37,8 +37,7 @@ pub fn all(tables: &Tables) -> anyhow::Result<Vec<Figure>> {
     let fitted: Vec<&Cases> = groups.iter().copied().filter(has_fits).collect();
     let motions = tables.motions()?;
     let mut figures = vec![
-        list(&tables.objects),
-        rates(&tables.objects),
+        annual(&tables.objects),
         ida(&tables.rows("ida.fragility")?, &tables.rows("ida")?, &tables.rows("ida.stripes")?),
         hybrids(tables, &suites),
         maps(tables, &suites),

@@ -1,7 +1,7 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{compare, demand_fits, demands, ends, equal_ratios, label, observed_shares};
-use super::common::{ratios, rocked, wilson};
+use super::common::{by, compare, demand_fits, demands, ends, equal_ratios, label};
+use super::common::{observed_shares, ratios, rocked};
 use crate::fragility::{
     Cases, CurveFit, DemandFit, DemandModel, Measure, Probability, hybrid_measure, lambda,
 };
@@ -67,16 +67,11 @@ pub fn hybrids(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
 /// Draws what has a curve: a panel a suite, each structure in one colour in all panels.
 fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
     all.retain(|over| over.structures.iter().any(|structure| !structure.curves.is_empty()));
-    let mut names: Vec<&str> = Vec::new();
-    for name in all.iter().flat_map(|over| &over.structures).map(|structure| &structure.cases.structure.name)
-    {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
+    let names = all.iter().flat_map(|over| &over.structures).map(|drawn| &drawn.cases.structure.name);
+    let names = by(names, |name| name);
     let panel = |Over { measure, structures }: &Over| {
         let ink = |cases: &Cases| {
-            Ink::Data(names.iter().position(|name| *name == cases.structure.name).unwrap_or(0))
+            Ink::Data(names.iter().position(|same| *same[0] == cases.structure.name).unwrap_or(0))
         };
         let mut layers = Vec::new();
         for Drawn { cases, curves, .. } in structures {
@@ -92,9 +87,9 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
         for ((label, ..), dash) in most.iter().zip(DASHES) {
             layers.push(Layer::curve(label, Ink::Muted, dash, Vec::new(), Vec::new()));
         }
-        for Drawn { cases, shares, .. } in structures.iter().filter(|structure| !structure.shares.is_empty())
-        {
-            layers.push(Layer::estimates("observed fraction", Ink::Muted, Vec::new()));
+        let observed = structures.iter().filter(|structure| !structure.shares.is_empty());
+        for Drawn { cases, shares, .. } in observed {
+            layers.push(Layer::estimates("observed fraction", Ink::Muted, []));
             layers.push(Layer::estimates("", ink(cases), shares.clone()));
         }
         let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
@@ -148,20 +143,17 @@ fn exceeding<'a>(tables: &Tables, groups: &[&'a Cases]) -> Over<'a> {
 
 /// P_ro over a measure, or over a hybrid one at the median IM3.
 fn over<'a>(tables: &Tables, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
-    let fit = |cases: &Cases| {
-        let its = tables.curves.iter().filter(|fit| fit.group() == cases.group());
-        let mut its = its.filter(|fit| (fit.im_x, fit.im_y) == (im_x, im_y));
-        its.find(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0)
-    };
     let structure = |&cases: &&'a Cases| {
-        let Some(fit) = fit(cases) else { return Drawn { cases, curves: Vec::new(), shares: Vec::new() } };
+        let fit = tables.curve(cases, im_x, im_y);
+        let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
+        let Some(fit) = rising else { return Drawn { cases, curves: Vec::new(), shares: Vec::new() } };
         let share = |(k, event)| Some((measure_of(fit, &cases.measures(k))?, event));
         let observed: Vec<(f64, bool)> = rocked(cases).filter_map(share).collect();
         let im3 = sample_quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
         let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
         let ends = ends(observed.iter().map(|(value, _)| *value));
         let bin = equal_ratios(ends, (observed.len() / CASES).clamp(4, BINS));
-        let shares = observed_shares(&observed, bin, wilson);
+        let shares = observed_shares(&observed, bin);
         Drawn { cases, curves: vec![curve("", ratios(ends, STEPS), p)], shares }
     };
     let measure = if im_y.is_some() { "hybrid measure" } else { label(im_x) };
@@ -183,5 +175,5 @@ fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
         (Measure::Im5, _) => value * im3,
         _ => value,
     };
-    IntensityMeasures::of_peaks(im4, im4 / im3)
+    measures(im4, im3)
 }

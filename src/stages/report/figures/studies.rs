@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::common::{by, label_of_scaled, observed_shares, ratios, wilson};
+use super::common::{by, label_of_scaled, observed_shares, ratios};
 use crate::fragility::{Z_95, grouped, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
@@ -21,30 +21,27 @@ const STEPS: usize = 100;
 const SETS: i64 = 6;
 const PAPER: [&str; 2] = ["im3:im4", "im5"];
 
-/// Annual rates of overturning of objects, if there are several: one row an object in their order.
-pub fn list(objects: &[Answer<RatesRow>]) -> Figure {
-    let several = objects.iter().filter(|_| objects.len() > 1).take(OBJECTS);
-    let rates = several.map(|of| (of.object.structure.clone(), of.row.overturning_per_year));
-    annual("list", "How often each object overturns", "annual rate of overturning", rates.collect())
-}
-
-/// Annual rates of the limit states, if there is one object.
-pub fn rates(objects: &[Answer<RatesRow>]) -> Figure {
-    let rates = match objects {
-        [Answer { object, row, .. }] => vec![
-            ("rocks".to_string(), [row.rocking_per_year, None, None]),
-            (format!("{}, or overturns", too_far(object)), row.failure_per_year),
-            ("overturns".to_string(), row.overturning_per_year),
-        ],
-        _ => Vec::new(),
+/// Annual rates: of several objects those of overturning, one row an object in their order; of one object those
+/// of its limit states.
+pub fn annual(objects: &[Answer<RatesRow>]) -> Figure {
+    let (name, title, label, rates) = match objects {
+        [] => return Figure::default(),
+        [Answer { object, row, .. }] => {
+            let rates: Vec<(String, Limited)> = vec![
+                ("rocks".to_string(), [row.rocking_per_year, None, None]),
+                (format!("{}, or overturns", too_far(object)), row.failure_per_year),
+                ("overturns".to_string(), row.overturning_per_year),
+            ];
+            ("rates", "How often it reaches each limit state", "annual rate", rates)
+        }
+        several => {
+            let rate = |of: &Answer<RatesRow>| (of.object.structure.clone(), of.row.overturning_per_year);
+            let rates = several.iter().take(OBJECTS).map(rate).collect();
+            ("list", "How often each object overturns", "annual rate of overturning", rates)
+        }
     };
-    annual("rates", "How often it reaches each limit state", "annual rate", rates)
-}
-
-fn annual(name: &str, title: &str, label: &str, rates: Vec<(String, Limited)>) -> Figure {
-    let panel = (!rates.is_empty()).then(|| in_rows("", Axis::log(label), Ink::Data(1), rates));
-    let caption = "Annual rates with the 95 % limits of the model.";
-    Figure::new(name, title, caption, 1, 0.0, panel.into_iter().collect())
+    let panel = in_rows("", Axis::log(label), Ink::Data(1), rates);
+    Figure::new(name, title, "Annual rates with the 95 % limits of the model.", 1, 0.0, vec![panel])
 }
 
 /// Values with their limits, each in a row of its name.
@@ -53,7 +50,7 @@ fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, Limited)>) -> Pane
         let [x, low, high] = limited.map(|number| number.unwrap_or(f64::NAN));
         Estimate { x, y: row as f64, low, high, n: f64::NAN }
     };
-    let estimates = Layer::estimates("", ink, rows.iter().enumerate().map(estimate).collect());
+    let estimates = Layer::estimates("", ink, rows.iter().enumerate().map(estimate));
     Panel::new(title, x, Axis::names(rows.into_iter().map(|(name, _)| name)), vec![estimates])
 }
 
@@ -79,8 +76,8 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
         let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
         let cases: Vec<_> =
             its.map(|stripe| (stripe.intensity, stripe.outcome == Outcome::Overturning)).collect();
-        let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x), wilson);
-        let shares = shares.iter().step_by(shares.len().div_ceil(LEVELS).max(1)).copied().collect();
+        let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x));
+        let every = shares.len().div_ceil(LEVELS).max(1);
         let below = |row: &CapacityRow| Some(ends[0]).filter(|_| row.capacity == CapacityStatus::Below);
         let its = rows.iter().filter(|row| row.group() == fit.group());
         let mut capacities: Vec<f64> =
@@ -94,7 +91,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
         let layers = vec![
             Layer::line("lognormal curve", Ink::Data(1), curve.unwrap_or_default()),
             Layer::line("at or below the intensity", Ink::Muted, steps.collect()),
-            Layer::estimates("at the intensity", Ink::Data(0), shares),
+            Layer::estimates("at the intensity", Ink::Data(0), shares.into_iter().step_by(every)),
         ];
         let (x, y) = (Axis::log(label_of_scaled(fit.measure)), Axis::probability("fraction that overturns"));
         Panel::new(&title(&fit.structure, fit.suite.as_deref()), x, y, layers)
@@ -111,25 +108,22 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 /// series an event and model.
 pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let title = |bin: &ReliabilityBin| title(&bin.structure, bin.suite.as_deref());
+    let estimate = |bin: &ReliabilityBin| {
+        let ReliabilityBin { predicted: x, share: y, share_low: low, share_high: high, n, .. } = *bin;
+        Estimate { x, y, low, high, n: n as f64 }
+    };
+    let series = |(number, bins): (usize, Vec<&ReliabilityBin>)| {
+        let label = format!("{}, {}", bins[0].event, bins[0].model);
+        Layer::estimates(&label, Ink::Data(number), bins.into_iter().map(estimate))
+    };
     let panel = |bins: Vec<&ReliabilityBin>| {
+        let title = title(bins[0]);
         let diagonal = vec![[0.0, 0.0], [1.0, 1.0]];
-        let mut layers =
-            vec![Layer::curve("predicted = observed", Ink::Muted, Dash::Short, diagonal, Vec::new())];
-        let panel_title = title(bins[0]);
-        for (number, series) in by(bins, |bin| (bin.event, &bin.model)).into_iter().enumerate() {
-            let label = format!("{}, {}", series[0].event, series[0].model);
-            let estimate = |bin: &ReliabilityBin| {
-                let ReliabilityBin { predicted: x, share: y, share_low: low, share_high: high, n, .. } = *bin;
-                Estimate { x, y, low, high, n: n as f64 }
-            };
-            layers.push(Layer::estimates(
-                &label,
-                Ink::Data(number),
-                series.into_iter().map(estimate).collect(),
-            ));
-        }
+        let ideal = Layer::curve("predicted = observed", Ink::Muted, Dash::Short, diagonal, Vec::new());
+        let series = by(bins, |bin| (bin.event, &bin.model)).into_iter().enumerate().map(series);
+        let layers = std::iter::once(ideal).chain(series).collect();
         let (x, y) = (Axis::probability("predicted probability"), Axis::probability("observed fraction"));
-        Panel::new(&panel_title, x, y, layers)
+        Panel::new(&title, x, y, layers)
     };
     let caption =
         "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits.";
@@ -143,8 +137,8 @@ pub fn ranking(sets: &[RankedSet]) -> Figure {
     let row = |set: &RankedSet| {
         let planes = if set.form == Form::Biplanar { ", two planes" } else { "" };
         let name = format!("{}{planes}", set.measures.to_uppercase().replace(':', ", "));
-        let (x, error) = set.loss.zip(set.loss_error)?;
-        Some((name, [x, x - Z_95 * error, x + Z_95 * error].map(Some)))
+        let [low, high] = [-Z_95, Z_95].map(|z| Some(set.loss? + z * set.loss_error?));
+        (name, [set.loss, low, high])
     };
     let title = |set: &RankedSet| {
         let target = if set.target == Target::Demand { "demand" } else { "overturning" };
@@ -154,7 +148,7 @@ pub fn ranking(sets: &[RankedSet]) -> Figure {
         (set.rank <= SETS || PAPER.contains(&set.measures.as_str())) && set.loss.and(set.loss_error).is_some()
     };
     let panel = |sets: Vec<&RankedSet>| {
-        let rows: Vec<_> = sets.iter().filter_map(|set| row(set)).collect();
+        let rows: Vec<_> = sets.iter().map(|set| row(set)).collect();
         let zero = vec![[0.0, -0.5], [0.0, rows.len() as f64 - 0.5]];
         let x = Axis::linear("log score, less that of the best");
         let mut panel = in_rows(&title(sets[0]), x, Ink::Data(0), rows);
