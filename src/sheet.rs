@@ -59,7 +59,6 @@ impl Sheet {
     pub fn parse(bytes: &[u8]) -> Result<Sheet, SheetError> {
         let text = decode(bytes)?;
         let lines: Vec<&str> = text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a'])).collect();
-        let is_comment = |line: &str| ["#", "%", "//"].iter().any(|sign| line.starts_with(sign));
         // The last lines show the separator and the columns of numbers.
         let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
         let body: Vec<&&str> = body.take(400).collect();
@@ -68,11 +67,13 @@ impl Sheet {
         let mut rows = rows(&lines, separator);
         let is_number = |cell: &str| number(cell, separator).is_some();
         let numbers = |(_, row): &&Row| row.iter().filter(|cell| is_number(cell)).count();
-        let (_, model) = rows.iter().rev().take(400).max_by_key(numbers).cloned().unwrap_or_default();
-        let is_data = |(_, row): &Row| {
+        let is_body = |(at, _): &&Row| !is_comment(lines[at - 1]);
+        let last = rows.iter().rev().filter(is_body).take(400);
+        let (_, model) = last.max_by_key(numbers).cloned().unwrap_or_default();
+        let is_data = |(at, row): &Row| {
             let pairs = model.iter().zip(row).filter(|(like, cell)| is_number(like) && !cell.is_empty());
             let (numbers, words): (Vec<_>, Vec<_>) = pairs.partition(|(_, cell)| is_number(cell));
-            numbers.len() > words.len()
+            !is_comment(lines[at - 1]) && numbers.len() > words.len()
         };
         let is_heading = |(at, row): &&Row| match is_comment(lines[at - 1]) || separator == ' ' {
             true => row.len() == model.len(),
@@ -119,6 +120,10 @@ impl Sheet {
     }
 }
 
+fn is_comment(line: &str) -> bool {
+    ["#", "%", "//"].iter().any(|sign| line.starts_with(sign))
+}
+
 /// Returns whether `c` separates cells of a line. Among numbers between blanks, a comma is a decimal one.
 fn is_parted(line: &str, c: char) -> bool {
     let is_number = |word: &str| !word.ends_with(',') && number(word, ' ').is_some();
@@ -132,7 +137,9 @@ type Row = (usize, StringRecord);
 /// Reads the rows of lines that are not empty, without comment signs.
 fn rows(lines: &[&str], separator: char) -> Vec<Row> {
     let mut text = String::new();
-    for line in lines.iter().map(|line| line.trim_start_matches(['#', '%', '/', ' '])) {
+    let signs = ['#', '%', '/', ' '];
+    for &line in lines {
+        let line = if is_comment(line) { line.trim_start_matches(signs) } else { line };
         // Between blanks, a unit in brackets belongs to its heading.
         let units = || line.replace(" (", "(").replace(" [", "[");
         let words = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");

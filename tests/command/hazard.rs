@@ -57,6 +57,9 @@ fn a_curve_is_the_same_however_agencies_write_it() {
         table("PGA (%g),mafe", |a| format!("{},{}", a * 100.0, rate(a))),
         table("# Site 1\nReturn period (years),PGA (g)", |a| format!("{},{a}", 1.0 / rate(a))),
         table("pga_g,PoE in 50 years", percent),
+        table("pga_g,PoE in 50 years (%)", percent),
+        table("pga_g,PoE in 50 years (%)", |a| percent(a).replace('%', "")),
+        table("# 42.35, 13.40\npga_g,AFE", |a| format!("{a},{}", rate(a))),
         table("PGA (g),probability_of_exceedance_in_1_year", |a| format!("{a},{}", -(-rate(a)).exp_m1())),
         table("T_R [anni];ag [g];F0 [-];TC* [s]", |a| {
             format!("{};{};2,4;0,3", comma(1.0 / rate(a)), comma(a))
@@ -73,6 +76,10 @@ fn a_curve_is_the_same_however_agencies_write_it() {
     for text in &files {
         assert!(near(rate_by(text), expected, 1e-6), "{text}");
     }
+    let chance = table("pga_g,Chance[%]", |a| percent(a).replace('%', ""));
+    let renamed = "--ratio 0.1 --columns probability_of_exceedance_in_50_years=Chance[%]";
+    let by_name = number(&answer(&[("hazard.csv", &chance)], renamed), "overturning_per_year");
+    assert!(near(by_name, expected, 1e-6), "{by_name}");
 }
 
 #[test]
@@ -153,6 +160,7 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", ["a.csv", "uniform hazard spectrum"]),
         (&openquake("PGA", "mean", 1.0, 1.0).replace(", imt='PGA'", ""), ["a.csv", "imt"]),
         (&openquake("SA(0.3)", "mean", 1.0, 1.0), ["SA(0.3)", "SA(1.0)"]),
+        (&openquake("PGA", "quantile-0.95", 1.0, 1.0), ["quantile-0.95", "mean"]),
         (&curve("intensity,AFE", 1.0), ["intensity", "PGA"]),
         (&curve("SA(0.2) (g),AFE", 1.0), ["SA(0.2)", "1 s"]),
         (&curve("SA(1.0) (g),AFE", 1.0), ["SA(1.0 s)", "PGA"]),

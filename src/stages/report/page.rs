@@ -135,19 +135,20 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
         Value::String(text) => text.starts_with(|sign: char| "0123456789-\u{2212}".contains(sign)),
         other => other.is_number(),
     };
+    let is_name = |field: &str| ["structure", "object", "file"].contains(&field);
     let is_measure = |text: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == text);
     let cell = |field: &str, value: &Value| match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
+        Value::String(text) if is_name(field) => text.clone(),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if is_measure(text) => text.to_uppercase(),
-        Value::String(text) if ["structure", "object"].contains(&field) => text.clone(),
         Value::String(text) => plain(text),
         _ => String::new(),
     };
     let column = |field: &&str| Column {
         head: plain(field),
-        is_number: *field != "size" && rows.iter().any(|row| is_number(&row[*field])),
+        is_number: *field != "size" && !is_name(field) && rows.iter().any(|row| is_number(&row[*field])),
     };
     let cells = |row: &Value| fields.iter().map(|field| cell(field, &row[*field])).collect();
     let columns = fields.iter().map(column).collect();

@@ -19,7 +19,9 @@ pub fn rename(sheet: &mut Sheet, renamed: &[(String, String)]) -> anyhow::Result
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
             bail!("no heading '{heading}'; found {}", headings(sheet));
         };
-        let wanted = Heading::of(column);
+        // A percent sign is of the numbers, whatever they are called.
+        let sign = if heading.contains('%') { " (%)" } else { "" };
+        let wanted = Heading::of(&format!("{column}{sign}"));
         if let (Some(old), Some(new)) = (found.unit, wanted.unit)
             && old.quantity != new.quantity
         {
@@ -103,12 +105,12 @@ impl Frequency {
 
     /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
     pub fn annual_rate(self, sheet: &Sheet, row: usize, column: usize) -> anyhow::Result<Option<f64>> {
-        let is_percent = sheet.headings[column].text.contains('%');
-        let number = sheet.number(row, column)? * if is_percent { 0.01 } else { 1.0 };
+        let [of_all, of_cell] =
+            [&sheet.headings[column].text, sheet.cell(row, column)].map(|text| text.contains('%'));
+        // Of a cell with its own sign, the number is a share already.
+        let number = sheet.number(row, column)? * if of_all && !of_cell { 0.01 } else { 1.0 };
         let expected = match self {
-            Frequency::Rate | Frequency::Occurrence
-                if is_percent || sheet.cell(row, column).contains('%') =>
-            {
+            Frequency::Rate | Frequency::Occurrence if of_all || of_cell => {
                 "a rate a year, such as 0.002; percent are probabilities"
             }
             Frequency::Rate | Frequency::Occurrence if (0.0..=MOST_FREQUENT).contains(&number) => {

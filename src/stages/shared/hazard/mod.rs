@@ -150,7 +150,15 @@ impl Found {
                  SA(1.0 s), at several rates"
             );
         }
-        if let Some((rate, ..)) = frequencies.iter().find(|(_, of, _)| *of == Frequency::Occurrence) {
+        let occurrence = frequencies.iter().find(|(_, of, _)| *of == Frequency::Occurrence);
+        let is_unused = |(at, content): &&(usize, Content)| {
+            (*content == Content::Unknown || (*content == Content::Magnitude && occurrence.is_none()))
+                && sheet.number(0, *at).is_ok()
+                && !PLACES.contains(&sheet.headings[*at].name.as_str())
+        };
+        let unused = others.iter().filter(is_unused).map(|(at, _)| sheet.headings[*at].text.clone());
+        self.unused.extend(unused.map(|heading| (Warning::UnusedColumns, heading)).collect());
+        if let Some((rate, ..)) = occurrence {
             self.joint.push(joint(sheet, *rate, &intensities, place(Content::Magnitude))?);
             return Ok(());
         }
@@ -179,13 +187,6 @@ impl Found {
                 self.curves.push(Curve { intensity, statistic, curve: curve(points)?, file: file.clone() });
             }
         }
-        let is_unused = |(at, content): &&(usize, Content)| {
-            matches!(content, Content::Unknown | Content::Magnitude)
-                && sheet.number(0, *at).is_ok()
-                && !PLACES.contains(&sheet.headings[*at].name.as_str())
-        };
-        let unused = others.iter().filter(is_unused).map(|(at, _)| sheet.headings[*at].text.clone());
-        self.unused.extend(unused.map(|heading| (Warning::UnusedColumns, heading)).collect());
         Ok(())
     }
 }
@@ -321,6 +322,9 @@ fn openquake(sheet: &Sheet, investigation_years: Option<f64>, file: String) -> a
         Some("quantile-0.16") => Statistic::Low,
         Some("quantile-0.84") => Statistic::High,
         Some("quantile-0.5") => Statistic::Median,
+        Some(other) if other.starts_with("quantile-") || other == "max" => {
+            bail!("a curve of {other}; expected the mean, or quantiles 0.16 and 0.84 beside it")
+        }
         _ => Statistic::Mean,
     };
     if sheet.lines.len() != 1 {
