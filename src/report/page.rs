@@ -49,7 +49,6 @@ pub struct Column {
 }
 
 impl Page {
-    /// Writes the page.
     pub fn html(&self) -> String {
         let Page { title, byline, sentence, facts, table, notes, figures, sections, key } = self;
         let mut numbers = 1..;
