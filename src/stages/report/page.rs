@@ -49,7 +49,6 @@ validate: Validation compares predicted probabilities with the outcomes of motio
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
 surface, calibrated where there are responses.";
 
-/// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
     let answer_of = |stage: &str| tables.answer_of(stage).unwrap_or_default().to_string();
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
@@ -259,7 +258,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     ))
 }
 
-/// The tables that are folded.
+/// The folded tables.
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
