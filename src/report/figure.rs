@@ -128,7 +128,6 @@ impl Layer {
 }
 
 impl Figure {
-    /// Makes a figure of panels, at most `columns` in a row and `height` points high.
     pub fn new(
         name: &str,
         title: &str,

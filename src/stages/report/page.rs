@@ -168,7 +168,6 @@ fn warnings_of(objects: &[Answer<RatesRow>]) -> Vec<String> {
     by(warned, |answer| &answer.doubts.warnings).into_iter().map(line).collect()
 }
 
-/// One row per object.
 fn rates(objects: &[Answer<RatesRow>]) -> Table {
     let years = objects.iter().find_map(|answer| answer.row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
@@ -258,7 +257,6 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     ))
 }
 
-/// The folded tables.
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
