@@ -51,8 +51,8 @@ fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     Panel::new(&name(cases), x, y, layers)
 }
 
-/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of parallel
-/// planes, which meet nowhere, along ln IM3.
+/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of
+/// parallel planes, which meet nowhere, along ln IM3.
 fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
     let unit = |vector: Vector3<f64>| vector.try_normalize(1e-12).unwrap_or(Vector3::y());
