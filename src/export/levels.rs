@@ -18,11 +18,10 @@ pub fn levels<const N: usize>(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> 
         let is_last = index + 2 == edges.len();
         let (from, to) = (interval[0], if is_last { interval[1] } else { interval[1] * (1.0 - GAP) });
         let step = |k: i32| from * (to / from).powf(f64::from(k) / f64::from(FIRST_STEPS));
-        let point = |at: f64| (at, f(at));
+        let point = |k: i32| (step(k), f(step(k)));
         for k in 0..FIRST_STEPS {
-            let start = if k == 0 { from } else { step(k) };
-            levels.push(start);
-            refine(point(start), point(step(k + 1)), tolerance, MOST_HALVINGS, &f, &mut levels);
+            levels.push(step(k));
+            refine(point(k), point(k + 1), tolerance, MOST_HALVINGS, &f, &mut levels);
         }
         levels.push(to);
     }

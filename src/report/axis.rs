@@ -24,19 +24,18 @@ pub struct Tick {
 const MARGIN: f64 = 0.04;
 
 impl Panel {
-    /// Whether estimates lie in rows, with limits along x.
-    pub fn has_rows(&self) -> bool {
-        matches!(self.y.scale, Scale::Names(_))
+    /// Names of the rows in which estimates lie, with limits along x; none where y has numbers.
+    pub fn names(&self) -> &[String] {
+        if let Scale::Names(names) = &self.y.scale { names } else { &[] }
     }
 
-    /// Finds the ranges of both axes.
     pub fn rulers(&self) -> [Ruler<'_>; 2] {
         let (mut x, mut y) = (Vec::new(), Vec::new());
         for layer in &self.layers {
             for [at, value, low, high, _] in layer.marks.numbers() {
                 x.push(at);
                 y.push(value);
-                if self.has_rows() { &mut x } else { &mut y }.extend([low, high]);
+                if self.names().is_empty() { &mut y } else { &mut x }.extend([low, high]);
             }
         }
         [Ruler::new(&self.x, &x), Ruler::new(&self.y, &y)]
@@ -65,7 +64,6 @@ impl<'a> Ruler<'a> {
         Ruler { scale, low, high }
     }
 
-    /// Returns the fraction of the axis at a value.
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::axis::Ruler;
-use super::figure::{Dash, Figure, Ink, Layer, Marks, Panel, Scale};
+use super::figure::{Dash, Figure, Ink, Layer, Marks, Panel};
 use super::text::{Level, escape, runs, words};
 
 /// Width of a figure across two columns of a journal, 180 mm.
@@ -19,9 +19,9 @@ const LEFT: f64 = 40.0;
 const RIGHT: f64 = 12.0;
 const TITLE: f64 = 17.0;
 const BELOW: f64 = 28.0;
-/// Height of a row with a name, and bounds of the room for names.
+/// Height of a row with a name, and the most room for names.
 const ROW: f64 = 12.0;
-const NAMES: [f64; 2] = [40.0, 190.0];
+const NAMES: f64 = 190.0;
 /// Length of a tick with a label.
 const TICK: f64 = 3.0;
 /// Height of a line of the legend, length of its marks, and room between its entries.
@@ -108,7 +108,11 @@ fn drawing(figure: &Figure) -> (String, f64) {
     let names = figure.panels.iter().map(|panel| names_room(panel, across)).fold(LEFT, f64::max);
     let mut top = legend(&mut text, figure, names);
     for row in figure.panels.chunks(columns) {
-        let height = row.iter().map(|panel| panel_height(panel, figure.height)).fold(0.0, f64::max);
+        let height = |panel: &Panel| match panel.names().len() {
+            0 => figure.height,
+            rows => ROW * rows as f64,
+        };
+        let height = row.iter().map(height).fold(0.0, f64::max);
         let title = if row.iter().all(|panel| panel.title.is_empty()) { 0.3 * TITLE } else { TITLE };
         for (column, panel) in row.iter().enumerate() {
             let left = column as f64 * across + names;
@@ -121,22 +125,10 @@ fn drawing(figure: &Figure) -> (String, f64) {
     (text, round(top.max(1.0)))
 }
 
-fn panel_height(panel: &Panel, height: f64) -> f64 {
-    match &panel.y.scale {
-        Scale::Names(names) => ROW * names.len() as f64,
-        _ => height,
-    }
-}
-
 /// Returns the room to the left of a panel, for its names if it has any.
 fn names_room(panel: &Panel, across: f64) -> f64 {
-    match &panel.y.scale {
-        Scale::Names(names) => {
-            let widest = names.iter().map(|name| width(name, SMALL_LETTERS)).fold(0.0, f64::max);
-            (widest + 12.0).clamp(NAMES[0], NAMES[1].min(0.5 * across))
-        }
-        _ => LEFT,
-    }
+    let widest = panel.names().iter().map(|name| width(name, SMALL_LETTERS)).fold(0.0, f64::max);
+    (widest + 12.0).clamp(LEFT, NAMES.min(0.5 * across))
 }
 
 /// Estimates the width of marked text: the letters of its reader are not known.
@@ -146,7 +138,7 @@ fn width(marked: &str, size: f64) -> f64 {
 
 /// Cuts a name to the room for names.
 fn shortened(name: String) -> String {
-    let most = ((NAMES[1] - 12.0) / (SMALL_LETTERS * LETTER_WIDTH)) as usize;
+    let most = ((NAMES - 12.0) / (SMALL_LETTERS * LETTER_WIDTH)) as usize;
     match name.char_indices().nth(most) {
         Some((end, _)) => format!("{}\u{2026}", &name[..end]),
         None => name,
@@ -191,14 +183,12 @@ fn write_panel(text: &mut String, panel: &Panel, area: Area) {
     // What lies beyond the axes is cut off by the inner picture.
     let [x_at, y_at, wide, high] = area.map(round);
     let _ = writeln!(text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
-    if let Scale::Names(names) = &panel.y.scale {
-        for row in 0..names.len() {
-            let at = height * (1.0 - y.fraction(row as f64));
-            path(text, &[[0.0, at], [width, at]], Ink::Rule.colour(), 0.3, Dash::Solid);
-        }
+    for row in 0..panel.names().len() {
+        let at = height * (1.0 - y.fraction(row as f64));
+        path(text, &[[0.0, at], [width, at]], Ink::Rule.colour(), 0.3, Dash::Solid);
     }
     for layer in &panel.layers {
-        marks(text, layer, panel.has_rows(), |[x_value, y_value]| {
+        marks(text, layer, !panel.names().is_empty(), |[x_value, y_value]| {
             [width * x.fraction(x_value), height * (1.0 - y.fraction(y_value))]
         });
     }

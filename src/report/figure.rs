@@ -128,7 +128,6 @@ impl Layer {
 }
 
 impl Figure {
-    /// Makes a figure of panels, at most `columns` in a row and `height` points high.
     pub fn new(
         name: &str,
         title: &str,
@@ -144,7 +143,7 @@ impl Figure {
 
     /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
     /// empty.
-    pub fn csv(&self) -> Result<String, csv::Error> {
+    pub fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(["panel", "layer", "x_is", "x", "y_is", "y", "low", "high", "n"])?;
         for panel in &self.panels {
@@ -160,8 +159,7 @@ impl Figure {
                 }
             }
         }
-        let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        Ok(String::from_utf8(writer.into_inner()?)?)
     }
 }
 

@@ -49,26 +49,24 @@ pub struct Column {
 }
 
 impl Page {
-    /// Writes the page.
     pub fn html(&self) -> String {
-        let Page { title, byline, sentence, facts, table, notes, figures, sections, key } = self;
         let mut numbers = 1..;
         let mut numbered = |figures: &[Figure]| -> Vec<String> {
             figures.iter().zip(&mut numbers).map(|(figure, number)| write_figure(figure, number)).collect()
         };
-        let seen = numbered(figures);
+        let seen = numbered(&self.figures);
         let (first, others) = seen.split_at(seen.len().min(1));
-        let sections = sections.iter().map(|section| write_section(section, numbered(&section.figures)));
+        let sections = self.sections.iter().map(|section| write_section(section, numbered(&section.figures)));
         format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
-            title = escape(title),
-            key = escape(key),
-            byline = escape(byline),
-            sentence = html(sentence),
-            facts = paragraphs(facts),
-            table = table.iter().map(write_table).collect::<String>(),
-            notes = paragraphs(notes),
+            title = escape(&self.title),
+            key = escape(&self.key),
+            byline = escape(&self.byline),
+            sentence = html(&self.sentence),
+            facts = paragraphs(&self.facts),
+            table = self.table.iter().map(write_table).collect::<String>(),
+            notes = paragraphs(&self.notes),
             first = first.concat(),
             figures = others.concat(),
             sections = sections.collect::<String>(),

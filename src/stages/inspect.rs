@@ -29,7 +29,6 @@ pub struct Inspect {
     format: Format,
 }
 
-/// What is known of a column.
 #[derive(Serialize, Deserialize)]
 struct ColumnRow {
     column: String,

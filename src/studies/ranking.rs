@@ -92,7 +92,6 @@ struct Contest {
     clusters: Vec<u32>,
 }
 
-/// A fit of a set of measures.
 enum Model {
     /// Below the transition and above it; the same for a single form.
     Demand([LinearFit; 2]),
@@ -180,7 +179,6 @@ impl Contest {
         (contest, incomplete)
     }
 
-    /// Fits a set of measures to some cases.
     fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Model, FitStatus> {
         let columns = |rows: &[usize]| -> Vec<Vec<f64>> {
             set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()

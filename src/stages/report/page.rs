@@ -49,7 +49,6 @@ validate: Validation compares predicted probabilities with the outcomes of motio
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
 surface, calibrated where there are responses.";
 
-/// Composes the page.
 pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
     let answer_of = |stage: &str| tables.answer_of(stage).unwrap_or_default().to_string();
     let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
@@ -170,7 +169,6 @@ fn warnings_of(objects: &[Answer<RatesRow>]) -> Vec<String> {
     by(warned, |answer| &answer.doubts.warnings).into_iter().map(line).collect()
 }
 
-/// One row per object.
 fn rates(objects: &[Answer<RatesRow>]) -> Table {
     let years = objects.iter().find_map(|answer| answer.row.years).unwrap_or(f64::NAN);
     let percent = format!("% in {} years (95 % limits)", number::plain(years));
@@ -260,7 +258,6 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     ))
 }
 
-/// The tables that are folded.
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));

@@ -1,5 +1,6 @@
 //! The tables of a folder, as far as they are there.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event, Measure};
@@ -55,7 +56,6 @@ pub fn name(cases: &Cases) -> String {
 }
 
 impl Tables {
-    /// Reads what there is in a folder.
     pub fn read(folder: &Path) -> anyhow::Result<Tables> {
         let mut tables = Tables { folder: folder.to_path_buf(), ..Tables::default() };
         for path in file::tables(folder)? {
@@ -130,10 +130,9 @@ impl Tables {
         ];
         for (name, has, expected, what) in strangers {
             if has.is_some() && expected.is_some() && has != expected {
-                self.files.retain(|(path, ..)| {
-                    path.file_name()
-                        .is_some_and(|file| !file.to_string_lossy().starts_with(&format!("{name}.")))
-                });
+                let its = format!("{name}.");
+                let is_its = |file: &OsStr| file.to_string_lossy().starts_with(&its);
+                self.files.retain(|(path, ..)| !path.file_name().is_some_and(is_its));
                 self.strangers.push(name);
                 self.left_out.push(format!("{name}.parquet is not shown: it belongs to other {what}."));
             }

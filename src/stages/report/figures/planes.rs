@@ -51,8 +51,8 @@ fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     Panel::new(&name(cases), x, y, layers)
 }
 
-/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of parallel
-/// planes, which meet nowhere, along ln IM3.
+/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of
+/// parallel planes, which meet nowhere, along ln IM3.
 fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
     let unit = |vector: Vector3<f64>| vector.try_normalize(1e-12).unwrap_or(Vector3::y());
@@ -65,19 +65,14 @@ fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
 
 /// Writes a direction as a sum without small terms: `0.85 ln IM4 − 0.52 ln IM3`.
 fn sum(direction: Vector3<f64>) -> String {
-    let mut text = String::new();
-    for (&part, name) in direction.iter().zip(["ln IM4", "ln IM3", "ln EDP"]) {
-        let sign = match (text.is_empty(), part < 0.0) {
-            (true, true) => "\u{2212}",
-            (true, false) => "",
-            (false, true) => " \u{2212} ",
-            (false, false) => " + ",
-        };
-        if part.abs() > 0.995 {
-            text.push_str(&format!("{sign}{name}"));
-        } else if part.abs() >= 0.03 {
-            text.push_str(&format!("{sign}{} {name}", number::fixed(part.abs(), 2)));
+    let term = |(part, name): (&f64, &str)| {
+        let sign = if *part < 0.0 { "\u{2212}" } else { "" };
+        match part.abs() {
+            size if size > 0.995 => Some(format!("{sign}{name}")),
+            size if size >= 0.03 => Some(format!("{sign}{} {name}", number::fixed(size, 2))),
+            _ => None,
         }
-    }
-    text
+    };
+    let terms = direction.iter().zip(["ln IM4", "ln IM3", "ln EDP"]).filter_map(term);
+    terms.collect::<Vec<_>>().join(" + ").replace("+ \u{2212}", "\u{2212} ")
 }

@@ -40,7 +40,8 @@ type Curve = (String, Vec<[f64; 2]>, Vec<[f64; 2]>);
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
     let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(tables, groups)).collect());
-    let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by IM4 alone where it has a curve.";
+    let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
+                   IM4 alone where it has a curve.";
     let caption = compare(caption, "Figure 10");
     Figure::new("exceedance", "Exceeding the limit state in safe rocking", caption, 2, 118.0, panels)
 }

@@ -21,8 +21,8 @@ const STEPS: usize = 100;
 const SETS: i64 = 6;
 const PAPER: [&str; 2] = ["im3:im4", "im5"];
 
-/// Annual rates: of several objects those of overturning, one row an object in their order; of one object those
-/// of its limit states.
+/// Annual rates: of several objects those of overturning, one row an object in their order; of one object
+/// those of its limit states.
 pub fn annual(objects: &[Answer<RatesRow>]) -> Figure {
     let (name, title, label, rates) = match objects {
         [] => return Figure::default(),
