@@ -21,7 +21,8 @@ pub enum KnownCapacity {
     Above(f64),
 }
 
-/// A lognormal distribution of capacities: median theta, in their unit, and dispersion beta, with 95 % limits.
+/// A lognormal distribution of capacities: median theta, in their unit, and dispersion beta, with 95 %
+/// limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {

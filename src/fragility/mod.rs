@@ -1,5 +1,5 @@
-//! Fragility: the probability of exceeding a rotation limit, and of overturning, given the intensity of the motion
-//! (sections 2.3 and 3).
+//! Fragility: the probability of exceeding a rotation limit, and of overturning, given the intensity of the
+//! motion (sections 2.3 and 3).
 //!
 //! ```text
 //! cases        the responses of one structure to one suite of motions; measure: the measures of Eq. 13

@@ -84,7 +84,8 @@ impl RatioGiven {
         self.sd_below == 0.0 && self.sd_above == 0.0
     }
 
-    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its median.
+    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its
+    /// median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
         (self.mean(intensity.ln()) + deviations * sd).exp()

@@ -52,8 +52,8 @@ pub struct Predictor {
     pub added: f64,
 }
 
-/// Computes the predictor of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of magnitude `mw`, where it
-/// is known; none where a measure is missing.
+/// Computes the predictor of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of
+/// magnitude `mw`, where it is known; none where a measure is missing.
 pub fn predictor(
     kind: Kind,
     structure: &Structure,

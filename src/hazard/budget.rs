@@ -40,8 +40,8 @@ impl Part {
     }
 }
 
-/// Something that is not known exactly, by its 2.5 and 97.5 % quantiles inside what is possible; the hazard by
-/// its 16 and 84 % fractiles, as agencies give them. Its median is in the result itself.
+/// Something that is not known exactly, by its 2.5 and 97.5 % quantiles inside what is possible; the hazard
+/// by its 16 and 84 % fractiles, as agencies give them. Its median is in the result itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown<T> {
     /// Source of the error.
@@ -50,8 +50,8 @@ pub struct Unknown<T> {
     pub quantiles: [T; 2],
 }
 
-/// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part: downwards
-/// and upwards, since a rate saturates.
+/// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part:
+/// downwards and upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
     variances: [[f64; 2]; Part::ALL.len()],

@@ -19,8 +19,8 @@ pub fn rename(sheet: &mut Sheet, renamed: &[(String, String)]) -> anyhow::Result
         let Some(found) = sheet.headings.iter_mut().find(|found| found.text == *heading) else {
             bail!("no heading '{heading}'; found {}", headings(sheet));
         };
-        // A percent sign is of the numbers, whatever they are called.
-        let sign = if heading.contains('%') { " (%)" } else { "" };
+        // A percent sign that is not part of a unit is of the numbers, whatever they are called.
+        let sign = if found.unit.is_none() && heading.contains('%') { " (%)" } else { "" };
         let wanted = Heading::of(&format!("{column}{sign}"));
         if let (Some(old), Some(new)) = (found.unit, wanted.unit)
             && old.quantity != new.quantity
