@@ -13,15 +13,17 @@
 ROCKFRAG ?= target/release/rockfrag
 OUT := out
 
+# Another ROCKFRAG, a path or a command of the PATH, is used as it is.
+BUILT := $(filter target/release/rockfrag,$(ROCKFRAG))
+
 .PHONY: all check check-docs check-exports spread universal peers clean
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
-# Another ROCKFRAG is used as it is.
 target/release/rockfrag: Cargo.toml Cargo.lock $(shell find src data -type f)
 	cargo build --release --locked
 
-$(OUT)/scenarios.parquet: pipeline.yaml | $(ROCKFRAG)
+$(OUT)/scenarios.parquet: pipeline.yaml | $(BUILT)
 	$(ROCKFRAG) sample-scenarios --config pipeline.yaml --out $@ && touch $@
 
 $(OUT)/motions.parquet: $(OUT)/scenarios.parquet
@@ -42,19 +44,19 @@ $(OUT)/report.html: $(OUT)/paper.parquet
 check:
 	.ci/run
 
-check-docs: | $(ROCKFRAG)
+check-docs: | $(BUILT)
 	python3 scripts/check_docs.py $(ROCKFRAG)
 
-check-exports: | $(ROCKFRAG)
+check-exports: | $(BUILT)
 	scripts/check_exports.sh $(ROCKFRAG)
 
-spread: | $(ROCKFRAG)
+spread: | $(BUILT)
 	python3 scripts/seed_spread.py $(ROCKFRAG) && python3 scripts/paper_planes.py
 
-universal: | $(ROCKFRAG)
+universal: | $(BUILT)
 	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2) $(TABLE)
 
-peers: | $(ROCKFRAG)
+peers: | $(BUILT)
 	python3 scripts/peers/table.py $(ROCKFRAG)
 
 clean:

@@ -1,6 +1,8 @@
 //! Numbers and tables as a person reads them: significant digits with their zeros (0.30), commas between
 //! thousands (27,000), limits in brackets, columns in line.
 
+use std::borrow::Cow;
+
 /// A value with its limits, or limits alone where there is no value.
 pub type Limited = [Option<f64>; 3];
 
@@ -116,16 +118,42 @@ impl Style {
     }
 }
 
+/// Letters of a name, and of any text, that are shown on a line.
+const LONGEST_NAME: usize = 100;
+const LONGEST_TEXT: usize = 1000;
+
+/// Writes a name of the user: the beginning of a long one, as [`shown`].
+pub fn name(name: &str) -> Cow<'_, str> {
+    shown(name, LONGEST_NAME)
+}
+
+/// Writes a text on one line, cut to this many letters; control characters, which would move or colour a
+/// terminal, as escapes.
+pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
+    let is_long = text.chars().nth(most).is_some();
+    if !is_long && !text.contains(char::is_control) {
+        return Cow::Borrowed(text);
+    }
+    let letter = |letter: char| match letter.is_control() {
+        true => letter.escape_default().to_string(),
+        false => letter.to_string(),
+    };
+    let cut: String = text.chars().take(most).map(letter).collect();
+    Cow::Owned(cut + if is_long { "..." } else { "" })
+}
+
 /// Writes rows of cells as columns in line, those of numbers flush right.
 pub fn aligned(rows: &[Vec<String>], is_number: impl Fn(usize) -> bool) -> String {
+    let rows: Vec<Vec<Cow<str>>> =
+        rows.iter().map(|row| row.iter().map(|cell| shown(cell, LONGEST_TEXT)).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut text = String::new();
-    for row in rows {
-        let cell = |(column, cell): (usize, &String)| match is_number(column) {
+    for row in &rows {
+        let cell = |(column, cell): (usize, &Cow<str>)| match is_number(column) {
             true => format!("{cell:>0$}", widths[column]),
             false => format!("{cell:0$}", widths[column]),
         };

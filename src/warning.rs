@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
+use crate::number::shown;
 
 keywords! {
     /// A warning that could change a decision, the most important first.
@@ -31,6 +32,8 @@ keywords! {
         ScanStartsLate = "scan_starts_late",
         UnreadableFile = "unreadable_file",
         NoPartner = "no_partner",
+        LeftOut = "left_out",
+        NotCounted = "not_counted",
         UnusedColumns = "unused_columns",
     }
 }
@@ -51,7 +54,7 @@ impl Warning {
             NotFitted => "not among the fitted structures: the universal surface is used",
             OtherStructure => "calibrated on responses of a different structure (--name)",
             Extrapolated => "outside the range of motions that the model was fitted to",
-            UnusualStructure => "outside the range of structures of the universal surface",
+            UnusualStructure => "the surface was fitted to p 0.4 to 8 rad/s, alpha to 0.50, eta from 0.70",
             PoorFit => "the paper's curve or planes do not fit these responses",
             NoEvents => "all or no responses overturned: the estimate rests on other structures",
             FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
@@ -60,6 +63,8 @@ impl Warning {
             ScanStartsLate => "most motions overturn the structure at the first intensity; lower --from",
             UnreadableFile => "not imported",
             UnusedColumns => "columns not used by rockfrag",
+            LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
+            NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
             NoPartner => "no perpendicular component: left out",
         }
     }
@@ -80,6 +85,8 @@ struct Subjects {
 
 /// Subjects that a line names.
 const NAMED: usize = 3;
+/// Letters of a subject that a line shows.
+const LONGEST_SUBJECT: usize = 300;
 /// The name of a structure that has none.
 pub(crate) const UNNAMED: &str = "structure";
 
@@ -87,7 +94,7 @@ impl Warnings {
     /// Returns one line for each warning, the most important first, with the first subjects that it is about.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
-            let named = named.join(", ");
+            let named = named.iter().map(|name| shown(name, LONGEST_SUBJECT)).collect::<Vec<_>>().join(", ");
             match count.saturating_sub(NAMED) {
                 0 if named == UNNAMED => warning.text().to_string(),
                 0 => format!("{named}: {}", warning.text()),

@@ -6,13 +6,14 @@ use rockfrag::fragility::{beta, mu};
 use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::plausibility::implausibility;
-use rockfrag::rocking::{Outcome, Record, TracePoint, simulate, trace, with_tail};
+use rockfrag::rocking::{Ground, Outcome, Record, TracePoint, simulate, trace, with_tail};
 use rockfrag::stages::shared::objects::{Object, warnings_of};
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::units::G_M_S2;
 
 use crate::error::to_python;
+use crate::run::run;
 
 /// The largest acceleration, g, and the longest time step, s, of a motion that is not in a wrong unit.
 const MOST_G: f64 = 20.0;
@@ -41,10 +42,11 @@ pub fn simulate_motion<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let solve = || -> anyhow::Result<_> {
         let usage = |error: &dyn ToString| UsageError::because(error.to_string());
-        let structure = structure
-            .parse()
-            .and_then(|spec| Object::new(spec).expect_directions().map(|found| found[0].structure.clone()))
-            .map_err(|error| usage(&error))?;
+        let object = Object::new(structure.parse().map_err(|error: String| usage(&error))?);
+        if object.spec.place.level.or(object.spec.place.period).is_some() {
+            return Err(usage(&"level, period: simulate_motion takes the motion of the floor itself"));
+        }
+        let structure = object.expect_directions().map_err(|error| usage(&error))?[0].structure.clone();
         if !(0.0..=1000.0).contains(&tail_s) {
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
         }
@@ -60,15 +62,20 @@ pub fn simulate_motion<'py>(
         }
         let record = Record::new(&acceleration, dt_s).map_err(|error| usage(&error))?;
         let ended = with_tail(&record, tail_s);
-        let points = trace(&structure, &Record::new(&ended, dt_s)?).1;
-        Ok((simulate(&structure, &record), points, structure))
+        let ended = Record::new(&ended, dt_s)?;
+        let points = trace(&structure, &ended).1;
+        let ground = ended.ground_at(points.iter().map(|point| point.time_s));
+        Ok((simulate(&structure, &record), points, ground, structure))
     };
-    let (response, points, structure) = py.detach(solve).map_err(|error| to_python(&error))?;
+    let (response, points, ground, structure) = py.detach(solve).map_err(|error| to_python(&error))?;
     let result = PyDict::new(py);
     let column = |value: fn(&TracePoint) -> f64| bytes(py, points.iter().map(value));
     result.set_item("time", column(|point| point.time_s))?;
     result.set_item("theta", column(|point| point.theta_rad))?;
     result.set_item("theta_dot", column(|point| point.theta_dot_rad_s))?;
+    let of_ground = |value: fn(&Ground) -> f64| bytes(py, ground.iter().map(value));
+    result.set_item("ground_acceleration", of_ground(|ground| ground.acceleration_m_s2))?;
+    result.set_item("ground_velocity", of_ground(|ground| ground.velocity_m_s))?;
     let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
     result.set_item("events", events.collect::<Vec<_>>())?;
     result.set_item("outcome", response.outcome.as_str())?;
@@ -93,8 +100,8 @@ pub fn fit_curve<'py>(
     outcomes: &[u8],
     confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let fit = || -> anyhow::Result<_> {
-        let im = numbers(im);
+    let im = numbers(im);
+    let fit = |_| -> anyhow::Result<_> {
         let refuse = |problem: String| Err(UsageError::because(problem));
         if im.len() != outcomes.len() {
             return refuse(format!(
@@ -113,7 +120,8 @@ pub fn fit_curve<'py>(
         let happened: Vec<bool> = outcomes.iter().map(|outcome| *outcome != 0).collect();
         Ok((tested_probit(&[&ln_im], &happened, &[]), happened))
     };
-    let (probit, happened) = py.detach(fit).map_err(|error| to_python(&error))?;
+    // Many cases are fitted on several threads.
+    let (probit, happened) = run(py, None, None, fit)?;
     let result = PyDict::new(py);
     result.set_item("n", happened.len())?;
     result.set_item("n_events", happened.iter().filter(|happened| **happened).count())?;

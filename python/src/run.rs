@@ -8,7 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::context::{Context, Observed};
+use rockfrag::pipeline::UsageError;
+use rockfrag::pipeline::context::{Context, Observed, THREADS};
 
 use crate::error::to_python;
 
@@ -71,6 +72,11 @@ fn on_threads<T: Send>(
     work: impl FnOnce() -> anyhow::Result<T> + Send,
 ) -> anyhow::Result<T> {
     match threads {
+        Some(threads) if !THREADS.contains(&threads) => Err(UsageError::because(format!(
+            "threads is {threads}; expected {} to {}",
+            THREADS.start(),
+            THREADS.end()
+        ))),
         Some(threads) => rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work),
         None => work(),
     }

@@ -1,6 +1,7 @@
 //! The command line: commands, options and printed text.
 
 pub mod config;
+mod examples;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -11,14 +12,18 @@ use clap::{Args, Command, FromArgMatches, Parser, Subcommand};
 use clap_complete::Shell;
 
 use self::config::{Config, lenient};
+use self::examples::with_examples;
+use crate::number::shown;
 use crate::pipeline::call::Call;
-use crate::pipeline::context::{Common, Context};
+use crate::pipeline::context::{Common, Context, THREADS};
 use crate::pipeline::options::in_one_line;
 use crate::pipeline::{UsageError, cache, files};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 
 const PIPELINE: &str = "pipeline.yaml";
+/// Letters of an error, which may name what a file says.
+const LONGEST_ERROR: usize = 2000;
 
 /// How likely free-standing structures are to rock or overturn in an earthquake, and how often at a site
 #[derive(Debug, Parser)]
@@ -50,6 +55,9 @@ enum Tool {
         /// Folder to write into; nothing there is replaced
         #[arg(long, value_name = "DIR", default_value = ".")]
         out: PathBuf,
+        /// Print nothing
+        #[arg(long)]
+        quiet: bool,
     },
     /// Show what a file holds and where it came from
     Inspect(inspect::Inspect),
@@ -61,7 +69,7 @@ pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
     let with_common = |stage: &Command| {
         let about = stage.get_about().cloned().unwrap_or_default();
-        Common::augment_args(stage.clone().args_override_self(true)).about(about)
+        with_examples(Common::augment_args(stage.clone().args_override_self(true)).about(about))
     };
     let in_order = |(place, stage): (usize, Command)| stage.display_order(10 + place);
     let stages = stages.get_subcommands().map(with_common).enumerate().map(in_order);
@@ -85,7 +93,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         let _ = refused.print();
         return u8::from(refused.use_stderr()) * 2;
     }
-    let _ = writeln!(std::io::stderr(), "error: {error:#}");
+    let _ = writeln!(std::io::stderr(), "error: {}", shown(&format!("{error:#}"), LONGEST_ERROR));
     if error.is::<UsageError>() { 2 } else { 1 }
 }
 
@@ -108,7 +116,10 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
                 false => run::run(&calls, &Context::new(common))?,
             }
         }
-        Tool::Init { start, out } => init::init(start, &out)?,
+        Tool::Init { start, out, quiet } => {
+            let written = init::init(start, &out)?;
+            if quiet { String::new() } else { written }
+        }
         Tool::Inspect(inspect) => inspect.run()?,
         Tool::Completions { shell } => {
             let mut script = Vec::new();
@@ -193,10 +204,13 @@ pub fn calls_of(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> any
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    if let Some(threads) = common.threads {
-        rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build_global()?;
+    let by_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok();
+    let Some(threads) = common.threads.or_else(by_environment) else { return Ok(()) };
+    if threads > *THREADS.end() {
+        let most = THREADS.end();
+        return Err(UsageError::because(format!("RAYON_NUM_THREADS is {threads}; expected {most} at most")));
     }
-    Ok(())
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?)
 }
 
 /// Prints to stdout; a closed pipe (`| head`) is not an error.

@@ -1,5 +1,6 @@
 //! Output, progress and warnings of a running stage.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -8,6 +9,7 @@ use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::options::number;
 use crate::keyword::keywords;
 use crate::table::TableError;
 use crate::table::keys::key_of;
@@ -15,6 +17,9 @@ use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 use crate::table::writer::TableWriter;
 use crate::warning::Warnings;
+
+/// Threads that may be asked for: more than any machine runs at once take minutes to start.
+pub const THREADS: RangeInclusive<usize> = 1..=1024;
 
 pub const COMMON: &str = "Common options";
 
@@ -29,8 +34,8 @@ pub struct Common {
     #[arg(long)]
     pub force: bool,
     /// Threads [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=4096))]
-    pub threads: Option<u64>,
+    #[arg(long, value_name = "N", value_parser = number(THREADS, "1 to 1024 threads"))]
+    pub threads: Option<usize>,
     /// Print only the result
     #[arg(long)]
     pub quiet: bool,

@@ -180,7 +180,8 @@ fn may_tip(found: &[ScanResponse], step: usize) -> bool {
 }
 
 impl ScanResponse {
-    fn overturns(&self) -> bool {
+    /// Whether the structure overturns.
+    pub fn overturns(&self) -> bool {
         self.response.outcome == Outcome::Overturning
     }
 }

@@ -36,7 +36,7 @@ pub use batch::{simulate, simulate_all};
 pub use body::Body;
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
 pub use lanes::Problem;
-pub use record::{Record, RecordError};
+pub use record::{Ground, Record, RecordError};
 pub use reference::{SolverEvent, TracePoint, trace, with_tail};
 pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};

@@ -83,4 +83,28 @@ impl<'a> Record<'a> {
             _ => 0.0,
         }
     }
+
+    /// Follows the motion of the ground through rising times (s), which include all samples between the first
+    /// and the last of them: by trapezoids, exact for what is linear between samples. The ground is at rest
+    /// at the first time.
+    pub fn ground_at(&self, times_s: impl IntoIterator<Item = f64>) -> Vec<Ground> {
+        let mut last: Option<(f64, Ground)> = None;
+        let follow = |time_s: f64| {
+            let acceleration_m_s2 = self.acceleration_at(time_s);
+            let velocity_m_s = last.map_or(0.0, |(before_s, before)| {
+                let mean = 0.5 * (before.acceleration_m_s2 + acceleration_m_s2);
+                before.velocity_m_s + mean * (time_s - before_s)
+            });
+            last.insert((time_s, Ground { acceleration_m_s2, velocity_m_s })).1
+        };
+        times_s.into_iter().map(follow).collect()
+    }
+}
+
+/// The motion of the ground at a moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Ground {
+    pub acceleration_m_s2: f64,
+    pub velocity_m_s: f64,
 }

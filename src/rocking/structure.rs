@@ -114,6 +114,12 @@ impl Structure {
         parameters(self).into_iter().zip(parameters(other)).all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
     }
 
+    /// Returns width and height (m) of the solid rectangular block that has this p and alpha.
+    pub fn block_m(&self) -> [f64; 2] {
+        let diagonal_m = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s);
+        [diagonal_m * self.alpha_rad.sin(), diagonal_m * self.alpha_rad.cos()]
+    }
+
     /// Computes the uplift acceleration g tan(alpha), m/s2 (Eq. 5): the unit of IM4 to IM6.
     pub fn uplift_acceleration_m_s2(&self) -> f64 {
         G_M_S2 * self.alpha_rad.tan()

@@ -61,8 +61,10 @@ const AGREES: f64 = 2.0;
 fn verdict(compared: &[Comparison], differences: &[String]) -> String {
     let z: Vec<f64> = compared.iter().filter_map(|row| row.z).collect();
     let agree = z.iter().filter(|z| z.abs() < AGREES).count();
+    let others = compared.iter().filter(|row| row.published.is_some()).count() - z.len();
     let count = format!(
-        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run\n",
+        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run; {others} more \
+         have no value in it, or no known spread\n",
         counted(z.len(), "published number")
     );
     match differences {

@@ -66,7 +66,9 @@ impl Stage for Export {
         context.warn(warnings);
         let models = self.model.read()?;
         let (mut functions, mut description) = (Vec::new(), String::new());
+        let bar = context.bar(structures.len());
         for structure in &structures {
+            bar.advance(1)?;
             let (model, warnings) = models.model(structure)?;
             context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
             let (velocity, median) = (PgvPgaRatio::of_model(&model, self.im, None), magnitude(None).0);

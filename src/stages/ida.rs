@@ -1,6 +1,6 @@
 //! ida: every structure under every motion at rising intensity.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,12 +9,12 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{Measures, expect_distinct, record, warnings};
+use super::shared::motions::{Measures, expect_distinct, known, record, warnings};
 use super::shared::objects::StructureArgs;
-use crate::fragility::{CapacityFit, KnownCapacity, fit_capacities, grouped};
+use crate::fragility::{CapacityFit, Cluster, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
-use crate::number::{Limited, THREE_DIGITS, counted, fixed, significant};
+use crate::number::{Limited, THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
@@ -86,6 +86,8 @@ pub struct CapacityRow {
     pub motion_id: String,
     pub suite: Option<String>,
     pub earthquake: Option<String>,
+    pub mw: Option<f64>,
+    pub re_km: Option<f64>,
     pub structure: String,
     pub measure: ScaledMeasure,
     pub unscaled: f64,
@@ -114,6 +116,8 @@ pub struct CapacityFitRow {
     pub n: i64,
     pub n_safe: i64,
     pub n_below: i64,
+    /// Lowest intensity at which half of the motions overturn the structure.
+    pub half_overturn_at: Option<f64>,
     pub theta: Limited,
     pub beta: Limited,
     pub status: FitStatus,
@@ -126,6 +130,8 @@ struct Analysed {
     motion_ids: Vec<String>,
     stripes: RecordBatch,
     capacities: Vec<CapacityRow>,
+    /// Whether the structure overturns at each level, for each of the capacities.
+    overturns: Vec<Vec<bool>>,
     warnings: Warnings,
 }
 
@@ -169,7 +175,7 @@ impl Stage for Ida {
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
-        let (mut ids, mut capacities) = (HashSet::new(), Vec::new());
+        let (mut ids, mut capacities, mut overturns) = (HashSet::new(), Vec::new(), Vec::new());
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
         let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
@@ -190,13 +196,18 @@ impl Stage for Ida {
                     expect_distinct(&mut ids, &self.input, some.motion_ids)?;
                     stripes.append(&some.stripes)?;
                     capacities.extend(some.capacities);
+                    overturns.extend(some.overturns);
                     context.warn(some.warnings);
                 }
                 Ok(())
             },
         )?;
         let groups = frame::groups(capacities.iter().map(CapacityRow::group))?;
-        let fits: Vec<_> = groups.iter().map(|rows| self.fit(&capacities, rows)).collect();
+        let fit = |rows: &Vec<usize>| CapacityFitRow {
+            half_overturn_at: half_overturn_at(&scan.levels, &overturns, rows),
+            ..self.fit(&capacities, rows)
+        };
+        let fits: Vec<_> = groups.iter().map(fit).collect();
         context.warn(ends_early(&fits));
         let summary = summary(&fits, &self.out);
         context.finish(stripes, &summary)?;
@@ -231,13 +242,15 @@ impl Ida {
         }
         let scans = scan.run(cases.len(), |points| respond(&cases, points))?;
         let (mut responses, mut measured) = (Vec::new(), Vec::new());
-        let (mut stripes, mut capacities) = (Vec::new(), Vec::new());
+        let (mut stripes, mut capacities, mut overturns) = (Vec::new(), Vec::new(), Vec::new());
         for (case, scanned) in cases.iter().zip(&scans) {
             let capacity = scan.capacity(scanned);
             capacities.push(CapacityRow {
                 motion_id: case.motion.motion_id.clone(),
                 suite: case.motion.suite.clone(),
                 earthquake: case.motion.earthquake.clone(),
+                mw: known(case.motion.mw),
+                re_km: known(case.motion.re_km),
                 structure: case.structure.name.clone(),
                 measure: self.measure,
                 unscaled: case.unscaled,
@@ -250,6 +263,7 @@ impl Ida {
             let is_level = |at: &&ScanResponse| {
                 scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok()
             };
+            overturns.push(scanned.iter().filter(is_level).map(ScanResponse::overturns).collect());
             for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
                 let scale = at.intensity / case.unscaled;
                 let measures = case.measures.scaled(scale);
@@ -263,6 +277,7 @@ impl Ida {
             motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             stripes: stripes_of(&responses, &measured, &stripes)?,
             capacities,
+            overturns,
             warnings: warned,
         })
     }
@@ -275,14 +290,7 @@ impl Ida {
             (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
             _ => KnownCapacity::Above(self.to),
         };
-        // Motions of one earthquake are one cluster, those of an unknown one each its own.
-        let mut numbers: HashMap<&str, u32> = HashMap::new();
-        let clusters = rows.iter().map(|row| {
-            let name = row.earthquake.as_deref().unwrap_or(&row.motion_id);
-            let next = numbers.len() as u32;
-            *numbers.entry(name).or_insert(next)
-        });
-        let clusters: Vec<u32> = clusters.collect();
+        let clusters = clusters(&rows);
         let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
         let of = |limited: fn(&CapacityFit) -> [f64; 3]| {
             fit.as_ref().map_or([None; 3], |fit| limited(fit).map(Some))
@@ -295,11 +303,40 @@ impl Ida {
             n: rows.len() as i64,
             n_safe: count(CapacityStatus::Safe),
             n_below: count(CapacityStatus::Below),
+            half_overturn_at: None,
             theta: of(|fit| [fit.theta, fit.theta_low, fit.theta_high]),
             beta: of(|fit| [fit.beta, fit.beta_low, fit.beta_high]),
             status: fit.err().unwrap_or(FitStatus::Ok),
         }
     }
+}
+
+/// Numbers the clusters of capacities as fits do: by earthquake, else by magnitude and distance; a motion that
+/// shares nothing is its own.
+fn clusters(rows: &[&CapacityRow]) -> Vec<u32> {
+    let mut numbers: BTreeMap<Cluster, u32> = BTreeMap::new();
+    let mut next = 0..;
+    let mut number = |row: &&CapacityRow| {
+        let [mw, re_km] = [row.mw, row.re_km].map(|value| value.unwrap_or(f64::NAN));
+        let new = next.next().unwrap_or(u32::MAX);
+        match Cluster::of(row.earthquake.as_deref(), mw, re_km) {
+            Some(cluster) => *numbers.entry(cluster).or_insert(new),
+            None => new,
+        }
+    };
+    rows.iter().map(&mut number).collect()
+}
+
+/// The lowest level at which half of some motions overturn a structure, by the share in between: along ln
+/// of the intensity. None if it is below the first level or above the last.
+fn half_overturn_at(levels: &[f64], overturns: &[Vec<bool>], rows: &[usize]) -> Option<f64> {
+    let share = |level: usize| {
+        rows.iter().filter(|&&row| overturns[row][level]).count() as f64 / rows.len() as f64
+    };
+    let at = (0..levels.len()).find(|&level| share(level) >= 0.5).filter(|&level| level > 0)?;
+    let (before, after) = (share(at - 1), share(at));
+    let fraction = (0.5 - before) / (after - before);
+    Some(levels[at - 1] * (levels[at] / levels[at - 1]).powf(fraction))
 }
 
 impl ScaledMeasure {
@@ -385,32 +422,32 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
 }
 
-/// One line per structure: the median of its lowest overturning intensities, with limits; of many, the weakest.
+/// A line a structure: where half of the motions overturn it, and the median of the lowest intensities that do;
+/// of many structures, the weakest.
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {
-        let theta = |row: &CapacityFitRow| row.theta[0].unwrap_or(f64::INFINITY);
-        fits.sort_by(|a, b| theta(a).total_cmp(&theta(b)));
+        let weakness = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta[0]).unwrap_or(f64::INFINITY);
+        fits.sort_by(|a, b| weakness(a).total_cmp(&weakness(b)));
     }
-    let line = |row: &&CapacityFitRow| {
-        let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({suite})"));
-        let name = format!("{}{suite}", row.structure);
-        let (name_of_measure, unit) = row.measure.words();
-        match (row.theta[0], row.beta[0]) {
-            (Some(theta), Some(beta)) => {
-                let median = significant(theta, 3);
-                let limits = THREE_DIGITS.limits(row.theta, "95 % limits ");
-                let beta = fixed(beta, 2);
-                format!(
-                    "{name}: median of the lowest {name_of_measure} that overturns it {median}{unit} {limits}, dispersion {beta}\n"
-                )
-            }
-            _ => format!(
-                "{name}: no median; {} of {} do not overturn it\n",
-                row.n_safe,
-                counted(row.n as usize, "motion")
-            ),
+    first_lines(&fits.iter().map(|row| line(row)).collect::<String>(), 0, out)
+}
+
+fn line(row: &CapacityFitRow) -> String {
+    let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({})", name(suite)));
+    let (measure, unit) = row.measure.words();
+    let half = match row.half_overturn_at {
+        Some(at) => format!("half of the motions overturn it at {measure} {}{unit}", significant(at, 3)),
+        None if 2 * row.n_below >= row.n => "half of the motions overturn it at the first intensity".to_string(),
+        None => {
+            let motions = counted(row.n as usize, "motion");
+            format!("{} of {motions} never overturn it, half of them at no intensity", row.n_safe)
         }
     };
-    first_lines(&fits.iter().map(line).collect::<String>(), 0, out)
+    let lowest = row.theta[0].zip(row.beta[0]).map_or(String::new(), |(theta, beta)| {
+        let limits = THREE_DIGITS.limits(row.theta, "95 % limits ");
+        let (theta, beta) = (significant(theta, 3), fixed(beta, 2));
+        format!("; lowest that overturns, median {theta}{unit} {limits}, dispersion {beta}")
+    });
+    format!("{}{suite}: {half}{lowest}\n", name(&row.structure))
 }

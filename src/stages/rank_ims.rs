@@ -99,10 +99,17 @@ impl Stage for RankIms {
     }
 }
 
-/// The first sets of each suite, structure and target.
+/// The first sets of each suite, structure and target; those that make one model in a row.
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
-    let shown = sets.iter().filter(|set| set.rank <= SHOWN);
-    let frame = frame::of_batch(&rows::batch(shown)?)?;
+    let mut shown: Vec<RankedSet> = Vec::new();
+    let place = |set: &RankedSet| (set.suite.clone(), set.structure.clone(), set.target, set.rank);
+    for set in sets.iter().filter(|set| set.rank <= SHOWN) {
+        match shown.last_mut() {
+            Some(last) if place(last) == place(set) => last.measures += &format!(" = {}", set.measures),
+            _ => shown.push(set.clone()),
+        }
+    }
+    let frame = frame::of_batch(&rows::batch(&shown)?)?;
     const COLUMNS: &str = "suite structure target rank measures form log_score loss loss_error aic status";
     let order = SortMultipleOptions::default().with_maintain_order(true);
     Ok(frame::text(&frame.select(COLUMNS.split(' '))?.sort(["suite", "structure", "target", "rank"], order)?))

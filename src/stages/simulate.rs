@@ -1,5 +1,6 @@
 //! simulate: every structure through every motion.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -16,11 +17,13 @@ use crate::pipeline::context::Context;
 use crate::pipeline::files::{out_of_partition, part};
 use crate::pipeline::options::{MOST_LINES, first_lines, listed};
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
+use crate::rocking::{Ground, Outcome, Problem, Record, Structure, TracePoint};
+use crate::rocking::{simulate_all, trace, with_tail};
 use crate::table::TableError;
-use crate::table::file::Partition;
+use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion, Part};
 use crate::table::responses::{self, TraceRow};
+use crate::table::rows;
 use crate::warning::Warnings;
 
 /// Parts of the file that are read at once, for each thread.
@@ -30,10 +33,15 @@ const PARTS_A_THREAD: usize = 4;
 const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
+/// The word that traces all motions.
+const ALL: &str = "all";
 /// Motions that are named if they overturn a structure.
 const NAMED: usize = 8;
 
-/// Simulate the rocking response of structures to motions
+/// What is said where no structure is given.
+const OF_PAPER: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
+
+/// Simulate the rocking response of structures to motions: the paper's two structures, or your own
 #[derive(Debug, Args)]
 pub struct Simulate {
     /// Motions to read: motion_id, dt_s and acceleration_m_s2
@@ -44,8 +52,8 @@ pub struct Simulate {
     out: PathBuf,
     #[command(flatten)]
     structures: StructureArgs,
-    /// Also write the rotation of these motions over time, to NAME.trace.parquet: by a plain solver, which
-    /// may disagree with the outcome when a structure nearly overturns
+    /// Also write the response to these motions over time, or to all, to NAME.trace.parquet: by a plain
+    /// solver, which may disagree with the outcome when a structure nearly overturns
     #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
     trace: Vec<String>,
     /// Only part i of n (0 to n - 1), into the folder --out
@@ -60,16 +68,21 @@ impl Stage for Simulate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.structures.resolve().map(|_| ())
+        self.structures.or_paper().resolve().map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, warnings) = self.structures.resolve()?;
+        let (structures, warnings) = self.structures.or_paper().resolve()?;
         context.warn(warnings);
         let motions = motions::open(&self.input, self.partition)?;
+        self.expect_traced(&motions)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
-        let (mut ids, mut traces) = (HashSet::new(), Vec::new());
+        let mut traces = match self.trace.is_empty() {
+            true => None,
+            false => Some(context.create(&part(&self.out, "trace"), &rows::schema::<TraceRow>())?),
+        };
+        let mut ids = HashSet::new();
         let mut overturning = vec![Overturning::default(); structures.len()];
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(motions.rows());
@@ -77,7 +90,7 @@ impl Stage for Simulate {
             let simulate_chunk = |chunk: Result<_, TableError>| {
                 let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
                 bar.advance(chunk.len())?;
-                pool.with(|scratch| respond(&path, &chunk, &structures, &self.trace, scratch))
+                pool.with(|scratch| self.respond(&path, &chunk, &structures, scratch))
             };
             motions::read_part(&motions, part, CHUNK)?.map(simulate_chunk).collect()
         };
@@ -95,21 +108,18 @@ impl Stage for Simulate {
                         }
                     }
                     context.warn(some.warnings);
-                    traces.extend(some.traces);
                     writer.append(&some.rows)?;
+                    if let (Some(traces), Some(rows)) = (&mut traces, &some.traces) {
+                        traces.append(rows)?;
+                    }
                 }
                 Ok(())
             },
         )?;
-        let summary = summary(&structures, &overturning, motions.rows(), &self.out);
-        if let Some(id) =
-            self.trace.iter().find(|id| traces.iter().all(|row: &TraceRow| row.motion_id != **id))
-        {
-            let file = self.input.display();
-            anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id");
-        }
-        if !self.trace.is_empty() {
-            context.write(&part(&self.out, "trace"), &traces, &summary)?;
+        let assumed = if self.structures.is_given() { "" } else { OF_PAPER };
+        let summary = assumed.to_string() + &summary(&structures, &overturning, motions.rows(), &self.out);
+        if let Some(traces) = traces {
+            context.finish(traces, &summary)?;
         }
         context.finish(writer, &summary)?;
         Ok(summary)
@@ -123,67 +133,102 @@ type Overturning = (usize, Vec<String>);
 struct Responded {
     motion_ids: Vec<String>,
     rows: RecordBatch,
-    traces: Vec<TraceRow>,
+    traces: Option<RecordBatch>,
     warnings: Warnings,
     /// Indices of structures, and motions that overturn them.
     overturned: Vec<(usize, String)>,
 }
 
-/// Runs all structures on some motions, while these are at hand.
-fn respond(
-    path: &Path,
-    motions: &[Motion],
-    structures: &[Structure],
-    traced: &[String],
-    scratch: &mut MeasureScratch,
-) -> anyhow::Result<Responded> {
-    let records = motions.iter().map(|motion| record(path, motion)).collect::<Result<Vec<_>, _>>()?;
-    let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
-    let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
-    let mut responses = simulate_all(&problems).into_iter();
-    let (mut rows, mut measured) = (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
-    let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Vec::new());
-    for (motion, record) in motions.iter().zip(&records) {
-        let measures = Measures::new(motion, record, scratch);
-        for (index, (structure, response)) in structures.iter().zip(&mut responses).enumerate() {
-            if response.outcome == Outcome::Overturning {
-                overturned.push((index, motion.motion_id.clone()));
-            }
-            rows.push(measures.response_row(motion, structure, response));
-            measured.push(measures.of_structure(structure));
-        }
-        if traced.contains(&motion.motion_id) {
-            traces.extend(trace_rows(motion, record, structures)?);
-        }
-        warned.extend(warnings(motion, record));
+impl Simulate {
+    fn is_traced(&self, motion_id: &str) -> bool {
+        self.trace.iter().any(|traced| traced == ALL || traced == motion_id)
     }
-    Ok(Responded {
-        motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
-        rows: responses::batch(&rows, &measured)?,
-        traces,
-        warnings: warned,
-        overturned,
-    })
+
+    /// Checks, before anything is simulated, that the motions to trace are there.
+    fn expect_traced(&self, motions: &Table) -> anyhow::Result<()> {
+        let mut unknown: Vec<&String> = self.trace.iter().filter(|traced| *traced != ALL).collect();
+        if unknown.is_empty() {
+            return Ok(());
+        }
+        for batch in motions.batches(&|name| name == "motion_id") {
+            let batch = batch?;
+            let ids: HashSet<Cow<str>> = batch.required_texts("motion_id")?.into_iter().collect();
+            unknown.retain(|traced| !ids.contains(traced.as_str()));
+        }
+        let file = self.input.display();
+        match unknown.first() {
+            Some(id) => {
+                anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id, or {ALL}")
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Runs all structures on some motions, while these are at hand.
+    fn respond(
+        &self,
+        path: &Path,
+        motions: &[Motion],
+        structures: &[Structure],
+        scratch: &mut MeasureScratch,
+    ) -> anyhow::Result<Responded> {
+        let records = motions.iter().map(|motion| record(path, motion)).collect::<Result<Vec<_>, _>>()?;
+        let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
+        let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
+        let mut responses = simulate_all(&problems).into_iter();
+        let (mut rows, mut measured) =
+            (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
+        let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Vec::new());
+        for (motion, record) in motions.iter().zip(&records) {
+            let measures = Measures::new(motion, record, scratch);
+            for (index, (structure, response)) in structures.iter().zip(&mut responses).enumerate() {
+                if response.outcome == Outcome::Overturning {
+                    overturned.push((index, motion.motion_id.clone()));
+                }
+                rows.push(measures.response_row(motion, structure, response));
+                measured.push(measures.of_structure(structure));
+            }
+            if self.is_traced(&motion.motion_id) {
+                for structure in structures {
+                    traces.extend(trace_rows(motion, record, structure)?);
+                }
+            }
+            warned.extend(warnings(motion, record));
+        }
+        Ok(Responded {
+            motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
+            rows: responses::batch(&rows, &measured)?,
+            traces: (!traces.is_empty()).then(|| rows::batch(&traces)).transpose()?,
+            warnings: warned,
+            overturned,
+        })
+    }
 }
 
-/// The rotation of all structures over time under a motion.
-fn trace_rows(motion: &Motion, record: &Record, structures: &[Structure]) -> anyhow::Result<Vec<TraceRow>> {
+/// The response of a structure over time to a motion, and the motion.
+fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow::Result<Vec<TraceRow>> {
     let ended = with_tail(record, TRACE_TAIL_S);
     let record = Record::new(&ended, record.dt_s())?;
-    let of_structure = |structure: &Structure| {
-        let row = |point: crate::rocking::TracePoint| TraceRow {
-            motion_id: motion.motion_id.clone(),
-            structure: structure.name.clone(),
-            time_s: point.time_s,
-            theta_rad: point.theta_rad,
-            theta_dot_rad_s: point.theta_dot_rad_s,
-            theta_over_alpha: point.theta_rad / structure.alpha_rad,
-            ground_m_s2: record.acceleration_at(point.time_s),
-            solver_event: point.solver_event,
-        };
-        trace(structure, &record).1.into_iter().map(row).collect::<Vec<_>>()
+    let points = trace(structure, &record).1;
+    let ground = record.ground_at(points.iter().map(|point| point.time_s));
+    let [block_width_m, block_height_m] = structure.block_m();
+    let row = |(point, ground): (TracePoint, Ground)| TraceRow {
+        motion_id: motion.motion_id.clone(),
+        structure: structure.name.clone(),
+        time_s: point.time_s,
+        theta_rad: point.theta_rad,
+        theta_dot_rad_s: point.theta_dot_rad_s,
+        theta_over_alpha: point.theta_rad / structure.alpha_rad,
+        ground_acceleration_m_s2: ground.acceleration_m_s2,
+        ground_velocity_m_s: ground.velocity_m_s,
+        solver_event: point.solver_event,
+        p_rad_s: structure.p_rad_s,
+        alpha_rad: structure.alpha_rad,
+        eta: structure.eta,
+        block_width_m,
+        block_height_m,
     };
-    Ok(structures.iter().flat_map(of_structure).collect())
+    Ok(points.into_iter().zip(ground).map(row).collect())
 }
 
 /// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
@@ -194,12 +239,15 @@ fn summary(structures: &[Structure], overturning: &[Overturning], motions: usize
     }
     let line = |(structure, (count, named)): (&Structure, &Overturning)| {
         let named = match count {
-            1..=NAMED => format!(" ({})", listed(named, NAMED)),
+            1..=NAMED => {
+                let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
+                format!(" ({})", listed(&named, NAMED))
+            }
             _ => String::new(),
         };
         let overturn = if *count == 1 { "overturns" } else { "overturn" };
         let (count, motions) = (number::count(*count), number::counted(motions, "motion"));
-        format!("{}: {count} of {motions} {overturn} it{named}\n", structure.name)
+        format!("{}: {count} of {motions} {overturn} it{named}\n", number::name(&structure.name))
     };
     first_lines(&lines.into_iter().map(line).collect::<String>(), 0, out)
 }

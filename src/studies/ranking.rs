@@ -56,7 +56,7 @@ pub struct RankedSet {
     pub measures: String,
     pub terms: i64,
     pub n: i64,
-    /// Rank by log score, from 1; by AIC without cross-validation.
+    /// Rank by log score, from 1; by AIC without cross-validation. Sets that make one model share it.
     pub rank: i64,
     /// Log-likelihood of the fit to all cases; for demand, with normal residuals of ln EDP.
     pub log_likelihood: Option<f64>,
@@ -68,6 +68,19 @@ pub struct RankedSet {
     pub loss: Option<f64>,
     pub loss_error: Option<f64>,
     pub status: FitStatus,
+}
+
+impl RankedSet {
+    /// Whether it is the same model by other measures, such as IM3 and IM5 in place of IM4 and IM5.
+    fn is_one_with(&self, other: &RankedSet) -> bool {
+        let is_near = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-8 * a.abs().max(1.0),
+            _ => false,
+        };
+        (self.form, self.terms) == (other.form, other.terms)
+            && is_near(self.log_likelihood, other.log_likelihood)
+            && is_near(self.log_score, other.log_score)
+    }
 }
 
 /// All sets of measures of a structure and suite, best first.
@@ -121,8 +134,12 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
         score(b).total_cmp(&score(a)).then(aic(a).total_cmp(&aic(b)))
     });
     let best = rated.first().and_then(|(_, scores)| scores.clone());
-    for (rank, (set, scores)) in (1..).zip(&mut rated) {
-        set.rank = rank;
+    for at in 0..rated.len() {
+        // The measures of one power law have one rank.
+        let is_new = at == 0 || !rated[at].0.is_one_with(&rated[at - 1].0);
+        rated[at].0.rank = if at == 0 { 1 } else { rated[at - 1].0.rank + i64::from(is_new) };
+    }
+    for (set, scores) in &mut rated {
         if let (Some(best), Some(scores)) = (&best, scores) {
             let losses: Vec<f64> = scores.iter().zip(best).map(|(score, best)| score - best).collect();
             let (loss, error) = clustered_mean(&losses, &contest.clusters);

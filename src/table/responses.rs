@@ -34,6 +34,7 @@ pub fn batch(responses: &[ResponseRow], measures: &[IntensityMeasures]) -> anyho
     rows::side_by_side(&[rows::batch(responses)?, rows::batch(measures)?])
 }
 
+/// A moment of the response of a structure to a motion: all that a picture of it needs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TraceRow {
     pub motion_id: String,
@@ -42,6 +43,12 @@ pub struct TraceRow {
     pub theta_rad: f64,
     pub theta_dot_rad_s: f64,
     pub theta_over_alpha: f64,
-    pub ground_m_s2: f64,
+    pub ground_acceleration_m_s2: f64,
+    pub ground_velocity_m_s: f64,
     pub solver_event: Option<SolverEvent>,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub block_width_m: f64,
+    pub block_height_m: f64,
 }

@@ -10,3 +10,4 @@ mod interruption;
 mod objects;
 mod paper;
 mod pipeline;
+mod terminal;

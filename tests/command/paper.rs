@@ -96,6 +96,26 @@ fn the_papers_run_has_its_numbers() {
 }
 
 #[test]
+fn the_bare_commands_in_an_empty_folder_make_table_ii_of_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let print = |stage: &str| succeed(folder.path(), stage).0;
+    for stage in ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"] {
+        let printed = print(stage);
+        let first = printed.lines().next().unwrap();
+        assert_eq!(first.contains("of the paper") && first.contains("--width"), stage == "simulate", "{first}");
+    }
+    let planes = |path: &Path| -> Vec<DemandFit> {
+        let fits: Vec<DemandFit> = rows::read(path).unwrap();
+        fits.into_iter().filter(|fit| fit.model == DemandModel::Biplanar).collect()
+    };
+    let bare = planes(&folder.path().join("pex.parquet"));
+    assert_eq!(bare.len(), 8);
+    assert_eq!(bare, planes(&out("pex.parquet")));
+    assert!(!print("compare-paper").contains("not the paper"));
+    fail(folder.path(), "ida", 2, &["no structure"]);
+}
+
+#[test]
 fn responses_have_the_measures_of_eq_13() {
     let rows: Vec<ResponseRow> = rows::read(&out("responses.parquet")).unwrap();
     let measures: Vec<IntensityMeasures> = rows::read(&out("responses.parquet")).unwrap();

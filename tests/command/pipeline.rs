@@ -66,6 +66,20 @@ fn a_flag_wins_over_the_file_and_the_file_over_the_default() {
 }
 
 #[test]
+fn an_empty_section_of_simulate_takes_the_papers_structures() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run --out given");
+    let (_, structures) = SMALL.split_once("simulate:\n").unwrap();
+    let (structures, _) = structures.split_once("fit-pex").unwrap();
+    std::fs::write(folder.path().join("pipeline.yaml"), SMALL.replace(structures, "  {}\n")).unwrap();
+    succeed(folder.path(), "run --out bare");
+    let rows = |out: &str| {
+        succeed(folder.path(), &format!("inspect --head 100000 --format csv {out}/responses.parquet")).0
+    };
+    assert_eq!(rows("given"), rows("bare"));
+}
+
+#[test]
 fn partitions_make_the_rows_of_the_whole() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");

@@ -55,7 +55,12 @@ fn losses_are_to_the_best_and_have_the_clustered_errors_of_statsmodels() {
     near(loss.loss_error, expected["p_ro_im4:im3_single_se"], 1e-7);
     let scores: Vec<f64> = ranking.sets.iter().map_while(|set| set.log_score).collect();
     assert!(scores.is_sorted_by(|a, b| a + 1e-9 >= *b) && scores.len() > 5);
-    assert!(ranking.sets.iter().map(|set| set.rank).eq(1..=ranking.sets.len() as i64));
+    let ranks: Vec<i64> = ranking.sets.iter().map(|set| set.rank).collect();
+    assert!(ranks[0] == 1 && ranks.windows(2).all(|pair| [0, 1].contains(&(pair[1] - pair[0]))), "{ranks:?}");
+    // IM4 = IM3 IM5: any two of them are one model.
+    let rank = |measures: &str| find(&ranking, measures, Form::Single).rank;
+    assert!(rank("im3:im4") == rank("im3:im5") && rank("im3:im4") == rank("im4:im5"), "{ranks:?}");
+    assert_ne!(rank("im4"), rank("im5"));
     for set in &ranking.sets[..scores.len()] {
         near(set.loss, set.log_score.unwrap() - scores[0], 1e-12);
     }

@@ -1,4 +1,7 @@
-"""Arrays: one motion through one structure, the curve of given outcomes, probabilities at intensities."""
+"""Arrays: one motion through one structure, the curve of given outcomes, probabilities at intensities.
+
+Masked entries of a masked array are unknown: NaN, and left out of fits.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _bridge, _rockfrag
+from . import _bridge, _plots, _rockfrag
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,7 +22,12 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+def known(array: ArrayLike) -> Floats:
+    """Numbers, NaN where a mask hides them."""
+    return np.ma.filled(np.ma.asarray(array, dtype=np.float64), np.nan)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Response:
     """The rocking response of a structure to a motion (section 2.2 of the paper)."""
 
@@ -28,6 +36,9 @@ class Response:
     #: Rotation, rad, and angular velocity, rad/s, at these moments.
     theta: Floats
     theta_dot: Floats
+    #: Acceleration, m/s2, and velocity, m/s, of the ground.
+    ground_acceleration: Floats
+    ground_velocity: Floats
     #: Times (s) of uplift, impact, rest and overturn.
     events: list[tuple[float, str]]
     #: no_rocking, safe_rocking or overturning.
@@ -44,6 +55,19 @@ class Response:
     def theta_over_alpha(self) -> Floats:
         return self.theta / self.alpha
 
+    def plot(self, axes: Any = None) -> Any:
+        """Draws rotation and ground acceleration over time, on two axes of matplotlib; gives these."""
+        return _plots.response(self, axes)
+
+    def __repr__(self) -> str:
+        peak = "" if self.demand is None else f", largest rotation {self.demand:.3g} of the slenderness"
+        impacts = f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
+        structure = f"p {self.p:.3g} rad/s, alpha {self.alpha:.3g}, eta {self.eta:.3g}"
+        return f"{self.outcome.replace('_', ' ')}{peak}, {impacts}; {structure}"
+
+    def _repr_html_(self) -> str:
+        return _plots.in_notebook(repr(self), self.plot)
+
 
 def simulate_motion(
     acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str
@@ -58,16 +82,17 @@ def simulate_motion(
         Quiet time after it in which free rocking shows, s.
     **structure
         ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta`` and
-        ``beam_mass_ratio`` if known.
+        ``beam_mass_ratio`` if known. It stands on the ground: give the motion of a floor itself.
     """
-    samples = np.asarray(acceleration, dtype=np.float64)
+    samples = known(acceleration)
     if samples.ndim != 1:
         raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
     words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
     _bridge.warn(solved.pop("warnings"))
-    solved.update({name: np.frombuffer(solved[name]) for name in ("time", "theta", "theta_dot")})
-    return Response(**solved)
+    return Response(
+        **{name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()}
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,25 +132,39 @@ class FragilityCurve:
         z = z + errors * np.sqrt(variance) if errors else z
         return np.frombuffer(_rockfrag.normal_cdf(z.tobytes())).reshape(z.shape)
 
+    def plot(self, im: ArrayLike | None = None, axes: Any = None) -> Any:
+        """Draws the curve with its limits over intensities, by matplotlib; gives the axes."""
+        if np.isnan(self.coefficients[0]):
+            raise ValueError(f"no curve: {self.status}")
+        x = known(im) if im is not None else self.theta * np.exp(self.beta * np.linspace(-2.5, 2.5, 101))
+        named = [("fitted", self.probability(x), *self.limits(x))]
+        return _plots.curves(x, "intensity", named, axes)
+
+    def _repr_html_(self) -> str:
+        return _plots.in_notebook(repr(self), self.plot)
+
 
 def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95) -> FragilityCurve:
     """Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22).
 
     Parameters
     ----------
-    im : array of shape (n,)
+    im : array
         Intensities, above 0.
-    outcome : array of shape (n,)
+    outcome : array of the same shape
         Whether the event happened: true or false, 1 or 0.
     confidence : float
         Level of the limits.
     """
-    happened = np.asarray(outcome)
-    if not np.isin(happened, (0, 1)).all():
+    intensities, happened = np.ma.asarray(im, dtype=np.float64), np.ma.asarray(outcome)
+    if intensities.shape != happened.shape:
+        shapes = f"im has the shape {intensities.shape} and outcome {happened.shape}"
+        raise ValueError(f"{shapes}; expected the same")
+    kept = ~(np.ma.getmaskarray(intensities) | np.ma.getmaskarray(happened))
+    events = happened.data[kept]
+    if not np.isin(events, (0, 1)).all():
         raise ValueError("outcome has other values than true and false, 1 and 0")
-    fit = _rockfrag.fit_curve(
-        np.asarray(im, dtype=np.float64).tobytes(), happened.astype(bool).tobytes(), confidence
-    )
+    fit = _rockfrag.fit_curve(intensities.data[kept].tobytes(), events.astype(bool).tobytes(), confidence)
     for name in ("theta", "beta"):
         if name in fit:
             fit[name], fit[f"{name}_low"], fit[f"{name}_high"] = fit[name]
@@ -161,8 +200,26 @@ class Probabilities:
     p_f_r_low: Floats
     p_f_r_high: Floats
     p_f: Floats
+    #: The intensities: g and m/s.
+    pga: Floats
+    pgv: Floats
     #: Warnings about them.
     warnings: list[str]
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the probabilities over PGA, or over PGV where PGA is one, by matplotlib; gives the axes."""
+        pga, pgv = np.ravel(self.pga), np.ravel(self.pgv)
+        if pga.size < 2 or len(np.unique(pga)) > 1 < len(np.unique(pgv)) and self.pga.ndim > 1:
+            raise ValueError(f"probabilities of the shape {self.pga.shape} are no curve; expected (n,), n > 1")
+        rocks = 1.0 - self.p_nr
+        # Where nothing rocks there is no probability given rocking.
+        overturns = [np.nan_to_num(rocks * p).ravel() for p in (self.p_ro, self.p_ro_low, self.p_ro_high)]
+        named = [("overturns", *overturns), ("overturns, or rocks too far", np.ravel(self.p_f), None, None)]
+        over_pga = len(np.unique(pga)) > 1
+        return _plots.curves(pga if over_pga else pgv, "PGA, g" if over_pga else "PGV, m/s", named, axes)
+
+    def _repr_html_(self) -> str:
+        return _plots.in_notebook(repr(self), self.plot if np.size(self.p_nr) > 1 else None)
 
     def __repr__(self) -> str:
         def line(name: str, words: str) -> str:
@@ -190,8 +247,8 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
     **options
         Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
     """
-    given = np.broadcast_arrays(*(np.asarray(peak, dtype=np.float64) for peak in (pga, pgv)))
-    names = [field.name for field in fields(Probabilities) if field.name != "warnings"]
+    given = np.broadcast_arrays(known(pga), known(pgv))
+    names = [field.name for field in fields(Probabilities) if field.name.startswith("p_")]
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
         _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
@@ -199,4 +256,4 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
             evaluated = _bridge.functions["evaluate"](path, **options)
         columns = _rockfrag.read_numbers(evaluated._table(), names)
     arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
-    return Probabilities(**arrays, warnings=evaluated.warnings)
+    return Probabilities(**arrays, pga=given[0], pgv=given[1], warnings=evaluated.warnings)

@@ -110,8 +110,10 @@ def call(
                 threads,
                 progress,
             )
+        # Where warnings are errors, the folder goes.
+        done = result(made, folder)
         failed.pop_all()
-    return result(made, folder)
+    return done
 
 
 @contextlib.contextmanager

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import shutil
 import weakref
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from . import _rockfrag
+from . import _plots, _rockfrag
 
 if TYPE_CHECKING:
     import pandas
@@ -33,6 +34,7 @@ class Result:
     ) -> None:
         self.stage, self.path, self.summary, self.warnings = stage, path, summary, warnings
         self._owner: Result | None = None
+        self._folder = folder
         if folder is not None:
             weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
 
@@ -69,6 +71,24 @@ class Result:
     def to_pandas(self) -> pandas.DataFrame:
         return self.to_pyarrow().to_pandas()
 
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        """Its rows, by which ``pandas.DataFrame(result)`` is made."""
+        return iter(self.to_pyarrow().to_pylist())
+
+    def __copy__(self) -> Result:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Result:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        owner = self._owner or self
+        if owner._folder is not None:
+            raise TypeError(
+                f"the table of {self.stage} is temporary and cannot be pickled; expected a result with out=, or its to_polars()"
+            )
+        return Result, (self.stage, self.path, self.summary, self.warnings)
+
     def _table(self) -> Path:
         if self.path is None or self.path.suffix != ".parquet":
             raise ValueError(f"{self.stage} wrote no table; .summary has what it prints")
@@ -77,6 +97,9 @@ class Result:
     def __repr__(self) -> str:
         warnings = [f"warning: {warning}" for warning in self.warnings]
         return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *warnings])
+
+    def _repr_html_(self) -> str:
+        return _plots.in_notebook(repr(self))
 
 
 Result.__module__ = "rockfrag"

@@ -27,7 +27,7 @@ use super::shared::hazard;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{Object, StructureArgs};
 use super::shared::responses;
-use super::shared::spec::{Place, Reason, Restitution, Spec};
+use super::shared::spec::{Place, Restitution, Spec};
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
@@ -38,7 +38,7 @@ use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::table::writer::write_file;
 use crate::units::G_M_S2;
-use crate::warning::Warning;
+use crate::warning::{UNNAMED, Warning, Warnings};
 
 use self::object::Subject;
 pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
@@ -49,8 +49,7 @@ pub use self::words::{model_of_all, size, too_far};
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
 #[derive(Debug, Args)]
-#[command(group(ArgGroup::new("site").multiple(true)), after_help = "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
-    rockfrag evaluate --structures objects.csv --hazard hazard.csv")]
+#[command(group(ArgGroup::new("site").multiple(true)))]
 pub struct Evaluate {
     /// Peak ground acceleration, g
     #[arg(long, value_name = "G", conflicts_with_all = ["in", "site"], allow_negative_numbers = true,
@@ -100,9 +99,6 @@ pub struct Evaluate {
     /// Also print model, measures and other predictions
     #[arg(long)]
     explain: bool,
-    /// Also print a sentence for a report
-    #[arg(long)]
-    sentence: bool,
     /// text, csv or json
     #[arg(long, default_value = "text")]
     format: Format,
@@ -171,8 +167,10 @@ impl Evaluate {
             let (row, budget) = TreeRow::new(motion, subject);
             (row, budget, motion.peaks(&subject.directions[0].1), Vec::new())
         };
-        let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
-        self.finish(&all, point::text(&all, self.sentence), context)
+        let objects = self.objects(models, context)?;
+        let bar = context.bar(objects.len());
+        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+        self.finish(&all, point::text(&all, self.out.as_deref()), context)
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
@@ -184,19 +182,13 @@ impl Evaluate {
             let row = RatesRow::new(&rates, self.years, self.target.map_or([None; 2], widths));
             (row, rates.budgets.overturning, rates.motion, rates.warnings)
         };
-        let all = object::answers(self.objects(models, context)?, models, self.explain, predict)?;
-        let is_counted = |answer: &Answer<RatesRow>| answer.row.counted_motions.is_some();
-        if let Some(path) = self.responses.as_ref().filter(|_| !all.iter().any(is_counted)) {
-            let mut names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
-            names.sort_unstable();
-            names.dedup();
-            anyhow::bail!(
-                "{}: responses of {}; expected those of this structure, without depth, to motions of its kind that uplift it",
-                path.display(),
-                listed(&names, 8)
-            );
+        let objects = self.objects(models, context)?;
+        let bar = context.bar(objects.len());
+        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+        if let Some(path) = &self.responses {
+            context.warn(expect_counted(&all, &site, path)?);
         }
-        self.finish(&all, rates::text(&all, &site, self.target, self.sentence), context)
+        self.finish(&all, rates::text(&all, &site, self.target, self.out.as_deref()), context)
     }
 
     /// Reads the hazard and what rates over it need.
@@ -233,10 +225,9 @@ impl Evaluate {
         }
         let (objects, unused) = self.structures.objects(&self.place)?;
         context.warn(unused);
-        let can_be = |object: &Object| !matches!(object.directions, Err(Reason::Implausible(_)));
         match (objects.first().map(Object::expect_directions), &self.structures.structures) {
-            (Some(Err(reason)), path) if !objects.iter().any(can_be) => match path {
-                Some(path) => anyhow::bail!("{}: {reason}; no other row can be right either", path.display()),
+            (Some(Err(reason)), path) if objects.iter().all(Object::is_implausible) => match path {
+                Some(path) => anyhow::bail!("{}: {reason}; every other row has a fault too", path.display()),
                 None => Err(UsageError::because(reason)),
             },
             _ => Ok(objects),
@@ -285,6 +276,24 @@ impl Evaluate {
         }
         Ok(printed)
     }
+}
+
+/// Checks that responses were of an object; a warning where all have a depth, for they are to one component.
+fn expect_counted(all: &[Answer<RatesRow>], site: &Site, responses: &Path) -> anyhow::Result<Warnings> {
+    if all.iter().any(|answer| answer.row.counted_motions.is_some()) {
+        return Ok(Warnings::default());
+    }
+    if all.iter().all(|answer| answer.object.p_rad_s.is_none() || answer.object.depth_m.is_some()) {
+        return Ok([(Warning::NotCounted, UNNAMED.to_string())].into_iter().collect());
+    }
+    let mut names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    anyhow::bail!(
+        "{}: responses of {}; expected those of this structure to motions of its kind, some of which uplift it",
+        responses.display(),
+        listed(&names, 8)
+    )
 }
 
 /// How a file is written, by how its name ends; none as Parquet.

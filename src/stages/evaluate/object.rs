@@ -10,6 +10,7 @@ use crate::keyword::Keyword;
 use crate::motion::{Floor, IntensityMeasures};
 use crate::number::Limited;
 use crate::pipeline::UsageError;
+use crate::pipeline::context::Progress;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
 use crate::stages::shared::objects::{Direction, Object, warnings_of};
@@ -201,9 +202,11 @@ pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
+    bar: &Progress,
     predict: impl Fn(&Object, &Subject) -> (R, Budget, [f64; 2], Vec<Warning>) + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
+        bar.advance(1)?;
         if let Err(reason) = &object.directions {
             let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
             let object = ObjectRow::new(&object, None, models.args.limit_state);

@@ -1,5 +1,7 @@
 //! Probabilities at a PGA, a PGV or both, and in words.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, ObjectRow, Predicted, Subject};
@@ -9,7 +11,7 @@ use super::words::{
 use crate::fragility::{Probability, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
 use crate::motion::{Floor, IntensityMeasures};
-use crate::number::{Limited, PERCENT, aligned, fixed, plain};
+use crate::number::{Limited, PERCENT, aligned, fixed, name, plain};
 use crate::units::G_M_S2;
 
 /// The probabilities of the tree at an intensity; none where they are not known.
@@ -68,18 +70,8 @@ impl Predicted for TreeRow {
 }
 
 /// The answer for all objects, in words.
-pub fn text(all: &[Answer<TreeRow>], sentence: bool) -> String {
-    let sentence = sentence.then_some(|Answer { object, row: tree, .. }: &Answer<TreeRow>| {
-        let overturns = match tree.rocks() {
-            false => "does not rock".to_string(),
-            true => {
-                let p = PERCENT.both(tree.overturning(), "95 % confidence limits ");
-                format!("overturns with a probability of {p}")
-            }
-        };
-        format!("{overturns} {}, by {}", words_of_peaks(tree), model(object))
-    });
-    super::words::text(all, of_one, || of_several(all), sentence)
+pub fn text(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
+    super::words::text(all, of_one, || of_several(all, out))
 }
 
 fn of_one(answer: &Answer<TreeRow>) -> String {
@@ -101,18 +93,19 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
     format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(answer))
 }
 
-fn of_several(all: &[Answer<TreeRow>]) -> String {
+fn of_several(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
     let worst = &all[0];
     let first = match worst.row.overturning() {
         [None | Some(0.0), ..] => "nothing overturns".to_string(),
         p => {
-            let (name, p) = (&worst.object.structure, PERCENT.both(p, "95 % limits "));
-            format!("{name} overturns most probably: {p}")
+            let (name, p) = (name(&worst.object.structure), PERCENT.both(p, "95 % limits "));
+            format!("{name} is the most likely to overturn: {p}")
         }
     };
     let table = table(
         &["rocks", "overturns", "", "or too far", "friction"],
         all,
+        out,
         |Answer { object, row, .. }| {
             let [failure, overturning] = row.states;
             let rocks = row.p_nr.map_or("-", |_| if row.rocks() { "yes" } else { "no" });

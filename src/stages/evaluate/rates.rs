@@ -1,5 +1,7 @@
 //! Annual rates at a site, and in words.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::object::{Answer, Predicted};
@@ -8,7 +10,7 @@ use super::words::{
 };
 use crate::fragility::Peak;
 use crate::hazard::{CountedRate, Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
-use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, period, plain, significant};
+use crate::number::{Limited, PERCENT, RATE, aligned, count, counted, name, period, plain, significant};
 use crate::units::G_M_S2;
 
 /// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for
@@ -66,15 +68,9 @@ impl Predicted for RatesRow {
 }
 
 /// The answer for all objects, in words.
-pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, sentence: bool) -> String {
-    let sentence = sentence.then_some(|Answer { object, row: rates, .. }: &Answer<RatesRow>| {
-        let how_often = how_often(rates, site, "95 % confidence limits ");
-        let extended = extrapolated(rates).map_or(String::new(), |text| format!(" ({text})"));
-        let without = if has_fractiles(site) { "" } else { ", without the uncertainty of the hazard" };
-        format!("{how_often}{extended}, by {}{without}", model(object))
-    });
+pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Option<&Path>) -> String {
     let of_one = |answer: &Answer<RatesRow>| of_one(answer, site, target);
-    super::words::text(all, of_one, || of_several(all, site, target), sentence)
+    super::words::text(all, of_one, || of_several(all, site, target, out))
 }
 
 fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String {
@@ -103,7 +99,7 @@ fn of_one(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String
     format!(
         "{}: {}\n{}{}{widths}By {}{}.\n{}",
         title(object),
-        how_often(rates, site, "95 % limits "),
+        how_often(rates, site),
         aligned(&lines, |_| false),
         about_limits(answer, site),
         model(object),
@@ -126,22 +122,23 @@ pub fn expected_number(all: &[Answer<RatesRow>]) -> Option<String> {
     let years = in_years(&all.first()?.row);
     (number > 1.0).then(|| {
         let [low, high] = [worst, -(-independent).exp_m1()];
-        let limits = PERCENT.value([None, Some(low), Some(high)]);
+        let [low, high] = [low, high].map(|p| PERCENT.one(p));
         format!(
-            "Of {} objects {} overturn {years} on average; at least one: {limits}.",
-            plain(number),
-            significant(expected, 2)
+            "Expected number overturning {years}: {} of {}. Probability that at least one does: {low} (if all \
+             fall together) to {high} (if independent).",
+            significant(expected, 2),
+            plain(number)
         )
     })
 }
 
-fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>) -> String {
+fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Option<&Path>) -> String {
     let worst = &all[0];
     let years = in_years(&worst.row);
     let width = target.map(|target| format!("width for {}", PERCENT.one(target)));
     let headings = ["rocks", "overturns", "once in years", &years, "", "friction"];
     let headings: Vec<&str> = headings.into_iter().chain(width.as_deref()).collect();
-    let table = table(&headings, all, |Answer { object, row: rates, .. }| {
+    let table = table(&headings, all, out, |Answer { object, row: rates, .. }| {
         let width = || rates.target_width_m.map_or("-".to_string(), |width| format!("{width:.2} m"));
         let cells = [
             RATE.value([rates.rocking_per_year, None, None]),
@@ -153,13 +150,13 @@ fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>) -> Str
         ];
         cells.into_iter().chain(target.map(|_| width())).collect()
     });
-    let (name, how_often) = (&worst.object.structure, how_often(&worst.row, site, "95 % limits "));
+    let (name, how_often) = (name(&worst.object.structure), how_often(&worst.row, site));
     let first = match how_often.strip_prefix("overturns ") {
         Some(often) => format!("{name} overturns most often: {often}"),
         None => format!("{name} {how_often}"),
     };
     let (model, usual) = (model_of_all(all), usual_motion(site));
-    let by = format!("Rates a year, by {model}{usual}. Below its friction an object slides instead.");
+    let by = format!("Rates are a year, by {model}{usual}. With less friction than shown, an object slides instead of rocking.");
     format!(
         "{first}\n{table}{}{}{}",
         line([expected_number(all)]),
@@ -217,12 +214,12 @@ fn extrapolated(rates: &RatesRow) -> Option<String> {
 }
 
 /// How often it overturns, with limits or bounds.
-fn how_often(rates: &RatesRow, site: &Site, limits: &str) -> String {
+fn how_often(rates: &RatesRow, site: &Site) -> String {
     match rates.overturning_per_year {
         [Some(0.0), ..] => "does not overturn: nothing of the hazard uplifts it".to_string(),
         [Some(rate), ..] => {
             let (period, in_years, p) = (period(1.0 / rate), in_years(rates), rates.p_overturning);
-            let (value, limits) = (PERCENT.value(p), PERCENT.limits(p, limits));
+            let (value, limits) = (PERCENT.value(p), PERCENT.limits(p, "95 % limits "));
             format!("overturns once in {period} years; {value} {in_years} {limits}")
         }
         bounds @ [None, Some(_), Some(_)] => {

@@ -1,37 +1,25 @@
 //! An object, its model and the warnings about its answer, in words.
 
+use std::path::Path;
+
 use super::object::{Answer, ObjectRow};
 use crate::hazard::Part;
 use crate::number;
 use crate::warning::{UNNAMED, Warning};
 
-/// The answer for all objects, the worst of which is the first, and the sentences for a report, if requested.
-/// A sentence goes on after the name.
+/// The answer for all objects, the worst of which is the first.
 pub fn text<R>(
     all: &[Answer<R>],
     of_one: impl FnOnce(&Answer<R>) -> String,
     of_several: impl FnOnce() -> String,
-    sentence: Option<impl Fn(&Answer<R>) -> String>,
 ) -> String {
-    let answered: Vec<&Answer<R>> = all.iter().filter(|answer| answer.object.p_rad_s.is_some()).collect();
-    let mut text = match (&answered[..], all) {
-        ([], _) => {
+    let text = match all {
+        _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
             all.iter().map(|answer| format!("{}: {}\n", title(&answer.object), brief(answer))).collect()
         }
-        (_, [answer]) => of_one(answer),
+        [answer] => of_one(answer),
         _ => of_several(),
     };
-    if let Some(sentence) = sentence {
-        for answer in answered {
-            let (title, sentence) = (title(&answer.object), sentence(answer));
-            let comma = if title.contains(", ") { "," } else { "" };
-            let friction = match answer.object.is_friction_known {
-                true => String::new(),
-                false => format!(", if its friction is above {}", friction(&answer.object)),
-            };
-            text += &format!("\n{title}{comma} {sentence}{friction}.\n");
-        }
-    }
     text + &all.iter().map(|answer| answer.explained.as_str()).collect::<String>()
 }
 
@@ -40,7 +28,7 @@ pub fn title(object: &ObjectRow) -> String {
     let size = size(object);
     match object.structure.as_str() {
         UNNAMED => format!("{} of {size}", object.kind),
-        name => format!("{name}, {size}"),
+        name => format!("{}, {size}", number::name(name)),
     }
 }
 
@@ -118,9 +106,18 @@ fn brief<R>(answer: &Answer<R>) -> String {
     }
 }
 
+/// Rows of a list that are printed, of one that goes to a file or is longer than the second number.
+const PRINTED: [usize; 2] = [20, 40];
+
 /// A table of a list: of each object its size, these cells and the warnings; at its end the responses to
-/// which each was fitted, if these are not the same for all.
-pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>) -> Vec<String>) -> String {
+/// which each was fitted, if these are not the same for all. Of a long list, or one that goes to a file, the
+/// worst.
+pub fn table<R>(
+    headings: &[&str],
+    all: &[Answer<R>],
+    out: Option<&Path>,
+    cells: impl Fn(&Answer<R>) -> Vec<String>,
+) -> String {
     let responses = is_fitted_each(all).then_some("responses");
     let heading =
         ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
@@ -130,8 +127,22 @@ pub fn table<R>(headings: &[&str], all: &[Answer<R>], cells: impl Fn(&Answer<R>)
         name.chain(cells(answer)).chain([brief(answer)]).chain(responses).collect()
     };
     let heading = heading.map(str::to_string).collect();
-    let rows: Vec<Vec<String>> = std::iter::once(heading).chain(all.iter().map(row)).collect();
-    number::aligned(&rows, |_| false)
+    let most = if out.is_some() || all.len() > PRINTED[1] { PRINTED[0] } else { all.len() };
+    let (printed, others) = all.split_at(most.min(all.len()));
+    let rows: Vec<Vec<String>> = std::iter::once(heading).chain(printed.iter().map(row)).collect();
+    number::aligned(&rows, |_| false) + &where_others_are(others, out)
+}
+
+/// How many objects are not printed, and where they are.
+fn where_others_are<R>(others: &[Answer<R>], out: Option<&Path>) -> String {
+    let place = match out {
+        _ if others.is_empty() => return String::new(),
+        Some(out) => format!("in {}", out.display()),
+        None => "by --out or --format csv".to_string(),
+    };
+    let without = others.iter().filter(|answer| answer.object.p_rad_s.is_none()).count();
+    let without = if without > 0 { format!(" ({without} without an answer)") } else { String::new() };
+    format!("and {} more{without}, {place}\n", number::count(others.len()))
 }
 
 fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {

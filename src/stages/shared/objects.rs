@@ -38,23 +38,36 @@ impl StructureArgs {
         self.structures.is_some() || !self.structure.is_empty() || self.one != Shape::default()
     }
 
-    /// All structures, each of the weaker direction of an object, and warnings about them and their list.
+    /// Takes the paper's two structures where none is given.
+    pub fn or_paper(&self) -> StructureArgs {
+        let paper = (!self.is_given()).then(|| PathBuf::from("paper"));
+        StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
+    }
+
+    /// All structures, each of the weaker direction of an object, and warnings about them and their list: of
+    /// a list without its rows that do not rock on the ground.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
         let (objects, mut warnings) = self.objects(&Place::default())?;
-        let mut structures = Vec::new();
+        let (mut structures, mut first) = (Vec::new(), None);
         for object in &objects {
             let name = &object.spec.name;
-            if object.floor().is_some() {
-                return Err(UsageError::because(format!(
-                    "{name} stands on a floor: leave out level and period; floor-motions makes its motions"
-                )));
-            }
-            let structure = object.expect_directions().map_err(UsageError::because)?[0].structure.clone();
+            let structure = match on_ground(object) {
+                Ok(structure) => structure,
+                Err(problem) if self.structures.is_some() && !object.is_implausible() => {
+                    warnings.extend([(Warning::LeftOut, name.clone())].into_iter().collect());
+                    first.get_or_insert(problem);
+                    continue;
+                }
+                Err(problem) => return Err(UsageError::because(problem)),
+            };
             let about = warnings_of(&structure).into_iter().map(|warning| (warning, name.clone()));
             warnings.extend(about.collect());
             structures.push(structure);
         }
-        Ok((structures, warnings))
+        match first.filter(|_| structures.is_empty()) {
+            Some(problem) => Err(UsageError::because(problem)),
+            None => Ok((structures, warnings)),
+        }
     }
 
     /// All objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
@@ -85,6 +98,17 @@ impl StructureArgs {
             return Err(UsageError::because(problem));
         }
         Ok((objects, unused))
+    }
+}
+
+/// The structure of the weaker direction of an object, which must stand on the ground.
+fn on_ground(object: &Object) -> Result<Structure, String> {
+    let name = &object.spec.name;
+    match object.floor() {
+        Some(_) => Err(format!(
+            "{name} stands on a floor: leave out level and period; floor-motions makes its motions"
+        )),
+        None => Ok(object.expect_directions()?[0].structure.clone()),
     }
 }
 
@@ -133,6 +157,11 @@ impl Object {
     pub fn expect_directions(&self) -> Result<&[Direction], String> {
         let named = |reason: &Reason| format!("structure '{}': {}", self.spec.name, reason);
         self.directions.as_deref().map_err(named)
+    }
+
+    /// Whether it cannot be right as it is given.
+    pub fn is_implausible(&self) -> bool {
+        matches!(self.directions, Err(Reason::Implausible(_)))
     }
 
     /// The floor that it stands on; none on the ground.

@@ -1,0 +1,198 @@
+"""What a call does besides its result: pictures, interrupts, processes, warnings, what it refuses."""
+
+import copy
+import os
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas
+import polars
+import pytest
+from conftest import FRAME
+
+import rockfrag
+
+matplotlib.use("Agg")
+
+BLOCK = {"width": 0.5, "height": 2.0}
+SINE = 4.0 * np.sin(2 * np.pi * np.arange(0, 1.2, 0.01) / 1.2)
+
+
+def test_the_bare_stages_are_the_paper(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    motions = rockfrag.synthesize_motions(rockfrag.sample_scenarios(samples=2))
+    bare = rockfrag.simulate(motions)
+    assert bare.to_polars().equals(rockfrag.simulate(motions, structures="paper").to_polars())
+    assert "--width" in bare.summary.splitlines()[0]
+
+
+def test_a_response_is_drawn_and_shows_itself():
+    response = rockfrag.simulate_motion(SINE, 0.01, **BLOCK)
+    end = np.interp(1.19, response.time, response.ground_velocity)
+    assert end == pytest.approx(np.trapezoid(SINE, dx=0.01), abs=1e-9)
+    rotation, ground = response.plot()
+    assert any(np.array_equal(line.get_ydata(), response.theta_over_alpha) for line in rotation.lines)
+    assert any(np.array_equal(line.get_ydata(), response.ground_acceleration) for line in ground.lines)
+    assert len(repr(response)) < 200
+    assert "<svg" in response._repr_html_()
+
+
+def test_curves_are_drawn():
+    pga = np.linspace(0.2, 2.0, 20)
+    curve = rockfrag.probability(pga, 0.55 * pga, **BLOCK)
+    drawn = curve.plot()
+    assert any(np.allclose(line.get_ydata(), np.nan_to_num((1 - curve.p_nr) * curve.p_ro)) for line in drawn.lines)
+    assert "<svg" in curve._repr_html_()
+    fit = rockfrag.fit_fragility(np.linspace(0.2, 1.5, 40), np.arange(40) * 7 % 40 < np.arange(40))
+    assert np.allclose(fit.plot(pga).lines[0].get_ydata(), fit.probability(pga))
+    with pytest.raises(ValueError, match="no curve"):
+        rockfrag.fit_fragility([1.0, 2.0], [0, 1]).plot()
+    with pytest.raises(ValueError, match="no curve"):
+        rockfrag.probability(0.5, 0.6, **BLOCK).plot()
+
+
+def test_without_matplotlib_it_is_told_what_to_install():
+    script = """
+import sys
+sys.modules["matplotlib"] = None
+import rockfrag
+response = rockfrag.simulate_motion([0.1, 0.2], 0.01, width=0.5, height=2.0)
+assert response._repr_html_().startswith("<pre>no rocking")
+try:
+    response.plot()
+except ImportError as error:
+    print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "matplotlib is not installed: pip install matplotlib\n"
+
+
+def test_a_result_is_a_frame_of_pandas_and_a_cell_of_a_notebook(responses):
+    frame = pandas.DataFrame(responses)
+    pandas.testing.assert_frame_equal(frame, responses.to_pandas(), check_dtype=False)
+    assert responses.summary.splitlines()[0] in responses._repr_html_()
+
+
+def test_a_pickled_result_is_whole_or_refused(tmp_path, motions):
+    made = rockfrag.simulate(motions, structure=FRAME, out=tmp_path / "responses.parquet", trace=["0"])
+    again = pickle.loads(pickle.dumps(made))
+    assert again.to_polars().equals(made.to_polars())
+    assert again.part("trace").to_polars().equals(made.part("trace").to_polars())
+    temporary = rockfrag.simulate(motions, structure=FRAME, trace=["0"])
+    for result in (temporary, temporary.part("trace")):
+        with pytest.raises(TypeError, match="expected a result with out="):
+            pickle.dumps(result)
+    copies = copy.copy(temporary), copy.deepcopy(temporary)
+    table = temporary.to_polars()
+    del temporary
+    assert all(each.to_polars().equals(table) for each in copies)
+
+
+def test_warnings_as_errors_leave_no_folder(tmp_path, monkeypatch, motions):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with pytest.warns(UserWarning):
+        rockfrag.simulate(motions, p=1.5, alpha=0.15, eta=0.3)
+    script = f"""
+import os, tempfile, warnings, rockfrag
+tempfile.tempdir = {str(tmp_path)!r}
+warnings.simplefilter("error")
+try:
+    rockfrag.simulate({str(motions.path)!r}, p=1.5, alpha=0.15, eta=0.3)
+except UserWarning as warning:
+    print(os.listdir({str(tmp_path)!r}))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_fit_in_a_forked_process_is_refused():
+    script = """
+import os, numpy, rockfrag
+im = numpy.linspace(0.1, 3, 20_000)
+outcome = numpy.random.default_rng(1).random(20_000) < im / 3
+rockfrag.fit_fragility(im, outcome)
+pid = os.fork()
+if pid == 0:
+    try:
+        rockfrag.fit_fragility(im, outcome)
+    except rockfrag.Error as error:
+        os._exit(7 if "spawn" in str(error) else 1)
+    os._exit(2)
+print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout == "7\n"
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "rockfrag.evaluate(structures=frame, hazard='hazard.csv', target='1%')",
+        "rockfrag.export(to='openquake', structures=frame, out='x.xml')",
+        "rockfrag.sample_scenarios(samples=500_000)",
+    ],
+)
+def test_an_interrupt_is_heard_within_a_second(tmp_path, call):
+    (tmp_path / "hazard.csv").write_bytes((Path(__file__).parents[2] / "data/hazard.csv").read_bytes())
+    script = f"""
+import os, signal, threading, time, pandas, rockfrag
+number = range(3000)
+frame = pandas.DataFrame(dict(name=[f"object {{k}}" for k in number],
+    width=[0.3 + 1e-4 * k for k in number], height=[2.0] * len(number)))
+seen = []
+def interrupt():
+    seen.append(time.monotonic())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Timer(1.0, interrupt).start()
+steps = []
+try:
+    {call[:-1]}, progress=lambda done, total: steps.append((done, total)))
+except KeyboardInterrupt:
+    late = time.monotonic() - seen[0]
+    assert late < 1.0, late
+    assert steps[-1][1] > 0, steps[-1]
+    print("heard", sorted(os.listdir(".")))
+"""
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stdout == "heard ['hazard.csv']\n", done.stderr
+
+
+def test_more_threads_than_a_machine_has_are_refused(motions):
+    with pytest.raises(ValueError, match="threads"):
+        rockfrag.simulate(motions, threads=20_000, structure=FRAME)
+
+
+@pytest.mark.parametrize("table", [{"pga_g": [0.5]}, np.ones((3, 2)), [0.5, 0.6], [[0.5, 0.6]], 3])
+def test_what_is_no_table_is_told(table):
+    with pytest.raises(TypeError, match="expected a table .*or the path"):
+        rockfrag.evaluate(table, **BLOCK)
+    with pytest.raises(TypeError, match="expected a table .*or the path"):
+        rockfrag.evaluate(structures=table, pga=0.5)
+
+
+def test_shapes_that_differ_are_refused():
+    with pytest.raises(ValueError, match=r"\(20, 10\) and outcome \(10, 20\)"):
+        rockfrag.fit_fragility(np.ones((20, 10)), np.ones((10, 20)))
+
+
+def test_masks_are_honoured():
+    im = np.linspace(0.2, 1.5, 40)
+    outcome = np.arange(40) * 7 % 40 < np.arange(40)
+    hidden = np.arange(40) % 5 == 0
+    wrong = np.ma.masked_array(np.where(hidden, -1.0, im), hidden)
+    fit, expected = rockfrag.fit_fragility(wrong, outcome), rockfrag.fit_fragility(im[~hidden], outcome[~hidden])
+    assert (fit.n, fit.theta) == (expected.n, expected.theta)
+    curve = rockfrag.probability(np.ma.masked_array([0.5, 0.9], [True, False]), 0.6, **BLOCK)
+    assert np.isnan(curve.p_f[0]) and curve.p_f[1] == rockfrag.probability(0.9, 0.6, **BLOCK).p_f
+    with pytest.raises(ValueError, match="sample 1 of the acceleration is NaN"):
+        rockfrag.simulate_motion(np.ma.masked_array([0.1, 0.2, 0.3], [False, True, False]), 0.01, **BLOCK)
+
+
+def test_a_motion_is_that_of_the_floor_itself():
+    with pytest.raises(ValueError, match="level, period"):
+        rockfrag.simulate_motion(SINE, 0.01, level=0.5, period=0.6, **BLOCK)
