@@ -1,11 +1,16 @@
 //! What one sees at a terminal: words, lists, traces.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use arrow_array::builder::{Float64Builder, ListBuilder};
+use arrow_array::{ArrayRef, Float64Array, StringArray};
+use rockfrag::stages::ida::CapacityFitRow;
+use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
 
-use crate::common::{fail, succeed, write_motions};
+use crate::common::{fail, folder, rockfrag, succeed, write, write_motions};
 
 fn trace(folder: &Path) -> Vec<TraceRow> {
     rows::read(&folder.join("responses.trace.parquet")).unwrap()
@@ -71,4 +76,170 @@ fn short_help_has_the_options_of_its_examples_and_long_help_all() {
             assert!(few.contains(&word), "{stage}: {word} of an example is not an option");
         }
     }
+}
+
+/// Twelve sines in three groups, those of a group alike, as motions of one magnitude and distance or of
+/// unknown ones.
+fn write_groups(path: &Path, is_known: bool) {
+    let mut samples = ListBuilder::new(Float64Builder::new());
+    let (mut ids, mut mw, mut re_km) = (Vec::new(), Vec::new(), Vec::new());
+    for (group, omega) in [(0, 3.0), (1, 5.0), (2, 8.0)] {
+        for one in 0..4 {
+            let omega = omega * (1.0 + 0.02 * f64::from(one));
+            let sine: Vec<f64> = (0..400).map(|k| 3.0 * (omega * 0.01 * f64::from(k)).sin()).collect();
+            samples.values().append_slice(&sine);
+            samples.append(true);
+            ids.push(format!("{group}-{one}"));
+            mw.push(is_known.then_some(6.0 + 0.5 * f64::from(group)));
+            re_km.push(is_known.then_some(10.0));
+        }
+    }
+    let columns: Vec<(&str, ArrayRef)> = vec![
+        ("motion_id", Arc::new(StringArray::from(ids))),
+        ("dt_s", Arc::new(Float64Array::from(vec![0.01; 12]))),
+        ("mw", Arc::new(Float64Array::from(mw))),
+        ("re_km", Arc::new(Float64Array::from(re_km))),
+        ("acceleration_m_s2", Arc::new(samples.finish())),
+    ];
+    write(path, columns);
+}
+
+#[test]
+fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
+    let folder = tempfile::tempdir().unwrap();
+    let fit = |is_known: bool| -> CapacityFitRow {
+        write_groups(&folder.path().join("motions.parquet"), is_known);
+        succeed(folder.path(), "ida --width 0.5 --height 2 --measure pga --from 0.05 --to 4 --steps 80");
+        rows::read(&folder.path().join("ida.fragility.parquet")).unwrap().remove(0)
+    };
+    let (alone, clustered) = (fit(false), fit(true));
+    assert_eq!(alone.theta[0], clustered.theta[0]);
+    let width = |fit: &CapacityFitRow| (fit.theta[2].unwrap() / fit.theta[1].unwrap()).ln();
+    assert!(width(&clustered) > 1.3 * width(&alone), "{clustered:?} {alone:?}");
+    // The share of the stripes that overturns passes one half there.
+    let table = Table::open(&folder.path().join("ida.stripes.parquet")).unwrap();
+    let stripes = table.batches(&|_| true).next().unwrap().unwrap();
+    let (intensity, outcome) = (stripes.numbers("intensity").unwrap(), stripes.texts("outcome").unwrap());
+    let share = |level: f64| {
+        let at: Vec<usize> = (0..intensity.len()).filter(|&row| intensity[row] == level).collect();
+        at.iter().filter(|&&row| outcome[row].as_deref() == Some("overturning")).count() as f64
+            / at.len() as f64
+    };
+    let half = clustered.half_overturn_at.unwrap();
+    let mut levels = intensity.clone();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    let above = *levels.iter().find(|level| **level >= half).unwrap();
+    assert!(share(above) >= 0.5 && above / half < 1.06);
+    assert!(levels.iter().filter(|level| **level < half).all(|level| share(*level) <= 0.5));
+}
+
+const LIST: &str = "name,width (m),height (m),anchored,level,period
+Autoclave,0.6,1.5,yes,,
+Bookcase,0.4,2.0,no,,
+Upstairs,0.4,2.0,no,0.5,0.6
+";
+
+#[test]
+fn a_pipeline_of_a_list_goes_on_past_what_does_not_rock_on_the_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(succeed(folder.path(), "init site --quiet").0.is_empty());
+    std::fs::write(folder.path().join("structures.csv"), LIST).unwrap();
+    let pipeline = folder.path().join("pipeline.yaml");
+    let small = std::fs::read_to_string(&pipeline).unwrap().replace("samples: 40", "samples: 4");
+    std::fs::write(&pipeline, small.replace("report:", "# report:")).unwrap();
+    let (printed, warned) = succeed(folder.path(), "run");
+    assert!(["Autoclave", "Bookcase", "Upstairs"].iter().all(|name| printed.contains(name)), "{printed}");
+    assert!(warned.contains("Autoclave, Upstairs: left out"), "{warned}");
+    // A response is to one component of a motion: with a depth there is no count, and an answer.
+    let deep = "name,width (m),depth (m),height (m)\nBookcase,0.4,0.5,2.0\n";
+    std::fs::write(folder.path().join("structures.csv"), deep).unwrap();
+    assert!(succeed(folder.path(), "run").1.contains("with a depth"));
+    // What cannot be right is still refused, and so is a list of which nothing rocks.
+    std::fs::write(folder.path().join("wrong.csv"), "name,width,height\nA,0.4,2\nB,40,2\n").unwrap();
+    fail(folder.path(), "simulate --in out/motions.parquet --structures wrong.csv", 2, &["'B'", "width"]);
+    std::fs::write(folder.path().join("held.csv"), &LIST[..LIST.find("Bookcase").unwrap()]).unwrap();
+    fail(folder.path(), "simulate --in out/motions.parquet --structures held.csv", 2, &["Autoclave"]);
+}
+
+/// A list of this many objects, the last ones the weakest.
+fn list(objects: usize) -> String {
+    let row = |k: usize| format!("object {k},{},2.0\n", 0.6 - 0.004 * k as f64);
+    "name,width,height\n".to_string() + &(0..objects).map(row).collect::<String>()
+}
+
+#[test]
+fn a_long_list_is_printed_by_its_worst() {
+    let folder = folder(&[("short.csv", &list(25)), ("long.csv", &list(41))]);
+    let objects = |call: &str| {
+        let printed = succeed(folder.path(), &format!("evaluate --pga 0.6 --pgv 0.8 {call}")).0;
+        let rows = printed.lines().filter(|line| line.trim_start_matches([' ', '"']).starts_with("object "));
+        // The headings begin so too.
+        (rows.filter(|line| !line.contains("size")).count(), printed)
+    };
+    assert_eq!(objects("--structures short.csv").0, 25);
+    let (rows, printed) = objects("--structures short.csv --out out.csv");
+    assert!(rows == 20 && printed.contains("and 5 more, in out.csv"), "{printed}");
+    let (rows, printed) = objects("--structures long.csv");
+    assert!(rows == 20 && printed.contains("and 21 more"), "{printed}");
+    assert!(printed.contains("object 40") && !printed.contains("object 1 "), "{printed}");
+    assert_eq!(objects("--structures long.csv --out out.csv --format csv").0, 41);
+    assert_eq!(objects("--structures long.csv --format json").1.matches("\"structure\"").count(), 41);
+}
+
+#[test]
+fn control_characters_of_names_are_shown_and_not_sent() {
+    let folder = folder(&[("list.csv", "name,width,height\n\"\u{1b}[31mred\nrow\",0.4,2.0\nB,0.5,2.0\n")]);
+    let ids: ArrayRef = Arc::new(StringArray::from(vec!["a\u{1b}[2J\nframe: 0 of 3 motions overturn it"]));
+    let mut samples = ListBuilder::new(Float64Builder::new());
+    samples.values().append_slice(&[9.0; 300]);
+    samples.append(true);
+    let dt: ArrayRef = Arc::new(Float64Array::from(vec![0.01]));
+    write(
+        &folder.path().join("motions.parquet"),
+        vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", Arc::new(samples.finish()))],
+    );
+    for call in [
+        "evaluate --structures list.csv --pga 0.6 --pgv 0.8",
+        "evaluate --structures list.csv --hazard hazard.csv",
+        "simulate --structures list.csv",
+        "ida --structures list.csv",
+        "inspect responses.parquet --head 3",
+    ] {
+        std::fs::write(folder.path().join("hazard.csv"), include_str!("../../data/hazard.csv")).unwrap();
+        let (printed, warned) = succeed(folder.path(), call);
+        assert!(!(printed + &warned).replace('\n', "").contains(char::is_control), "{call}");
+        assert!(!succeed(folder.path(), call).0.contains("\nframe: 0"), "{call}");
+    }
+    let csv = succeed(folder.path(), "evaluate --structures list.csv --pga 0.6 --pgv 0.8 --format csv").0;
+    assert!(csv.contains("\u{1b}[31mred\nrow"), "names stay as they are");
+    let missing = rockfrag(folder.path(), "simulate --in none.parquet --trace").arg("\u{1b}[31m").output().unwrap();
+    assert!(!missing.stderr.contains(&0x1b));
+}
+
+#[test]
+fn names_may_be_long() {
+    let name = "n".repeat(65_536);
+    let folder = folder(&[("list.csv", &format!("name,width,height\n{name},0.4,2.0\nB,0.5,2.0\n"))]);
+    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[9.0; 300], &[0.1; 300]]);
+    for call in [
+        "evaluate --structures list.csv --pga 0.6 --pgv 0.8",
+        "simulate --structures list.csv",
+        "fit-pro",
+        "fit-pex",
+        "rank-ims --terms 1",
+        "validate",
+        "ida --structures list.csv",
+    ] {
+        assert!(succeed(folder.path(), call).0.len() < 10_000, "{call}");
+    }
+}
+
+#[test]
+fn more_threads_than_any_machine_has_are_refused() {
+    let folder = folder(&[]);
+    fail(folder.path(), "evaluate --width 0.5 --height 2 --pga 0.5 --threads 20000", 2, &["threads"]);
+    let mut command = rockfrag(folder.path(), "evaluate --width 0.5 --height 2 --pga 0.5 --pgv 0.6");
+    let refused = command.env("RAYON_NUM_THREADS", "100000").output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
 }

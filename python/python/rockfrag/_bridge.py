@@ -103,6 +103,8 @@ def call(
         for name, option in files.items():
             if hasattr(words.get(name), "__arrow_c_stream__"):
                 words[name] = written(words[name], Path(scratch, name), option)
+            elif name in words:
+                expect_path(name, words[name])
         with errors_without(scratch):
             made = _rockfrag.call(
                 stage.command,
@@ -153,6 +155,14 @@ def written(table: Any, path: Path, option: Option) -> Path:
     path = path.with_suffix(".csv" if "CSV" in option.help and "Parquet" not in option.help else ".parquet")
     _rockfrag.write_table(table.__arrow_c_stream__(), path)
     return path
+
+
+def expect_path(name: str, value: Any) -> None:
+    """A table that is not one would be taken for a path, and printed whole."""
+    paths = value if isinstance(value, (list, tuple)) else [value]
+    if not all(isinstance(path, (str, os.PathLike)) for path in paths):
+        expected = "expected a table of polars, pandas, pyarrow or DuckDB, or the path of a file"
+        raise TypeError(f"{'input' if name == 'in' else name} is a {type(value).__name__}; {expected}")
 
 
 def plain(value: Any) -> Any:
