@@ -33,6 +33,7 @@ keywords! {
         UnreadableFile = "unreadable_file",
         NoPartner = "no_partner",
         LeftOut = "left_out",
+        OneDirection = "one_direction",
         NotCounted = "not_counted",
         UnusedColumns = "unused_columns",
     }
@@ -64,6 +65,7 @@ impl Warning {
             UnreadableFile => "not imported",
             UnusedColumns => "columns not used by rockfrag",
             LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
+            OneDirection => "in the weaker direction alone: a response is to one component of a motion",
             NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
             NoPartner => "no perpendicular component: left out",
         }

@@ -60,8 +60,9 @@ impl StructureArgs {
                 }
                 Err(problem) => return Err(UsageError::because(problem)),
             };
-            let about = warnings_of(&structure).into_iter().map(|warning| (warning, name.clone()));
-            warnings.extend(about.collect());
+            let one_direction = object.spec.shape.depth.map(|_| Warning::OneDirection);
+            let about = warnings_of(&structure).into_iter().chain(one_direction);
+            warnings.extend(about.map(|warning| (warning, name.clone())).collect());
             structures.push(structure);
         }
         match first.filter(|_| structures.is_empty()) {
