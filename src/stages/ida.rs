@@ -330,9 +330,8 @@ fn clusters(rows: &[&CapacityRow]) -> Vec<u32> {
 /// The lowest level at which half of some motions overturn a structure, by the share in between: along ln
 /// of the intensity. None if it is below the first level or above the last.
 fn half_overturn_at(levels: &[f64], overturns: &[Vec<bool>], rows: &[usize]) -> Option<f64> {
-    let share = |level: usize| {
-        rows.iter().filter(|&&row| overturns[row][level]).count() as f64 / rows.len() as f64
-    };
+    let share =
+        |level: usize| rows.iter().filter(|&&row| overturns[row][level]).count() as f64 / rows.len() as f64;
     let at = (0..levels.len()).find(|&level| share(level) >= 0.5).filter(|&level| level > 0)?;
     let (before, after) = (share(at - 1), share(at));
     let fraction = (0.5 - before) / (after - before);
@@ -438,7 +437,9 @@ fn line(row: &CapacityFitRow) -> String {
     let (measure, unit) = row.measure.words();
     let half = match row.half_overturn_at {
         Some(at) => format!("half of the motions overturn it at {measure} {}{unit}", significant(at, 3)),
-        None if 2 * row.n_below >= row.n => "half of the motions overturn it at the first intensity".to_string(),
+        None if 2 * row.n_below >= row.n => {
+            "half of the motions overturn it at the first intensity".to_string()
+        }
         None => {
             let motions = counted(row.n as usize, "motion");
             format!("{} of {motions} never overturn it, half of them at no intensity", row.n_safe)

@@ -102,7 +102,11 @@ fn the_bare_commands_in_an_empty_folder_make_table_ii_of_the_run() {
     for stage in ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"] {
         let printed = print(stage);
         let first = printed.lines().next().unwrap();
-        assert_eq!(first.contains("of the paper") && first.contains("--width"), stage == "simulate", "{first}");
+        assert_eq!(
+            first.contains("of the paper") && first.contains("--width"),
+            stage == "simulate",
+            "{first}"
+        );
     }
     let planes = |path: &Path| -> Vec<DemandFit> {
         let fits: Vec<DemandFit> = rows::read(path).unwrap();

@@ -26,10 +26,8 @@ fn a_trace_has_what_a_picture_needs() {
     let one = trace(folder.path());
     assert!(one.iter().all(|row| row.motion_id == "0"));
     for row in one.iter().filter(|row| row.time_s < 2.99) {
-        let (acceleration, velocity) = (
-            5.0 * (omega * row.time_s).sin(),
-            5.0 / omega * (1.0 - (omega * row.time_s).cos()),
-        );
+        let (acceleration, velocity) =
+            (5.0 * (omega * row.time_s).sin(), 5.0 / omega * (1.0 - (omega * row.time_s).cos()));
         assert!((row.ground_acceleration_m_s2 - acceleration).abs() < 3e-3, "{row:?}");
         assert!((row.ground_velocity_m_s - velocity).abs() < 1e-3, "{row:?}");
         assert!((row.block_width_m - 0.5).abs() < 1e-12 && (row.block_height_m - 2.0).abs() < 1e-12);
@@ -50,8 +48,20 @@ fn a_motion_that_cannot_be_traced_is_told_before_anything_is_simulated() {
 }
 
 const STAGES: [&str; 14] = [
-    "sample-scenarios", "synthesize-motions", "import-motions", "floor-motions", "simulate", "ida", "fit-pex",
-    "fit-pro", "compare-paper", "rank-ims", "evaluate", "export", "validate", "report",
+    "sample-scenarios",
+    "synthesize-motions",
+    "import-motions",
+    "floor-motions",
+    "simulate",
+    "ida",
+    "fit-pex",
+    "fit-pro",
+    "compare-paper",
+    "rank-ims",
+    "evaluate",
+    "export",
+    "validate",
+    "report",
 ];
 
 /// The names of the options that a help lists.
@@ -213,7 +223,8 @@ fn control_characters_of_names_are_shown_and_not_sent() {
     }
     let csv = succeed(folder.path(), "evaluate --structures list.csv --pga 0.6 --pgv 0.8 --format csv").0;
     assert!(csv.contains("\u{1b}[31mred\nrow"), "names stay as they are");
-    let missing = rockfrag(folder.path(), "simulate --in none.parquet --trace").arg("\u{1b}[31m").output().unwrap();
+    let missing =
+        rockfrag(folder.path(), "simulate --in none.parquet --trace").arg("\u{1b}[31m").output().unwrap();
     assert!(!missing.stderr.contains(&0x1b));
 }
 

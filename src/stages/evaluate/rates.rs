@@ -156,7 +156,9 @@ fn of_several(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: O
         None => format!("{name} {how_often}"),
     };
     let (model, usual) = (model_of_all(all), usual_motion(site));
-    let by = format!("Rates are a year, by {model}{usual}. With less friction than shown, an object slides instead of rocking.");
+    let by = format!(
+        "Rates are a year, by {model}{usual}. With less friction than shown, an object slides instead of rocking."
+    );
     format!(
         "{first}\n{table}{}{}{}",
         line([expected_number(all)]),
