@@ -1,17 +1,92 @@
-//! What structures and ground motions can be: ranges within which a number given by a user can be right.
+//! What structures and ground motions can be: the range of each quantity with its source, for options, tables
+//! and records alike.
+
+use std::ops::RangeInclusive;
 
 use crate::number::{period, significant};
 
-/// PGA, g, beyond which nothing was ever recorded.
+/// A range within which a quantity can be right, in words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Range {
+    range: RangeInclusive<f64>,
+    pub expected: &'static str,
+}
+
+impl Range {
+    const fn new(range: RangeInclusive<f64>, expected: &'static str) -> Range {
+        Range { range, expected }
+    }
+
+    pub fn contains(&self, value: f64) -> bool {
+        self.range.contains(&value)
+    }
+}
+
+/// Moment magnitudes: the largest was 9.5 (Valdivia 1960), and weaker earthquakes rock nothing.
+pub const MAGNITUDES: RangeInclusive<f64> = 1.0..=9.9;
+/// Distances from a rupture, km, within which the ground shakes strongly, with a wide margin.
+pub const DISTANCES_KM: RangeInclusive<f64> = 0.0..=1000.0;
+
+/// PGA, g, beyond which nothing was recorded, with a margin: the largest is 4278 cm/s2, the vector of three
+/// components at IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration
+/// records of large earthquakes, Seismological Research Letters 80).
 pub const STRONGEST_PGA_G: f64 = 4.5;
-/// PGV, m/s, beyond which nothing was ever recorded.
+/// PGV, m/s, beyond which nothing was recorded, with a margin over the 3.18 m/s of TCU068 (Chi-Chi 1999).
 pub const STRONGEST_PGV_M_S: f64 = 5.0;
+/// Above these, a motion is rare: m/s2 read as g is ten times too strong, without effect on PGV/PGA.
+pub const RARE_PGA_G: f64 = 2.0;
+pub const RARE_PGV_M_S: f64 = 2.5;
+/// Least PGA, g: accelerographs resolve some 1e-4 g, and 1e-3 g rocks no stable structure.
+pub const WEAKEST_PGA_G: f64 = 1e-3;
+/// PGA (g) and PGV (m/s) up to which motions are scaled.
+pub const MOST_SCALED: f64 = 20.0;
+/// Largest acceleration that the solver takes, m/s2, about 1000 g: larger samples have a wrong unit.
+pub const LARGEST_M_S2: f64 = 1e4;
 
-/// Moment magnitudes that were ever recorded, with a margin.
-pub const MAGNITUDES: std::ops::RangeInclusive<f64> = 1.0..=9.9;
+/// PGV/PGA, s, of any motion: 0.005 for a sine of 30 Hz; the pulses of large magnitudes reach 1.7.
+pub const PGV_PGA_S: RangeInclusive<f64> = 0.005..=3.0;
+/// PGV/PGA, s, of a record: FEMA P695 has 0.06 to 0.47; twice that is velocity, or another time step.
+pub const PGV_PGA_RECORDED_S: RangeInclusive<f64> = 0.005..=1.0;
+/// PGV/PGA, s, of the motions of a site: that of records, without its rare ends.
+pub const PGV_PGA_OF_SITE_S: RangeInclusive<f64> = 0.01..=0.5;
 
+/// Time steps that the solver takes, s.
+pub const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
+/// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.
+pub const RECORDED_STEPS_S: RangeInclusive<f64> = 1e-4..=0.1;
+
+/// Frequency parameters p that the solver takes, rad/s: blocks from 0.7 mm to 7000 km. With the bounds of a
+/// record they limit the Taylor steps between two samples to some million.
+pub const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
+/// Frequency parameters that a person gives, rad/s: blocks from 3 mm to 180 m.
+pub const GIVEN_FREQUENCIES_RAD_S: RangeInclusive<f64> = 0.2..=50.0;
 /// Solid blocks of a smaller p (rad/s) are higher than about 40 m: their dimensions are probably in cm.
 pub const LEAST_P_RAD_S: f64 = 0.6;
+
+/// Numbers of columns without a range of their own.
+static NUMBERS: Range = Range::new(f64::MIN..=f64::MAX, "a finite number");
+
+/// Ranges of columns, of motions up to those that solver and scaling bear.
+static COLUMNS: [(&[&str], Range); 13] = [
+    (&["mw"], Range::new(MAGNITUDES, "a moment magnitude, from 1 to 9.9")),
+    (&["re_km"], Range::new(DISTANCES_KM, "a distance from the rupture in km, from 0 to 1000")),
+    (&["vp_m_s"], Range::new(0.0..=20.0, "the amplitude of a velocity pulse in m/s, from 0 to 20")),
+    (&["tp_s"], Range::new(1e-3..=1000.0, "the period of a velocity pulse in s, from 0.001 to 1000")),
+    (&["gamma"], Range::new(1.0..=20.0, "the number of half cycles of a pulse, from 1 to 20")),
+    (&["nu_rad"], Range::new(-100.0..=100.0, "a phase in rad, from -100 to 100")),
+    (&["dt_s"], Range::new(TIME_STEPS_S, "a time step above 0 s, from 1e-6 to 10")),
+    (&["pga_m_s2"], Range::new(0.0..=LARGEST_M_S2, "a peak acceleration in m/s2, from 0 to 10000")),
+    (&["pgv_m_s"], Range::new(0.0..=1e3, "a peak velocity in m/s, from 0 to 1000")),
+    (&["tm_s"], Range::new(1e-4..=1e4, "a mean period in s, from 0.0001 to 10000")),
+    (&["edp"], Range::new(0.0..=1e3, "a rotation over the slenderness, of 0 or more")),
+    (&["im1", "im2", "im3", "im4", "im5", "im6"], Range::new(0.0..=1e9, "a measure of 0 or more")),
+    (&["beta"], Range::new(0.0..=1e3, "a dispersion of 0 or more")),
+];
+
+/// The range of the numbers in a column.
+pub fn range_of_column(name: &str) -> &'static Range {
+    COLUMNS.iter().find(|(names, _)| names.contains(&name)).map_or(&NUMBERS, |(_, range)| range)
+}
 
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
@@ -55,9 +130,6 @@ pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
         (true, false) => Err("0 to 5 m/s (above any record): is the value in cm/s?"),
     }
 }
-
-/// PGV/PGA of ground motions, s: 0.005 for a sine of 30 Hz; the synthetic pulses of large magnitudes reach 1.7.
-const PGV_PGA_S: std::ops::RangeInclusive<f64> = 0.005..=3.0;
 
 /// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.
 pub fn judge_peaks(pga_m_s2: f64, pgv_m_s: f64) -> Result<(), String> {

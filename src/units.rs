@@ -38,7 +38,7 @@ use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velo
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
-const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
+const UNITS: [(&str, Quantity, f64, &[&str]); 35] = [
     ("g", Acceleration, G_M_S2, &["gs"]),
     ("%g", Acceleration, 0.01 * G_M_S2, &["%/g"]),
     ("g/10", Acceleration, 0.1 * G_M_S2, &[]),
@@ -46,6 +46,10 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
     ("m/s2", Acceleration, 1.0, &["m/s/s", "ms2"]),
     ("cm/s2", Acceleration, 0.01, &["cm/s/s", "cms2", "gal", "gals"]),
     ("mm/s2", Acceleration, 0.001, &["mm/s/s", "mms2"]),
+    ("um/s2", Acceleration, 1e-6, &["\u{3bc}m/s2", "um/s/s", "\u{3bc}m/s/s", "ums2", "\u{3bc}ms2"]),
+    ("nm/s2", Acceleration, 1e-9, &["nm/s/s", "nms2"]),
+    ("mGal", Acceleration, 1e-5, &["mgal", "mgals", "milligal", "milligals"]),
+    ("uGal", Acceleration, 1e-8, &["ugal", "\u{3bc}gal", "microgal", "microgals"]),
     ("ft/s2", Acceleration, 0.3048, &["ft/s/s"]),
     ("in/s2", Acceleration, 0.0254, &["in/s/s"]),
     ("m/s", Velocity, 1.0, &["m/s1", "ms1"]),
@@ -61,7 +65,7 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 31] = [
     ("ft", Length, 0.3048, &["foot", "feet"]),
     ("s", Time, 1.0, &[]),
     ("ms", Time, 1e-3, &["millis"]),
-    ("us", Time, 1e-6, &["\u{b5}s", "\u{3bc}s"]),
+    ("us", Time, 1e-6, &["\u{3bc}s"]),
     ("min", Time, 60.0, &["mins", "minutes"]),
     ("years", Time, 365.25 * 86400.0, &["year", "yr", "yrs"]),
     ("rad", Angle, 1.0, &[]),
@@ -76,8 +80,10 @@ impl Unit {
     /// Reads a unit, in any common notation: `cm/s^2`, `cm/sec/sec`, `cm_s2`, `cm s-2`. None of text that is
     /// no unit.
     pub fn parse(text: &str) -> Option<Unit> {
-        let per = |c: char| if c.is_whitespace() || matches!(c, '_' | '.') { '/' } else { c };
+        let per = |c: char| if c.is_whitespace() || "_.\u{b7}\u{22c5}".contains(c) { '/' } else { c };
         let text = text.trim().trim_end_matches('.').to_lowercase().replace('\u{b2}', "2");
+        // The Greek letter for the micro sign, and no sign of an exponent.
+        let text = text.replace('\u{b5}', "\u{3bc}").replace('\u{b9}', "1").replace('\u{207b}', "");
         let text = text.replace("seconds", "s").replace("second", "s").replace("sec", "s");
         let plain: String = text.chars().filter(|c| !matches!(c, '-' | '^' | '*' | '\'')).map(per).collect();
         let (name, quantity, si, _) =

@@ -5,7 +5,7 @@ use pyo3::types::{PyBytes, PyDict};
 use rockfrag::fragility::{beta, mu};
 use rockfrag::keyword::Keyword;
 use rockfrag::pipeline::UsageError;
-use rockfrag::records::plausibility::implausibility;
+use rockfrag::records::implausibility::implausibility;
 use rockfrag::rocking::{Ground, Outcome, Record, TracePoint, simulate, trace, with_tail};
 use rockfrag::stages::shared::objects::{Object, warnings_of};
 use rockfrag::statistics::distributions::t_quantile;

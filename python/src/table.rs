@@ -79,7 +79,8 @@ pub fn read_numbers<'py>(
         for batch in Table::open(&path)?.batches(&|_| true) {
             let batch = batch?;
             for (name, values) in columns.iter_mut() {
-                values.extend(batch.numbers(name)?);
+                let numbers = batch.numbers(name)?.into_iter();
+                values.extend(numbers.map(|number| number.unwrap_or(f64::NAN)));
             }
         }
         Ok(())

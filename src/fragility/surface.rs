@@ -31,7 +31,7 @@ impl Kind {
             Some(Suite::Pulse) => Kind::Pulse,
             Some(Suite::Csgm) => Kind::Csgm,
             Some(Suite::Hfc) => Kind::Hfc,
-            Some(Suite::Record | Suite::Residual) | None => Kind::Recorded,
+            Some(Suite::Record) | None => Kind::Recorded,
         }
     }
 }

@@ -7,6 +7,7 @@ use super::budget::{Part, Unknown};
 use super::curve::HazardCurve;
 use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
 use crate::keyword::keywords;
+use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
 
@@ -73,8 +74,6 @@ const LEVELS: usize = 16;
 const PANEL: f64 = 0.25;
 /// Root mean square of ln rate above which two curves do not belong together.
 const LARGEST_REMAINDER: f64 = 0.4;
-/// PGV / PGA of a site, s.
-const POSSIBLE: [f64; 2] = [0.01, 0.5];
 
 /// Why two curves do not belong together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -175,7 +174,7 @@ impl PgvPgaRatio {
         let line = line_at_pga(level, slope);
         for a in [most, least].map(|rate| pga.intensity(rate)) {
             let ratio_s = line.ratio(a, 0.0);
-            if !(POSSIBLE[0]..=POSSIBLE[1]).contains(&ratio_s) {
+            if !PGV_PGA_OF_SITE_S.contains(&ratio_s) {
                 return Err(MatchError::ImpossibleRatio { ratio_s, pga_g: a / G_M_S2 });
             }
         }

@@ -41,40 +41,52 @@ impl Grid {
         self.mw.len() * self.re_km.len()
     }
 
-    /// Samples the scenarios of a cell, independently of other cells. The cells of a magnitude are adjacent.
-    pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
-        let mw = self.mw[cell / self.re_km.len()];
-        let re_km = self.re_km[cell % self.re_km.len()];
-        let scenario = |(sample, u)| {
-            let scenario_id = self.scenario_id(cell, sample) as i64;
-            Scenario::at_quantiles(scenario_id, cell as i32, sample as i32, mw, re_km, u)
-        };
-        self.quantiles_of_cell(cell).into_iter().enumerate().map(scenario).collect()
-    }
-
-    /// Samples a cell in the unit cube. Returns `samples` points.
-    pub fn quantiles_of_cell(&self, cell: usize) -> Vec<[f64; DIMENSIONS]> {
-        let uniform = (0..self.samples).map(|sample| {
-            let mut random = stream(self.seed, Purpose::Sample, self.scenario_id(cell, sample));
-            // The quantile of 0 is infinite.
-            std::array::from_fn(|_| random.random::<f64>().max(f64::EPSILON))
-        });
-        if self.design == Design::Random {
-            return uniform.collect();
-        }
-        let strata: [Vec<u32>; DIMENSIONS] = std::array::from_fn(|dimension| {
+    /// Begins to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
+    pub fn cell(&self, cell: usize) -> Cell<'_> {
+        let strata = |dimension: usize| {
             let mut strata: Vec<u32> = (0..self.samples as u32).collect();
             let row = (cell * DIMENSIONS + dimension) as u64;
             strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
             strata
-        });
-        let point = |(sample, within): (usize, [f64; DIMENSIONS])| {
-            std::array::from_fn(|d| (f64::from(strata[d][sample]) + within[d]) / self.samples as f64)
         };
-        uniform.enumerate().map(point).collect()
+        let is_stratified = self.design == Design::Lhs;
+        Cell { grid: self, cell, strata: is_stratified.then(|| std::array::from_fn(strata)) }
     }
 
-    fn scenario_id(&self, cell: usize, sample: usize) -> u64 {
-        (cell * self.samples + sample) as u64
+    /// Samples the scenarios of a cell.
+    pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
+        let cell = self.cell(cell);
+        (0..self.samples).map(|sample| cell.scenario(sample)).collect()
+    }
+}
+
+/// A cell of the grid.
+pub struct Cell<'a> {
+    grid: &'a Grid,
+    cell: usize,
+    /// The stratum of each sample, for each parameter of a Latin hypercube.
+    strata: Option<[Vec<u32>; DIMENSIONS]>,
+}
+
+impl Cell<'_> {
+    /// Samples a scenario of the cell.
+    pub fn scenario(&self, sample: usize) -> Scenario {
+        let Grid { mw, re_km, .. } = self.grid;
+        let (mw, re_km) = (mw[self.cell / re_km.len()], re_km[self.cell % re_km.len()]);
+        let (id, u) = (self.scenario_id(sample) as i64, self.quantiles(sample));
+        Scenario::at_quantiles(id, self.cell as i32, sample as i32, mw, re_km, u)
+    }
+
+    /// Samples a point of the unit cube.
+    pub fn quantiles(&self, sample: usize) -> [f64; DIMENSIONS] {
+        let mut random = stream(self.grid.seed, Purpose::Sample, self.scenario_id(sample));
+        // The quantile of 0 is infinite.
+        let within = std::array::from_fn(|_| random.random::<f64>().max(f64::EPSILON));
+        let Some(strata) = &self.strata else { return within };
+        std::array::from_fn(|d| (f64::from(strata[d][sample]) + within[d]) / self.grid.samples as f64)
+    }
+
+    fn scenario_id(&self, sample: usize) -> u64 {
+        (self.cell * self.grid.samples + sample) as u64
     }
 }

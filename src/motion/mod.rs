@@ -35,7 +35,7 @@ pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite, SyntheticSuite};
 pub use site::SiteAmplification;
-pub use stochastic::{LowCut, StochasticModel};
+pub use stochastic::StochasticModel;
 pub use synthesis::{MotionModel, Synthesizer, Synthetic};
 
 /// Largest number of samples of a motion; its spectra and velocities take many times the memory.

@@ -92,8 +92,6 @@ keywords! {
         Hfc = "hfc",
         /// A recorded motion.
         Record = "record",
-        /// A recorded motion without its pulse.
-        Residual = "residual",
     }
 }
 

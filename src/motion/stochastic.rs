@@ -32,22 +32,13 @@ pub struct StochasticModel {
     pub kappa_s: f64,
     /// Corner fmax of the low-pass filter 1/sqrt(1 + (f/fmax)^8), Hz.
     pub fmax_hz: Option<f64>,
-    /// High-pass filter.
-    pub low_cut: Option<LowCut>,
-}
-
-/// The high-pass filter 1/(1 + (fc/f)^(2n)).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LowCut {
-    /// fc, Hz.
-    pub corner_hz: f64,
-    /// n.
-    pub order: u32,
+    /// Corner fc of the high-pass filter 1/(1 + (fc/f)^8), Hz.
+    pub low_cut_hz: Option<f64>,
 }
 
 impl Default for StochasticModel {
     fn default() -> StochasticModel {
-        StochasticModel { site: SiteAmplification::Rock, kappa_s: 0.030, fmax_hz: None, low_cut: None }
+        StochasticModel { site: SiteAmplification::Rock, kappa_s: 0.030, fmax_hz: None, low_cut_hz: None }
     }
 }
 
@@ -70,9 +61,7 @@ impl StochasticModel {
 
     fn filters(&self, f: f64) -> f64 {
         let fmax = self.fmax_hz.map_or(1.0, |fmax| 1.0 / (1.0 + (f / fmax).powi(8)).sqrt());
-        let low_cut = self.low_cut.map_or(1.0, |LowCut { corner_hz, order }| {
-            1.0 / (1.0 + (corner_hz / f).powf(2.0 * f64::from(order)))
-        });
+        let low_cut = self.low_cut_hz.map_or(1.0, |corner| 1.0 / (1.0 + (corner / f).powf(8.0)));
         fmax * low_cut
     }
 }

@@ -41,6 +41,30 @@ impl Default for MotionModel {
     }
 }
 
+impl MotionModel {
+    /// Computes the number of samples of the motions of a scenario.
+    pub fn samples(&self, scenario: &Scenario) -> usize {
+        let source = Source::new(scenario.mw, scenario.re_km);
+        self.time_axis(&Window::new(source.duration_s()), &Pulse::of(scenario)).1
+    }
+
+    /// Computes the sample at which the window begins, and the number of samples: padded at the start so that
+    /// the pulse is never cut, and at the end to a fast length of Fourier transforms.
+    fn time_axis(&self, window: &Window, pulse: &Pulse) -> (usize, usize) {
+        let dt_s = self.dt_s;
+        let half_pulse_s = 0.5 * pulse.duration_s();
+        // Earliest and latest peak of the pulse, from the onset of the window.
+        let (earliest_s, latest_s) = match self.epoch {
+            Epoch::EnvelopePeak => (PEAK_SHARE * window.duration_s, PEAK_SHARE * window.duration_s),
+            Epoch::Pga | Epoch::Pgv => (0.0, window.duration_s),
+        };
+        let onset = ((MARGIN_S + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
+        let moving_s = window.duration_s.max(latest_s + half_pulse_s);
+        let after = ((moving_s + MARGIN_S) / dt_s).ceil() as usize + 1;
+        (onset, even_smooth_at_least(onset + after))
+    }
+}
+
 /// The motions of one scenario on one time axis: accelerations, m/s2. Those of other suites are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
@@ -130,7 +154,7 @@ impl Synthesizer {
             _ => Earthquake::new(mw, re_km, self.model.dt_s),
         };
         let pulse = Pulse::of(scenario);
-        let (onset, samples) = self.time_axis(&earthquake.window, &pulse);
+        let (onset, samples) = self.model.time_axis(&earthquake.window, &pulse);
         let transform = self.transforms.entry(samples);
         let transform = transform.or_insert_with(|| Transform::new(samples)).clone();
         let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
@@ -155,22 +179,6 @@ impl Synthesizer {
         }
         self.earthquake = Some(earthquake);
         made
-    }
-
-    /// Computes the sample at which the window begins, and the number of samples: padded at the start so that
-    /// the pulse is never cut, and at the end to a fast length of Fourier transforms.
-    fn time_axis(&self, window: &Window, pulse: &Pulse) -> (usize, usize) {
-        let dt_s = self.model.dt_s;
-        let half_pulse_s = 0.5 * pulse.duration_s();
-        // Earliest and latest peak of the pulse, from the onset of the window.
-        let (earliest_s, latest_s) = match self.model.epoch {
-            Epoch::EnvelopePeak => (PEAK_SHARE * window.duration_s, PEAK_SHARE * window.duration_s),
-            Epoch::Pga | Epoch::Pgv => (0.0, window.duration_s),
-        };
-        let onset = ((MARGIN_S + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
-        let moving_s = window.duration_s.max(latest_s + half_pulse_s);
-        let after = ((moving_s + MARGIN_S) / dt_s).ceil() as usize + 1;
-        (onset, even_smooth_at_least(onset + after))
     }
 
     /// Draws normal noise, times the window.

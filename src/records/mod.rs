@@ -4,14 +4,14 @@
 //! recorded_motion  a record as in its file, and options for reading files
 //! formats          from the bytes of a file to records, one module for each format
 //! rotation         pairs of horizontal components, in another direction, and RotD
-//! plausibility     checks that a motion can be of an earthquake
+//! implausibility   checks that a motion can be of an earthquake
 //! signal           baseline, high-pass, time step, scale
 //! pulses           velocity pulses: indicator and fit
 //! processing       these steps in order: from records to imported motions
 //! ```
 
 pub mod formats;
-pub mod plausibility;
+pub mod implausibility;
 pub mod processing;
 pub mod pulses;
 mod recorded_motion;
@@ -19,4 +19,4 @@ pub mod rotation;
 pub mod signal;
 
 pub use formats::{RecordFileError, read_records};
-pub use recorded_motion::{Format, HeaderPga, ReadOptions, RecordedMotion};
+pub use recorded_motion::{Format, HeaderPga, ReadOptions, RecordedMotion, is_vertical};

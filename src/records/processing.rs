@@ -1,14 +1,18 @@
 //! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
 use super::RecordedMotion;
-use super::plausibility::{self, Implausibility};
+use super::implausibility::{Implausibility, implausibility};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use crate::keyword::keywords;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite, measures};
+use crate::motion::measures::peak;
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, measures};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
+
+/// Share of the PGA whose loss by resampling is told.
+const NOTICEABLE_LOSS: f64 = 0.01;
 
 /// A file and the hash of its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,13 +59,10 @@ pub enum ProcessingError {
 pub struct ImportedMotion {
     /// Unique in the file.
     pub motion_id: String,
-    /// Record or residual.
-    pub suite: Suite,
     pub source: SourceFile,
     /// The record, without its samples.
     pub record: RecordedMotion,
-    /// Why it is implausible, if accepted all the same.
-    pub warning: Option<Implausibility>,
+    pub doubts: Doubts,
     pub scale: f64,
     /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
@@ -73,6 +74,15 @@ pub struct ImportedMotion {
     pub indicator: Option<PulseIndicator>,
     /// Fitted pulse; none without a pulse.
     pub pulse: Option<FittedPulse>,
+}
+
+/// What speaks against a motion that is imported all the same.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Doubts {
+    /// Why no record is like it, or few are.
+    pub implausibility: Option<Implausibility>,
+    /// Share of the PGA that another time step takes away, if it is noticeable.
+    pub lost_pga: Option<f64>,
 }
 
 keywords! {
@@ -97,8 +107,6 @@ pub struct Processing {
     pub direction: Option<Direction>,
     pub scaling: Scaling,
     pub pulses: PulseSearch,
-    /// Whether to add motions without their pulses.
-    pub residual: bool,
     /// Whether implausible motions are imported, with a warning, or are errors.
     pub accept_implausible: bool,
     pub plan: MeasurePlan,
@@ -107,8 +115,8 @@ pub struct Processing {
 impl Processing {
     /// Processes a record.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let (record, warning) = self.corrected(record)?;
-        self.scaled(record, warning, None)
+        let (record, doubts) = self.corrected(record)?;
+        self.scaled(record, doubts, None)
     }
 
     /// Processes two components at right angles into one motion.
@@ -116,17 +124,17 @@ impl Processing {
         &self,
         [first, second]: [NamedRecord; 2],
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let ((first, first_warning), (second, second_warning)) =
-            (self.corrected(first)?, self.corrected(second)?);
+        let ((first, of_first), (second, of_second)) = (self.corrected(first)?, self.corrected(second)?);
         let (record, rotd) = self.rotated(first, second);
-        self.scaled(record, first_warning.or(second_warning), Some(rotd))
+        let doubts = Doubts {
+            implausibility: of_first.implausibility.or(of_second.implausibility),
+            lost_pga: of_first.lost_pga.into_iter().chain(of_second.lost_pga).reduce(f64::max),
+        };
+        self.scaled(record, doubts, Some(rotd))
     }
 
     /// Corrects the baseline, filters, checks and resamples.
-    fn corrected(
-        &self,
-        mut record: NamedRecord,
-    ) -> Result<(NamedRecord, Option<Implausibility>), ProcessingError> {
+    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Doubts), ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(corner_hz) = self.high_pass_hz {
@@ -136,21 +144,25 @@ impl Processing {
             }
             high_pass(&mut motion.acceleration_m_s2, motion.dt_s, corner_hz);
         }
-        let warning = plausibility::implausibility(&motion.acceleration_m_s2, motion.dt_s);
-        if let Some(warning) = warning.filter(Implausibility::is_impossible)
+        let implausibility = implausibility(&motion.acceleration_m_s2, motion.dt_s);
+        if let Some(impossible) = implausibility.filter(Implausibility::is_impossible)
             && !self.accept_implausible
         {
-            return Err(ProcessingError::Implausible(warning));
+            return Err(ProcessingError::Implausible(impossible));
         }
+        let mut doubts = Doubts { implausibility, lost_pga: None };
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
             if !(2.0..=LONGEST_MOTION as f64).contains(&samples) {
                 return Err(ProcessingError::Resampled { samples, dt_s });
             }
+            let before = peak(&motion.acceleration_m_s2);
             motion.acceleration_m_s2 = resample(&motion.acceleration_m_s2, motion.dt_s, dt_s);
             motion.dt_s = dt_s;
+            let lost = 1.0 - peak(&motion.acceleration_m_s2) / before;
+            doubts.lost_pga = Some(lost).filter(|lost| *lost > NOTICEABLE_LOSS);
         }
-        Ok((record, warning))
+        Ok((record, doubts))
     }
 
     /// Rotates two components to the chosen direction.
@@ -183,11 +195,11 @@ impl Processing {
         (record, pair.rotd())
     }
 
-    /// Scales and measures a record: one motion for each factor, followed by its residual if wanted.
+    /// Scales and measures a record: one motion for each factor.
     fn scaled(
         &self,
         record: NamedRecord,
-        warning: Option<Implausibility>,
+        doubts: Doubts,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
         let NamedRecord { motion_id, source, motion } = record;
@@ -205,10 +217,9 @@ impl Processing {
             let acceleration_m_s2: Vec<f32> = samples.iter().map(|&a| (scale * a) as f32).collect();
             let scaled = ImportedMotion {
                 motion_id: if several { format!("{motion_id} x{scale}") } else { motion_id.clone() },
-                suite: Suite::Record,
                 source: source.clone(),
                 record: motion.clone(),
-                warning,
+                doubts,
                 scale,
                 measured: self.measured(&acceleration_m_s2, dt_s),
                 acceleration_m_s2,
@@ -222,9 +233,7 @@ impl Processing {
             if scale != 1.0 && is_too_strong && !self.accept_implausible {
                 return Err(ProcessingError::Scaled { scale, pga_g, pgv_m_s });
             }
-            let residual = scaled.pulse.filter(|_| self.residual).map(|pulse| self.residual(&scaled, pulse));
             motions.push(scaled);
-            motions.extend(residual);
         }
         Ok(motions)
     }
@@ -240,29 +249,6 @@ impl Processing {
         let fit =
             |found: PulseIndicator| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s);
         (indicator, found.and_then(fit))
-    }
-
-    /// Returns the motion without its pulse.
-    fn residual(
-        &self,
-        motion: &ImportedMotion,
-        FittedPulse { pulse, t0_s, .. }: FittedPulse,
-    ) -> ImportedMotion {
-        let dt_s = motion.record.dt_s;
-        let without =
-            |(k, &a): (usize, &f32)| (f64::from(a) - pulse.acceleration_m_s2(k as f64 * dt_s - t0_s)) as f32;
-        let acceleration_m_s2: Vec<f32> = motion.acceleration_m_s2.iter().enumerate().map(without).collect();
-        ImportedMotion {
-            motion_id: format!("{} residual", motion.motion_id),
-            suite: Suite::Residual,
-            measured: self.measured(&acceleration_m_s2, dt_s),
-            acceleration_m_s2,
-            rotd: None,
-            indicator: None,
-            pulse: None,
-            warning: None,
-            ..motion.clone()
-        }
     }
 
     /// Measures samples as written, in single precision.

@@ -1,10 +1,21 @@
 //! A record as in its file, and options for reading files.
 
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 use crate::units::Unit;
 
 /// Words for a vertical component, in capitals.
-const VERTICAL: [&str; 10] = ["UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "DWN"];
+const VERTICAL: [&str; 22] = [
+    "UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "VRT", "VT", "VRTC", "UPD", "UPDO",
+    "UPWARD", "DOWN", "DOWNWARD", "DWN", "DN", "-UP", "-DOWN", "-Z",
+];
+
+/// Whether the name of a component is that of a vertical one: a word, or the last letter of a channel code, as
+/// in HNZ.
+pub fn is_vertical(component: &str) -> bool {
+    let name = component.to_ascii_uppercase();
+    let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));
+    name.len() == 3 && name.ends_with('Z') || words.any(|word| VERTICAL.contains(&word))
+}
 
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +34,8 @@ pub struct RecordedMotion {
     pub component: Option<String>,
     /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
     pub azimuth_deg: Option<f64>,
+    /// Whether the instrument is in a borehole, where rocks do not rock.
+    pub is_in_borehole: bool,
     pub header_pga: Option<HeaderPga>,
     /// Name of the file format.
     pub format: &'static str,
@@ -42,20 +55,16 @@ impl RecordedMotion {
             station: None,
             component: None,
             azimuth_deg: None,
+            is_in_borehole: false,
             header_pga: None,
             format: "",
             unit,
         }
     }
 
-    /// Whether the component of a network's file is vertical, by its name or, as in HNZ, the last letter of
-    /// its channel code. Columns of CSV are what the user has chosen.
+    /// Whether the component is vertical.
     pub fn is_vertical(&self) -> bool {
-        let name = self.component.as_deref().unwrap_or_default().to_ascii_uppercase();
-        let is_code = name.len() == 3 && name.ends_with('Z');
-        let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));
-        let is_named = is_code || words.any(|word| VERTICAL.contains(&word));
-        is_named && self.azimuth_deg.is_none() && self.format != Format::Csv.as_str()
+        self.azimuth_deg.is_none() && self.component.as_deref().is_some_and(is_vertical)
     }
 }
 
@@ -81,7 +90,7 @@ keywords! {
 }
 
 /// Options for reading files.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
     /// None: detected from the content.
     pub format: Option<Format>,
@@ -91,12 +100,4 @@ pub struct ReadOptions {
     pub unit: Option<Unit>,
     /// Column of the acceleration in a CSV file: number from 1, heading, or `all` for a series over lines.
     pub column: Option<String>,
-    /// Accepted relative difference of the samples from the peak in the header.
-    pub pga_tolerance: f64,
-}
-
-impl Default for ReadOptions {
-    fn default() -> ReadOptions {
-        ReadOptions { format: None, dt_s: None, unit: None, column: None, pga_tolerance: 0.05 }
-    }
 }

@@ -1,11 +1,6 @@
 //! The ground motion of a simulation.
 
-use std::ops::RangeInclusive;
-
-/// Accepted time steps, s.
-const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
-/// Largest accepted acceleration, m/s2, about 1000 g: larger samples have a wrong unit.
-const LARGEST_M_S2: f64 = 1e4;
+use crate::plausibility::{LARGEST_M_S2, TIME_STEPS_S};
 
 /// A ground acceleration sampled at a constant step: linear between samples, zero after the last one.
 #[derive(Debug, Clone, Copy)]

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
+use crate::plausibility::FREQUENCIES_RAD_S;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
@@ -18,9 +19,6 @@ pub struct Structure {
     pub eta: f64,
 }
 
-/// Accepted frequency parameters, rad/s: blocks from 0.7 mm to 7000 km. With the bounds of a record they
-/// limit the Taylor steps between two samples to some million.
-const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
 /// Accepted slendernesses, rad, and coefficients of restitution.
 const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
 const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;

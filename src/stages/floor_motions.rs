@@ -15,12 +15,11 @@ use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::rocking::Record;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
 use crate::table::file::{Partition, or_error};
-use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, spectral_period_s};
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, record, spectral_period_s};
 use crate::table::rows;
 
 /// Motions that a thread takes at once, and such parts that are in memory, for each thread.
@@ -105,13 +104,12 @@ impl FloorMotions {
         let floor = Floor { period_s: self.period, level: self.level };
         let schema = ground.rows.schema();
         let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
-        let housner = ground.numbers("housner_m")?.iter().any(|value| !value.is_nan());
+        let housner = ground.numbers("housner_m")?.iter().any(Option::is_some);
         let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
         let dt = ground.required_numbers("dt_s")?;
         let (mut filtered, mut measured) = (Vec::new(), Vec::new());
         for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
-            Record::new(acceleration, dt_s)
-                .map_err(|problem| ground.value_error(row, ACCELERATION, problem.to_string()))?;
+            record(&ground.path, ground.first_row + row, acceleration, dt_s)?;
             let of_floor: Vec<f32> =
                 floor.motion(acceleration, dt_s, self.damping).iter().map(|&a| a as f32).collect();
             let written: Vec<f64> = of_floor.iter().map(|&a| f64::from(a)).collect();

@@ -9,7 +9,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{Measures, expect_distinct, known, record, warnings};
+use super::shared::motions::{Measures, expect_distinct, warnings};
 use super::shared::objects::StructureArgs;
 use crate::fragility::{CapacityFit, Cluster, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
@@ -20,6 +20,7 @@ use crate::pipeline::files::part;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
+use crate::plausibility::MOST_SCALED;
 use crate::rocking::{
     CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
 };
@@ -158,8 +159,8 @@ impl Stage for Ida {
             )));
         }
         let (most, expected) = match self.measure {
-            ScaledMeasure::Pga => (20.0, "a PGA up to 20 g: is it in m/s2?"),
-            ScaledMeasure::Pgv => (20.0, "a PGV up to 20 m/s: is it in cm/s?"),
+            ScaledMeasure::Pga => (MOST_SCALED, "a PGA up to 20 g: is it in m/s2?"),
+            ScaledMeasure::Pgv => (MOST_SCALED, "a PGV up to 20 m/s: is it in cm/s?"),
             _ => (f64::INFINITY, ""),
         };
         if self.to > most {
@@ -229,7 +230,7 @@ impl Ida {
     ) -> anyhow::Result<Analysed> {
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in motions {
-            let record = record(path, motion)?;
+            let record = motion.record(path)?;
             let measures = Measures::new(motion, &record, scratch);
             warned.extend(warnings(motion, &record));
             for structure in structures {
@@ -249,8 +250,8 @@ impl Ida {
                 motion_id: case.motion.motion_id.clone(),
                 suite: case.motion.suite.clone(),
                 earthquake: case.motion.earthquake.clone(),
-                mw: known(case.motion.mw),
-                re_km: known(case.motion.re_km),
+                mw: case.motion.mw,
+                re_km: case.motion.re_km,
                 structure: case.structure.name.clone(),
                 measure: self.measure,
                 unscaled: case.unscaled,

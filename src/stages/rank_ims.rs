@@ -162,7 +162,8 @@ impl Further {
         {
             let batch = batch?;
             for measure in &mut measures {
-                measure.values.extend(batch.numbers(&measure.column)?);
+                let values = batch.numbers(&measure.column)?;
+                measure.values.extend(values.into_iter().map(|value| value.unwrap_or(f64::NAN)));
             }
             let ids = batch.required_texts("motion_id")?.into_iter().map(Cow::into_owned);
             places.extend(ids.zip(rows..));

@@ -5,11 +5,13 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
-use crate::motion::{Design, Grid};
+use crate::motion::{Design, Grid, Scenario};
 use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
 use crate::pipeline::{Stage, UsageError};
+use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
+use crate::table::rows;
 use crate::warning::Warning;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
@@ -35,6 +37,9 @@ pub struct SampleScenarios {
     out: PathBuf,
 }
 
+/// Scenarios that are in memory at once.
+const AT_ONCE: usize = 32_768;
+
 /// Magnitudes that the paper samples, and distances up to those, km: Eqs. 2 and 3 hold near the fault.
 const PAPER_MW: [f64; 2] = [5.5, 7.5];
 const PAPER_RE_KM: [f64; 2] = [0.0, 20.0];
@@ -45,10 +50,10 @@ impl Stage for SampleScenarios {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        if !self.mw.0.iter().all(|mw| (3.0..=10.0).contains(mw)) {
-            return Err(UsageError::because("mw: expected moment magnitudes from 3 to 10"));
+        if !self.mw.0.iter().all(|mw| MAGNITUDES.contains(mw)) {
+            return Err(UsageError::because("mw: expected moment magnitudes from 1 to 9.9"));
         }
-        if !self.re.0.iter().all(|re_km| (0.0..=1000.0).contains(re_km)) {
+        if !self.re.0.iter().all(|re_km| DISTANCES_KM.contains(re_km)) {
             return Err(UsageError::because("re: expected distances from 0 to 1000 km"));
         }
         Ok(())
@@ -58,17 +63,31 @@ impl Stage for SampleScenarios {
         let SampleScenarios { samples, design, seed, .. } = *self;
         let (mw, re_km) = (self.mw.0.clone(), self.re.0.clone());
         let grid = Grid { mw, re_km, samples, design, seed };
-        let scenarios: Vec<_> =
-            (0..grid.cells()).into_par_iter().flat_map(|cell| grid.scenarios_of_cell(cell)).collect();
-        let summary =
-            format!("{} in {}\n", counted(scenarios.len(), "scenario"), counted(grid.cells(), "cell"));
+        let all = grid.cells() * samples;
+        let summary = format!("{} in {}\n", counted(all, "scenario"), counted(grid.cells(), "cell"));
         let unusual = |name: &str, values: &[f64], [low, high]: [f64; 2]| {
             let value = values.iter().find(|value| !(low..=high).contains(*value))?;
             Some((Warning::UnusualScenario, format!("{name} {value}")))
         };
         let both = [unusual("mw", &grid.mw, PAPER_MW), unusual("re", &grid.re_km, PAPER_RE_KM)];
         context.warn(both.into_iter().flatten().collect());
-        context.write(&self.out, &scenarios, &summary)?;
+        let mut writer = context.create(&self.out, &rows::schema::<Scenario>())?;
+        let bar = context.bar(all);
+        let mut some: Vec<Scenario> = Vec::new();
+        for cell in 0..grid.cells() {
+            let cell = grid.cell(cell);
+            for first in (0..samples).step_by(AT_ONCE) {
+                let last = samples.min(first + AT_ONCE);
+                bar.advance(last - first)?;
+                some.par_extend((first..last).into_par_iter().map(|sample| cell.scenario(sample)));
+                if some.len() >= AT_ONCE {
+                    writer.append(&rows::batch(&some)?)?;
+                    some.clear();
+                }
+            }
+        }
+        writer.append(&rows::batch(&some)?)?;
+        context.finish(writer, &summary)?;
         Ok(summary)
     }
 }

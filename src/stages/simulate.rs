@@ -8,7 +8,7 @@ use arrow_array::RecordBatch;
 use clap::{Args, ValueHint};
 use rayon::prelude::*;
 
-use super::shared::motions::{Measures, expect_distinct, record, warnings};
+use super::shared::motions::{Measures, expect_distinct, warnings};
 use super::shared::objects::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
@@ -172,7 +172,7 @@ impl Simulate {
         structures: &[Structure],
         scratch: &mut MeasureScratch,
     ) -> anyhow::Result<Responded> {
-        let records = motions.iter().map(|motion| record(path, motion)).collect::<Result<Vec<_>, _>>()?;
+        let records = motions.iter().map(|motion| motion.record(path)).collect::<Result<Vec<_>, _>>()?;
         let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
         let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
         let mut responses = simulate_all(&problems).into_iter();

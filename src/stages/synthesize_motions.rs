@@ -8,21 +8,22 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{
-    Difference, Epoch, LowCut, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
+    Difference, Epoch, LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
     SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
 };
-use crate::number::counted;
+use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::sheet::Sheet;
-use crate::table::file::Partition;
-use crate::table::{motions, rows};
+use crate::table::file::{Partition, Table};
+use crate::table::{TableError, motions, rows};
 
-/// Scenarios that are held in memory together.
+/// Scenarios that are held in memory together, and samples of their longest motions.
 const AT_ONCE: usize = 128;
+const MOST_SAMPLES: usize = 1 << 23;
 
 /// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
 #[derive(Debug, Args)]
@@ -58,12 +59,9 @@ pub struct SynthesizeMotions {
     /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none]
     #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
     fmax: Option<f64>,
-    /// Corner of the high-pass filter 1/(1 + (fc/f)^(2n)), Hz [default: none]
+    /// Corner of the high-pass filter 1/(1 + (fc/f)^8), Hz [default: none]
     #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
     low_cut: Option<f64>,
-    /// Order n of the high-pass filter
-    #[arg(long, default_value = "4", value_name = "N", value_parser = number(1..=20_u32, "1 to 20"))]
-    low_cut_order: u32,
     /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
@@ -105,26 +103,29 @@ impl Stage for SynthesizeMotions {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let all: Vec<Scenario> = rows::read(&self.input)?;
-        let part = self.partition.map_or(0..all.len(), |partition| partition.rows(all.len()));
-        let (scenarios, suites) = (&all[part], &self.suite);
+        let table = Table::open(&self.input)?.part(self.partition);
+        let (scenarios, suites) = (rows::stream::<Scenario>(&self.input, &table)?, &self.suite);
         let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
-        let low_cut = self.low_cut.map(|corner_hz| LowCut { corner_hz, order: self.low_cut_order });
         let site = site(&self.site)?;
         let model = MotionModel {
             dt_s: self.dt,
             difference: self.difference,
             epoch: self.epoch,
-            stochastic: StochasticModel { site, kappa_s: self.kappa, fmax_hz: self.fmax, low_cut },
+            stochastic: StochasticModel {
+                site,
+                kappa_s: self.kappa,
+                fmax_hz: self.fmax,
+                low_cut_hz: self.low_cut,
+            },
             seed: self.seed,
         };
         let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), MeasureScratch::default()));
         let motions = |scenario: &Scenario| pool.with(|scratch| synthesize(scenario, suites, &plan, scratch));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
-        let bar = context.bar(scenarios.len());
+        let bar = context.bar(table.rows());
         pipelined(
-            scenarios.chunks(AT_ONCE).map(Ok),
+            together(scenarios, model.clone()),
             |some| {
                 let motions: Vec<Motion> = some.par_iter().flat_map_iter(motions).collect();
                 bar.advance(some.len())?;
@@ -134,12 +135,50 @@ impl Stage for SynthesizeMotions {
         )?;
         let summary = format!(
             "{} of {}\n",
-            counted(scenarios.len() * suites.len(), "motion"),
-            counted(scenarios.len(), "scenario")
+            counted(table.rows() * suites.len(), "motion"),
+            counted(table.rows(), "scenario")
         );
         context.finish(writer, &summary)?;
         Ok(summary)
     }
+}
+
+/// Takes scenarios whose motions fit into memory together.
+fn together(
+    scenarios: impl Iterator<Item = Result<Vec<Scenario>, TableError>> + Send,
+    model: MotionModel,
+) -> impl Iterator<Item = anyhow::Result<Vec<Scenario>>> + Send {
+    let mut scenarios = scenarios.flat_map(|read| match read {
+        Ok(some) => some.into_iter().map(Ok).collect::<Vec<_>>(),
+        Err(error) => vec![Err(error.into())],
+    });
+    std::iter::from_fn(move || {
+        let (mut some, mut held) = (Vec::new(), 0);
+        while some.len() < AT_ONCE && held < MOST_SAMPLES {
+            let Some(scenario) = scenarios.next() else { break };
+            match scenario.and_then(|scenario| Ok((samples(&model, &scenario)?, scenario))) {
+                Ok((samples, scenario)) => {
+                    held += samples;
+                    some.push(scenario);
+                }
+                Err(error) => return Some(Err(error)),
+            }
+        }
+        (!some.is_empty()).then_some(Ok(some))
+    })
+}
+
+/// How many samples the motions of a scenario have, which must not be too many.
+fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
+    let samples = model.samples(scenario);
+    anyhow::ensure!(
+        samples <= LONGEST_MOTION,
+        "scenario {}: a motion of {} samples; expected {} at most: choose a larger --dt",
+        scenario.scenario_id,
+        count(samples),
+        count(LONGEST_MOTION)
+    );
+    Ok(samples)
 }
 
 /// The site amplification of this name, or in this file.

@@ -5,13 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Float32Type, Float64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch, downcast_integer};
+use arrow_array::types::{Decimal128Type, Float16Type, Float32Type, Float64Type};
+use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray, RecordBatch, downcast_integer};
 use arrow_schema::DataType;
 
-use super::TableError;
+use super::{TableError, dictionary};
 use crate::keyword::{self, Keyword};
-use crate::plausibility::MAGNITUDES;
+use crate::plausibility::range_of_column;
 use crate::rocking::Structure;
 
 /// Consecutive rows of a table.
@@ -24,33 +24,44 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Returns the numbers of a column, NaN for null or if it is missing.
-    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
-        match self.rows.column_by_name(name) {
-            None => Ok(vec![f64::NAN; self.rows.num_rows()]),
-            Some(column) => numbers(column).ok_or_else(|| self.other_type(name, column, "a number")),
-        }
-    }
-
-    /// Returns moment magnitudes; NaN where they are unknown.
-    pub fn magnitudes(&self) -> Result<Vec<f64>, TableError> {
-        let mw = self.numbers("mw")?;
-        match mw.iter().position(|mw| !mw.is_nan() && !MAGNITUDES.contains(mw)) {
-            Some(row) => {
-                Err(self.value_error(row, "mw", format!("{}; expected a moment magnitude", mw[row])))
-            }
-            None => Ok(mw),
+    /// Returns the numbers of a column, each in the range of its quantity; `None` for null, for NaN, which
+    /// some programs write for null, and if the column is missing.
+    pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, TableError> {
+        let Some(column) = self.rows.column_by_name(name) else {
+            return Ok(vec![None; self.rows.num_rows()]);
+        };
+        let numbers = numbers(column).ok_or_else(|| self.other_type(name, column, "a number"))?;
+        let range = range_of_column(name);
+        match numbers.iter().position(|number| number.is_some_and(|number| !range.contains(number))) {
+            Some(row) => Err(self.out_of_range(row, name, numbers[row])),
+            None => Ok(numbers),
         }
     }
 
     /// Returns the numbers of a column without nulls.
     pub fn required_numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
         self.expect(name)?;
-        let numbers = self.numbers(name)?;
-        match numbers.iter().position(|number| number.is_nan()) {
-            Some(row) => Err(self.value_error(row, name, "no number; expected one")),
-            None => Ok(numbers),
-        }
+        let number =
+            |(row, number): (usize, Option<f64>)| number.ok_or_else(|| self.out_of_range(row, name, None));
+        self.numbers(name)?.into_iter().enumerate().map(number).collect()
+    }
+
+    fn out_of_range(&self, row: usize, name: &str, found: Option<f64>) -> TableError {
+        let found = found.map_or("no number".to_string(), |number| number.to_string());
+        self.value_error(row, name, format!("{found}; expected {}", range_of_column(name).expected))
+    }
+
+    /// Returns the integers of a column, `None` for null.
+    pub fn counts<T: TryFrom<i128>>(&self, name: &str) -> Result<Vec<Option<T>>, TableError> {
+        let column = self.expect(name)?;
+        let whole = integers(column).ok_or_else(|| self.other_type(name, column, "whole numbers"))?;
+        let count = |(row, number): (usize, Option<i128>)| {
+            let refusal = |number: i128| {
+                self.value_error(row, name, format!("{number}; expected {}", dictionary::meaning(name)))
+            };
+            number.map(|number| T::try_from(number).map_err(|_| refusal(number))).transpose()
+        };
+        whole.into_iter().enumerate().map(count).collect()
     }
 
     /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
@@ -61,9 +72,8 @@ impl Batch {
         if let Some(texts) = column.as_string_opt::<i32>() {
             return Ok(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
         }
-        let whole = column.data_type().is_integer().then(|| numbers(column)).flatten();
-        let whole = whole.ok_or_else(|| self.other_type(name, column, "text"))?;
-        Ok(whole.iter().map(|number| (!number.is_nan()).then(|| Cow::Owned(number.to_string()))).collect())
+        let whole = integers(column).ok_or_else(|| self.other_type(name, column, "text"))?;
+        Ok(whole.into_iter().map(|number| Some(Cow::Owned(number?.to_string()))).collect())
     }
 
     pub fn required_texts(&self, name: &str) -> Result<Vec<Cow<'_, str>>, TableError> {
@@ -107,22 +117,43 @@ impl Batch {
     }
 }
 
-/// Converts a column of numbers to f64, NaN for null; `None` for other types.
-pub fn numbers(column: &ArrayRef) -> Option<Vec<f64>> {
+/// Converts a column of numbers to f64, `None` for null and NaN; `None` for columns of other types.
+pub fn numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
     macro_rules! cast {
-        ($type:ty) => {{
-            let values = column.as_primitive::<$type>();
-            match values.null_count() {
-                0 => values.values().iter().map(|value| *value as f64).collect(),
-                _ => values.iter().map(|value| value.map_or(f64::NAN, |value| value as f64)).collect(),
-            }
-        }};
+        ($type:ty) => {
+            column.as_primitive::<$type>().iter().map(|value| value.map(|value| value as f64)).collect()
+        };
     }
     Some(downcast_integer! {
         column.data_type() => (cast),
-        DataType::Float64 => cast!(Float64Type),
-        DataType::Float32 => cast!(Float32Type),
-        DataType::Null => vec![f64::NAN; column.len()],
+        DataType::Float64 => known(column.as_primitive::<Float64Type>()),
+        DataType::Float32 => known(column.as_primitive::<Float32Type>()),
+        DataType::Float16 => known(column.as_primitive::<Float16Type>()),
+        DataType::Decimal128(_, scale) => {
+            let unit = 10f64.powi(i32::from(*scale));
+            let decimals = column.as_primitive::<Decimal128Type>().iter();
+            decimals.map(|value| value.map(|value| value as f64 / unit)).collect()
+        }
+        DataType::Null => vec![None; column.len()],
+        _ => return None,
+    })
+}
+
+fn known<T: ArrowPrimitiveType<Native: Into<f64>>>(column: &PrimitiveArray<T>) -> Vec<Option<f64>> {
+    column.iter().map(|value| value.map(Into::into).filter(|value: &f64| !value.is_nan())).collect()
+}
+
+/// Returns a column of integers of any size; `None` for other types.
+pub fn integers(column: &ArrayRef) -> Option<Vec<Option<i128>>> {
+    macro_rules! cast {
+        ($type:ty) => {
+            column.as_primitive::<$type>().iter().map(|value| value.map(|value| value as i128)).collect()
+        };
+    }
+    Some(downcast_integer! {
+        column.data_type() => (cast),
+        DataType::Decimal128(_, 0) => cast!(Decimal128Type),
+        DataType::Null => vec![None; column.len()],
         _ => return None,
     })
 }

@@ -1,6 +1,7 @@
 //! A table on disk: a Parquet file, or a folder of them in the order of their names.
 
 use std::cell::Cell;
+use std::collections::HashSet;
 use std::fmt;
 use std::fs::File;
 use std::ops::Range;
@@ -18,6 +19,7 @@ use parquet::file::metadata::RowGroupMetaData;
 
 use super::TableError;
 use super::columns::Batch;
+use super::pages::Pages;
 use super::provenance::Provenance;
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
@@ -99,6 +101,7 @@ impl Table {
         let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
         let open = |path: PathBuf| Ok(TableFile { metadata: metadata(&path)?, path: path.into() });
         let files = paths.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
+        files.iter().try_for_each(TableFile::expect_distinct_columns)?;
         if path.is_dir() {
             expect_all_parts(path, &files)?;
         }
@@ -119,8 +122,15 @@ impl Table {
                 None => Ok(table),
             };
         }
-        let table = Table::open(path)?;
-        Ok(Table { rows: partition.rows(table.rows()), ..table })
+        Ok(Table::open(path)?.part(Some(partition)))
+    }
+
+    /// Keeps the rows of a partition.
+    pub fn part(self, partition: Option<Partition>) -> Table {
+        match partition {
+            Some(partition) => Table { rows: partition.rows(self.rows()), ..self },
+            None => self,
+        }
     }
 
     /// Checks that the first file, of the table at `path`, has these columns.
@@ -178,9 +188,9 @@ impl Table {
         let roots = roots.filter(|(_, root)| wanted(root.name())).map(|(place, _)| place);
         let mask = ProjectionMask::roots(schema, roots);
         expect_small(&path, metadata.metadata().row_group(group.group), &mask)?;
-        let file = File::open(&path).map_err(|source| TableError::io(&path, source))?;
+        let pages = Pages::open(&path, metadata.metadata(), group.group, &mask)?;
         let mut reader = guarded(&path, || {
-            ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
+            ParquetRecordBatchReaderBuilder::new_with_metadata(pages, metadata.clone())
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
                 .with_offset(group.rows.start)
@@ -209,6 +219,17 @@ impl Table {
 }
 
 impl TableFile {
+    fn expect_distinct_columns(&self) -> Result<(), TableError> {
+        let mut known = HashSet::new();
+        match self.metadata.schema().fields().iter().find(|field| !known.insert(field.name())) {
+            Some(field) => {
+                let problem = format!("two columns are called '{}'; leave out one", field.name());
+                Err(TableError::table(&self.path, problem))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn rows(&self) -> usize {
         self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as usize).sum()
     }

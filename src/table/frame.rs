@@ -5,7 +5,7 @@ use arrow_array::{Array, ArrayRef, RecordBatch};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, PolarsError};
 use serde_json::{Map, Value};
 
-use super::columns::numbers;
+use super::columns::{integers, numbers};
 use super::file::{NARROW_BATCH, Table};
 use crate::fragility::Group;
 use crate::keyword::keywords;
@@ -64,12 +64,17 @@ fn column(name: &str, array: &ArrayRef) -> Column {
         Column::new(name, texts.iter().collect::<Vec<_>>())
     } else if let Some(flags) = array.as_boolean_opt() {
         Column::new(name, flags.iter().collect::<Vec<_>>())
-    } else if let Some(values) = numbers(array) {
-        let known = values.iter().enumerate().map(|(row, value)| array.is_valid(row).then_some(*value));
-        match array.data_type().is_integer() {
-            true => Column::new(name, known.map(|known| Some(known? as i64)).collect::<Vec<_>>()),
-            false => Column::new(name, known.collect::<Vec<_>>()),
+    } else if let Some(whole) = integers(array) {
+        match whole.iter().map(|value| value.map(i64::try_from).transpose()).collect::<Result<Vec<_>, _>>() {
+            Ok(counts) => Column::new(name, counts),
+            // Names such as hashes.
+            Err(_) => Column::new(
+                name,
+                whole.iter().map(|value| Some(value.as_ref()?.to_string())).collect::<Vec<_>>(),
+            ),
         }
+    } else if let Some(values) = numbers(array) {
+        Column::new(name, values)
     } else {
         let lists = array.as_list_opt::<i32>();
         let length = |row| lists.map(|lists| format!("{} numbers", lists.value_length(row)));

@@ -1,12 +1,14 @@
 //! A column of lists of numbers, read by Parquet's own reader: the values, and where each list begins.
 
-use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
+use arrow_array::ArrowPrimitiveType;
+use arrow_array::types::Float16Type;
 use arrow_schema::DataType::*;
 use parquet::arrow::ProjectionMask;
 use parquet::basic::Repetition;
+use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType as Number;
 use parquet::errors::ParquetError;
@@ -15,6 +17,7 @@ use parquet::schema::types::ColumnDescriptor;
 
 use super::TableError;
 use super::file::{RowGroup, Table, TableFile, expect_small, guarded};
+use super::pages::Pages;
 
 /// The lists of a row group, row by row.
 pub struct Lists {
@@ -23,6 +26,8 @@ pub struct Lists {
     next_row: usize,
     next: Box<Next>,
 }
+
+type Half = <Float16Type as ArrowPrimitiveType>::Native;
 
 /// Levels that are searched at once.
 const BLOCK: usize = 512;
@@ -43,21 +48,43 @@ impl Lists {
             List(item) | LargeList(item) | FixedSizeList(item, _) => item.data_type(),
             _ => &Null,
         };
-        // The file keeps unsigned integers of 32 bits and more as signed ones.
-        if !matches!(item, Float32 | Float64 | Int8 | Int16 | Int32 | Int64 | UInt8 | UInt16) {
-            return Err(TableError::other_type(path, column, found, "a list of numbers"));
-        }
-        expect_small(path, data, &ProjectionMask::leaves(schema, [leaf]))?;
-        let file = File::open(path).map_err(|source| TableError::io(path, source))?;
+        let scale = match item {
+            Decimal128(_, scale) | Decimal256(_, scale) => 10f64.powi(i32::from(*scale)),
+            _ if item.is_numeric() => 1.0,
+            _ => return Err(TableError::other_type(path, column, found, "a list of numbers")),
+        };
+        let item = item.clone();
+        let mask = ProjectionMask::leaves(schema, [leaf]);
+        expect_small(path, data, &mask)?;
+        let pages = Arc::new(Pages::open(path, metadata.metadata(), group.group, &mask)?);
         let rows = data.num_rows() as usize;
         let next = guarded(path, || {
-            let pages = SerializedPageReader::new(Arc::new(file), data.column(leaf), rows, None)?;
+            let pages = SerializedPageReader::new(pages, data.column(leaf), rows, None)?;
             let (of, skipped) = (schema.column(leaf), group.rows.start);
-            Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(pages)) {
+            Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(Filled(pages))) {
                 ColumnReader::FloatColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
                 ColumnReader::DoubleColumnReader(reader) => next(reader, &of, skipped, |x| *x),
-                ColumnReader::Int32ColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
-                ColumnReader::Int64ColumnReader(reader) => next(reader, &of, skipped, |x| *x as f64),
+                ColumnReader::Int32ColumnReader(reader) if item == UInt32 => {
+                    next(reader, &of, skipped, |x| f64::from(*x as u32))
+                }
+                ColumnReader::Int32ColumnReader(reader) => {
+                    next(reader, &of, skipped, move |x| f64::from(*x) / scale)
+                }
+                ColumnReader::Int64ColumnReader(reader) if item == UInt64 => {
+                    next(reader, &of, skipped, |x| *x as u64 as f64)
+                }
+                ColumnReader::Int64ColumnReader(reader) => {
+                    next(reader, &of, skipped, move |x| *x as f64 / scale)
+                }
+                ColumnReader::FixedLenByteArrayColumnReader(reader) if item == Float16 => {
+                    next(reader, &of, skipped, |bytes| half(bytes.data()))
+                }
+                ColumnReader::FixedLenByteArrayColumnReader(reader) => {
+                    next(reader, &of, skipped, move |bytes| big_endian(bytes.data()) / scale)
+                }
+                ColumnReader::ByteArrayColumnReader(reader) => {
+                    next(reader, &of, skipped, move |bytes| big_endian(bytes.data()) / scale)
+                }
                 _ => Box::new(|_| Ok(Vec::new())),
             })
         })?;
@@ -77,6 +104,50 @@ impl Lists {
             list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem))
         };
         (first_row..).zip(lists).map(list).collect()
+    }
+}
+
+fn half(bytes: &[u8]) -> f64 {
+    bytes.try_into().map_or(f64::NAN, |bytes| Half::from_le_bytes(bytes).into())
+}
+
+/// Reads the unscaled integer of a decimal number.
+fn big_endian(bytes: &[u8]) -> f64 {
+    let Some((first, rest)) = bytes.split_first() else { return f64::NAN };
+    rest.iter().fold(f64::from(*first as i8), |value, byte| 256.0 * value + f64::from(*byte))
+}
+
+/// The pages of a column but for empty ones, at which the reader of Parquet would stop.
+struct Filled(SerializedPageReader<Pages>);
+
+impl Iterator for Filled {
+    type Item = Result<Page, ParquetError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.get_next_page().transpose()
+    }
+}
+
+impl PageReader for Filled {
+    fn get_next_page(&mut self) -> Result<Option<Page>, ParquetError> {
+        self.peek_next_page()?;
+        self.0.get_next_page()
+    }
+
+    fn peek_next_page(&mut self) -> Result<Option<PageMetadata>, ParquetError> {
+        loop {
+            match self.0.peek_next_page()? {
+                Some(page) if !page.is_dict && page.num_levels.or(page.num_rows) == Some(0) => {
+                    self.0.skip_next_page()?;
+                }
+                page => return Ok(page),
+            }
+        }
+    }
+
+    fn skip_next_page(&mut self) -> Result<(), ParquetError> {
+        self.peek_next_page()?;
+        self.0.skip_next_page()
     }
 }
 

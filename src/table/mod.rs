@@ -5,6 +5,7 @@
 //! rows        structs as rows of a table (serde)
 //! file        a table on disk: a file, or a folder of files
 //! columns     columns of a batch by name, from any program
+//! pages       pages and their checksums
 //! lists       a column of lists of numbers, read without building lists
 //! writer      atomic writing
 //! provenance  stage, arguments and inputs of a file, and their key
@@ -21,6 +22,7 @@ pub mod frame;
 pub mod keys;
 pub mod lists;
 pub mod motions;
+mod pages;
 pub mod provenance;
 pub mod responses;
 pub mod rows;

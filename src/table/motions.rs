@@ -15,6 +15,7 @@ use super::dictionary;
 use super::file::{Partition, RowGroup, Table, or_error};
 use super::lists::Lists;
 use super::rows::side_by_side;
+use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
@@ -24,21 +25,28 @@ const COLUMNS: [&str; 10] =
 /// Row groups of more motions are read in parts of this size.
 const LARGEST_PART: usize = 128;
 
-/// A motion; missing measures are NaN.
+/// A motion, with the measures that the file has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     pub motion_id: String,
     pub suite: Option<String>,
     pub earthquake: Option<String>,
-    pub mw: f64,
-    pub re_km: f64,
+    pub mw: Option<f64>,
+    pub re_km: Option<f64>,
     pub dt_s: f64,
-    pub pga_m_s2: f64,
-    pub pgv_m_s: f64,
-    pub tm_s: f64,
-    pub tp_s: f64,
+    pub pga_m_s2: Option<f64>,
+    pub pgv_m_s: Option<f64>,
+    pub tm_s: Option<f64>,
+    pub tp_s: Option<f64>,
     pub acceleration_m_s2: Vec<f64>,
     pub row: usize,
+}
+
+impl Motion {
+    /// The record of a motion of the file at `path`.
+    pub fn record(&self, path: &Path) -> Result<Record<'_>, TableError> {
+        record(path, self.row, &self.acceleration_m_s2, self.dt_s)
+    }
 }
 
 /// Columns of some motions, and their samples.
@@ -137,6 +145,19 @@ fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
         row: batch.first_row + at,
     };
     Ok((batch.path.clone(), samples.into_iter().enumerate().map(motion).collect()))
+}
+
+/// The record of samples in a row of the file at `path`.
+pub fn record<'a>(
+    path: &Path,
+    row: usize,
+    acceleration_m_s2: &'a [f64],
+    dt_s: f64,
+) -> Result<Record<'a>, TableError> {
+    Record::new(acceleration_m_s2, dt_s).map_err(|problem| {
+        let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
+        TableError::value(path, row, column, problem)
+    })
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use parquet::file::metadata::{KeyValue, ParquetMetaData};
+use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use serde::{Deserialize, Serialize};
 
 use crate::warning::Warnings;
@@ -31,6 +31,11 @@ pub struct Provenance {
     pub warnings: Warnings,
 }
 
+/// Whether no other program has written the table since.
+pub fn is_ours(footer: &FileMetaData) -> bool {
+    footer.created_by().is_some_and(|program| program.starts_with("rockfrag "))
+}
+
 impl Provenance {
     /// Computes the hash of stage, version, arguments and keys of the inputs.
     pub fn key(&self) -> String {
@@ -48,8 +53,8 @@ impl Provenance {
     /// Reads the provenance in a footer; `None` if another program wrote it.
     pub fn of_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
         let footer = metadata.file_metadata();
-        footer.created_by().filter(|program| program.starts_with("rockfrag "))?;
-        let pair = footer.key_value_metadata()?.iter().find(|pair| pair.key == KEY)?;
+        let pairs = footer.key_value_metadata().filter(|_| is_ours(footer))?;
+        let pair = pairs.iter().find(|pair| pair.key == KEY)?;
         serde_json::from_str(pair.value.as_ref()?).ok()
     }
 

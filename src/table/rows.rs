@@ -4,15 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::{ArrayRef, RecordBatch, StructArray};
+use arrow_array::{Array, ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch, StructArray};
 use arrow_schema::{DataType, Field, FieldRef, Schema, SchemaRef};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_arrow::schema::{SchemaLike, TracingOptions};
 
 use super::TableError;
+use super::columns::Batch;
 use super::dictionary;
-use super::file::Table;
+use super::file::{NARROW_BATCH, Table, or_error};
 
 /// A struct of numbers, texts, options of them and lists; each field is a column, and a value with its limits
 /// ([`crate::number::Limited`]) three.
@@ -66,32 +67,56 @@ pub fn batch<'a, R: Row + 'a>(rows: impl IntoIterator<Item = &'a R>) -> anyhow::
 
 /// Reads all rows of a table. A column of optional values may be missing.
 pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
-    let (table, schema) = (Table::open(path)?, schema::<R>());
-    let required = schema.fields().iter().filter(|field| !field.is_nullable());
-    table.expect(path, required.map(|field| field.name().as_str()))?;
-    let mut rows = Vec::new();
-    for batch in table.batches(&|name| schema.index_of(name).is_ok()) {
-        let batch = batch?;
-        let read: Vec<R> =
-            rows_of(&batch.rows).map_err(|error| TableError::table(&batch.path, error.to_string()))?;
-        rows.extend(read);
-    }
-    Ok(rows)
+    let table = Table::open(path)?;
+    let batches = stream(path, &table)?.collect::<Result<Vec<Vec<R>>, _>>()?;
+    Ok(batches.into_iter().flatten().collect())
 }
 
-fn rows_of<R: Row>(batch: &RecordBatch) -> anyhow::Result<Vec<R>> {
-    let array = |column: &FieldRef| batch.column_by_name(column.name()).cloned();
-    let known = |field: FieldRef| {
-        let arrays = columns(&field).iter().map(array).collect::<Option<Vec<ArrayRef>>>()?;
-        let array = match field.data_type() {
-            DataType::Struct(parts) => Arc::new(StructArray::new(parts.clone(), arrays, None)),
-            _ => arrays[0].clone(),
-        };
-        Some((field, array))
+/// Reads the rows of the table at `path` some at a time.
+pub fn stream<'a, R: Row>(
+    path: &Path,
+    table: &'a Table,
+) -> Result<impl Iterator<Item = Result<Vec<R>, TableError>> + Send + use<'a, R>, TableError> {
+    let schema = schema::<R>();
+    let required = schema.fields().iter().filter(|field| !field.is_nullable());
+    table.expect(path, required.map(|field| field.name().as_str()))?;
+    let read = move |group| or_error(table.read(&group, &|name| schema.index_of(name).is_ok(), NARROW_BATCH));
+    Ok(table.row_groups().into_iter().flat_map(read).map(|batch| rows_of(&batch?)))
+}
+
+fn rows_of<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
+    let (mut known, mut arrays) = (Vec::new(), Vec::new());
+    for field in fields::<R>() {
+        let columns = columns(&field);
+        if columns.iter().any(|column| batch.rows.column_by_name(column.name()).is_none()) {
+            continue;
+        }
+        let parts = columns.iter().map(|column| checked(batch, column)).collect::<Result<Vec<_>, _>>()?;
+        arrays.push(match field.data_type() {
+            DataType::Struct(fields) => Arc::new(StructArray::new(fields.clone(), parts, None)),
+            _ => parts[0].clone(),
+        });
+        known.push(field);
+    }
+    serde_arrow::from_arrow(&known, &arrays)
+        .map_err(|error| TableError::table(&batch.path, error.to_string()))
+}
+
+/// A column whose numbers are of its quantity, and not null where one is expected.
+fn checked(batch: &Batch, column: &Field) -> Result<ArrayRef, TableError> {
+    let (name, found) = (column.name(), &batch.rows[column.name().as_str()]);
+    let checked: ArrayRef = match column.data_type() {
+        DataType::Float64 => Arc::new(Float64Array::from(batch.numbers(name)?)),
+        DataType::Int64 => Arc::new(Int64Array::from(batch.counts::<i64>(name)?)),
+        DataType::Int32 => Arc::new(Int32Array::from(batch.counts::<i32>(name)?)),
+        _ => found.clone(),
     };
-    let (fields, arrays): (Vec<FieldRef>, Vec<ArrayRef>) =
-        fields::<R>().into_iter().filter_map(known).unzip();
-    Ok(serde_arrow::from_arrow(&fields, &arrays)?)
+    match (0..checked.len()).find(|row| checked.is_null(*row)).filter(|_| !column.is_nullable()) {
+        Some(row) => {
+            Err(batch.value_error(row, name, format!("none; expected {}", dictionary::meaning(name))))
+        }
+        None => Ok(checked),
+    }
 }
 
 /// Joins the columns of batches of equal length.

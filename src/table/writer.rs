@@ -8,16 +8,20 @@ use arrow_array::RecordBatch;
 use arrow_schema::{DataType, Field, SchemaRef};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
 use super::TableError;
+use super::pages::checksums;
 use super::provenance::{CREATED_BY, Provenance};
 
 /// Rows per row group: of a narrow table, and of one with samples.
 const ROWS_IN_GROUP: usize = 32_768;
 pub const MOTIONS_IN_GROUP: usize = 64;
+/// Bytes after which a row group ends: rows of long motions are written before they fill the memory.
+const MOST_BYTES_IN_GROUP: usize = 256 << 20;
 /// Suffix of files being written.
 const PARTIAL: &str = ".partial";
 
@@ -39,9 +43,18 @@ impl TableWriter {
 
     /// Ends the table and renames it.
     pub fn finish(mut self, made: &Provenance) -> Result<(), TableError> {
+        let checksums = self.checksums().map_err(|cause| cannot_write(&self.path, cause))?;
+        self.writer.append_key_value_metadata(checksums);
         self.writer.append_key_value_metadata(made.key_value());
         let partial = self.writer.into_inner().map_err(|cause| cannot_write(&self.path, cause))?;
         persist(partial, &self.path)
+    }
+
+    /// Computes the checksums of all rows, once these are in the file.
+    fn checksums(&mut self) -> parquet::errors::Result<KeyValue> {
+        self.writer.flush()?;
+        self.writer.sync()?;
+        checksums(self.writer.inner().as_file(), self.writer.flushed_row_groups())
     }
 }
 
@@ -104,6 +117,7 @@ fn properties(schema: &SchemaRef) -> WriterProperties {
         .set_compression(zstd)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true)
+        .set_max_row_group_bytes(Some(MOST_BYTES_IN_GROUP))
         .set_max_row_group_row_count(Some(if has_samples { MOTIONS_IN_GROUP } else { ROWS_IN_GROUP }));
     for field in schema.fields() {
         if field.data_type() == &DataType::Float64 {

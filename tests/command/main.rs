@@ -5,6 +5,7 @@ mod config;
 mod evaluate;
 mod files;
 mod floors;
+mod foreign;
 mod hazard;
 mod interruption;
 mod objects;

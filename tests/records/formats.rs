@@ -8,7 +8,7 @@ use rockfrag::units::Unit;
 use crate::writers::*;
 
 fn read(text: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    read_records(text.as_bytes(), &ReadOptions { pga_tolerance: 1e-4, ..ReadOptions::default() })
+    read_records(text.as_bytes(), &ReadOptions::default())
 }
 
 /// A file of 1000 samples, half a unit of their last digit (m/s2), and its labels.
@@ -137,7 +137,7 @@ proptest! {
     ) {
         let (dt_s, unit) = (Some(0.01).filter(|_| is_given), Unit::parse("g").filter(|_| is_given));
         let column = column.map(str::to_string);
-        let options = ReadOptions { format, dt_s, unit, column, pga_tolerance: 1e9 };
+        let options = ReadOptions { format, dt_s, unit, column };
         for motion in read_records(&bytes, &options).into_iter().flatten() {
             prop_assert!(motion.acceleration_m_s2.iter().all(|a| a.is_finite()));
             prop_assert!(motion.dt_s > 0.0 && (2..=bytes.len()).contains(&motion.acceleration_m_s2.len()));

@@ -1,6 +1,6 @@
 //! Plausible and implausible records.
 
-use rockfrag::records::plausibility::{Implausibility, implausibility};
+use rockfrag::records::implausibility::{Implausibility, implausibility};
 
 use crate::shared::reference_motions;
 use crate::writers::{DT, G, motion};

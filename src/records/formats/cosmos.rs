@@ -3,11 +3,13 @@
 //! several channels, and velocity and displacement besides acceleration.
 
 use super::error::RecordFileError;
-use super::header::{after, first_number, leading_number, samples, time_step, unit_of, words};
-use crate::records::{HeaderPga, ReadOptions, RecordedMotion};
+use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit_of, words};
+use crate::records::{HeaderPga, ReadOptions, RecordedMotion, is_vertical};
 
 /// Index of the azimuth among the integers.
 const AZIMUTH: usize = 53;
+/// Codes in its place of a component that points up or down, or is vertical.
+const VERTICAL: std::ops::RangeInclusive<f64> = 400.0..=402.0;
 /// Index of the time step (ms) among the reals.
 const TIME_STEP_MS: usize = 61;
 /// Index of the peak, in the unit of the samples, among the reals.
@@ -69,7 +71,7 @@ fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
     let is_end = |line: &&str| after(line, "end-of-data").is_some();
     let end = lines[start..*at].iter().position(is_end).map_or(*at, |length| start + length);
     let by_width = samples(&lines[..end], start, count, |line| fields(line, width));
-    by_width.or_else(|_| samples(&lines[..end], start, count, str::split_ascii_whitespace))
+    by_width.or_else(|_| samples(&lines[..end], start, count, numbers))
 }
 
 /// Splits a line into fields of one width; the last may be shorter.
@@ -102,15 +104,22 @@ impl Channel<'_> {
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let peak = peak.map(|peak| peak.abs() * unit.si);
-        let component = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
-        // Codes above 360 are not azimuths; nor is 0, since north is 360.
-        let azimuth = self.integers.get(AZIMUTH).copied().filter(|azimuth| (1.0..=360.0).contains(azimuth));
-        let degrees = component.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
+        let label = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
+        let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
+        // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
+        let channel = find("<SCNL>").and_then(|rest| rest.split('.').nth(1));
+        let is_vertical = VERTICAL.contains(&code)
+            || label.as_deref().is_some_and(is_vertical)
+            || channel.is_some_and(|channel| channel.ends_with('Z'));
+        // Other codes above 360 are not azimuths; nor is 0, since north is 360.
+        let azimuth = Some(code).filter(|azimuth| (1.0..=360.0).contains(azimuth));
+        let degrees = label.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
+        let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
         Ok(RecordedMotion {
             event: find("Record of ").and_then(words),
             station: find("Code:").and_then(words),
-            azimuth_deg: azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees))),
-            component,
+            azimuth_deg: azimuth.filter(|_| !is_vertical),
+            component: if is_vertical { Some("vertical".to_string()) } else { label },
             header_pga: peak.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }),
             ..RecordedMotion::new(time_step(dt_s, line)?, values, unit)
         })

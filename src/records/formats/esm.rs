@@ -2,7 +2,7 @@
 
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, given_unit, header_pga, leading_number, samples, time_step, unit_of, words,
+    after, azimuth_of, given_unit, header_pga, leading_number, numbers, samples, time_step, unit_of, words,
 };
 use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::Unit;
@@ -31,7 +31,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let (line, dt_s) = step.ok_or(RecordFileError::NoTimeStep { line: end, expected })?;
     let (_, announced) =
         number("NDATA").ok_or(missing("NDATA", "the number of samples, such as 'NDATA: 18904'"))?;
-    let values = samples(lines, end, announced, str::split_ascii_whitespace)?;
+    let values = samples(lines, end, announced, numbers)?;
     let joined = |keys: [&'static str; 3]| {
         let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(find(key)?.1)).collect();
         words(&parts.join(" "))

@@ -88,14 +88,36 @@ pub fn words(text: &str) -> Option<String> {
 /// Reads the number at the start of a text; letters may follow directly (`100Hz`).
 pub fn leading_number(text: &str) -> Option<f64> {
     let text = text.trim_start();
-    let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.eE".contains(c)).unwrap_or(text.len()).min(40);
-    (1..=end).rev().find_map(|end| text[..end].parse().ok()).filter(|value: &f64| value.is_finite())
+    let end =
+        text.find(|c: char| !c.is_ascii_digit() && !"+-.eEdD".contains(c)).unwrap_or(text.len()).min(40);
+    (1..=end).rev().find_map(|end| number(&text[..end]))
 }
 
 /// Reads the first number in a text.
 pub fn first_number(text: &str) -> Option<f64> {
     let starts = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.');
     text.match_indices(starts).find_map(|(at, _)| leading_number(&text[at..]))
+}
+
+/// Splits a line into numbers: at blanks, and before a sign that Fortran left no room to separate.
+pub fn numbers(line: &str) -> impl Iterator<Item = &str> {
+    let mut rest = line.trim_start();
+    std::iter::from_fn(move || {
+        let is_end = |&(at, c): &(usize, char)| {
+            let is_sign = matches!(c, '+' | '-') && at > 0;
+            c.is_whitespace() || is_sign && !rest[..at].ends_with(['e', 'E', 'd', 'D'])
+        };
+        let end = rest.char_indices().find(is_end).map_or(rest.len(), |(at, _)| at);
+        let (number, later) = rest.split_at(end);
+        rest = later.trim_start();
+        (!number.is_empty()).then_some(number)
+    })
+}
+
+/// Reads a number, whose exponent Fortran may write with a D.
+fn number(cell: &str) -> Option<f64> {
+    let value = cell.parse().or_else(|_| cell.replace(['D', 'd'], "E").parse()).ok();
+    value.filter(|value: &f64| value.is_finite())
 }
 
 /// Reads `announced` samples from the lines after the first `header` ones; `cells` splits a line. Further
@@ -110,8 +132,8 @@ pub fn samples<'a, I: Iterator<Item = &'a str>>(
     for (at, line) in lines.iter().enumerate().skip(header) {
         let before = values.len();
         for cell in cells(line) {
-            let value = cell.parse().ok().filter(|value: &f64| value.is_finite());
-            values.push(value.ok_or_else(|| RecordFileError::value(at + 1, "sample", cell, "a number"))?);
+            let refusal = || RecordFileError::value(at + 1, "sample", cell, "a number");
+            values.push(number(cell).ok_or_else(refusal)?);
         }
         if values.len() > before {
             on_last_line = values.len() - before;

@@ -3,7 +3,7 @@
 
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, first_number, header_pga, leading_number, samples, time_step, unit_of, words,
+    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, time_step, unit_of, words,
 };
 use crate::records::{ReadOptions, RecordedMotion};
 
@@ -36,7 +36,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let scale = scale.ok_or_else(refusal)?;
     let duration_s = find("Duration Time(s)").and_then(|(_, duration)| leading_number(duration));
     let duration_s = duration_s.ok_or(missing(end, "Duration Time(s)", "a duration in seconds"))?;
-    let counts = samples(lines, end + 1, (duration_s / dt_s).round(), str::split_ascii_whitespace)?;
+    let counts = samples(lines, end + 1, (duration_s / dt_s).round(), numbers)?;
     let mean = counts.iter().sum::<f64>() / counts.len() as f64;
     let gal = counts.into_iter().map(|count| (count - mean) * scale).collect();
     let unit = unit_of("gal", line)?;
@@ -44,12 +44,14 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     // KiK-net numbers the directions in the borehole 1 to 3, those at the surface 4 to 6.
     let number = direction.parse().ok().filter(|number: &usize| (1..=6).contains(number));
     let component = number.map_or(direction, |number| ["N-S", "E-W", "U-D"][(number - 1) % 3]);
-    let place = number.map_or("", |number| if number <= 3 { "borehole" } else { "surface" });
+    let is_in_borehole = number.is_some_and(|number| number <= 3);
+    let place = number.map_or("", |_| if is_in_borehole { "borehole" } else { "surface" });
     Ok(RecordedMotion {
         event: find("Origin Time").and_then(|(_, time)| words(time)),
         mw: find("Mag.").and_then(|(_, magnitude)| leading_number(magnitude)),
         station: find("Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
         component: words(component),
+        is_in_borehole,
         azimuth_deg: azimuth_of(component),
         header_pga: find("Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit)),
         ..RecordedMotion::new(dt_s, gal, unit)

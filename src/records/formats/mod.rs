@@ -25,6 +25,10 @@ use crate::keyword::Keyword;
 use crate::motion::measures::peak;
 use crate::sheet::decode;
 
+/// Accepted relative difference of the samples from the peak in the header, which some programs round or take
+/// before a correction.
+const SAME_PEAK: f64 = 0.05;
+
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
 pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
     let text = decode(bytes)?;
@@ -52,7 +56,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga
-            && (found_m_s2 - m_s2).abs() > options.pga_tolerance * m_s2 + rounding_m_s2
+            && (found_m_s2 - m_s2).abs() > SAME_PEAK * m_s2 + rounding_m_s2
         {
             return Err(RecordFileError::Peak { header_m_s2: m_s2, found_m_s2 });
         }

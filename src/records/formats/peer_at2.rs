@@ -3,8 +3,8 @@
 
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, first_number, given_unit, header_pga, leading_number, samples, time_step, unit_of,
-    words,
+    after, azimuth_of, first_number, given_unit, header_pga, leading_number, numbers, samples, time_step,
+    unit_of, words,
 };
 use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::Unit;
@@ -12,13 +12,21 @@ use crate::units::Unit;
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
-/// Returns whether the header has a line with NPTS.
+/// Returns whether the header has a line with the number of samples.
 pub fn recognises(lines: &[&str]) -> bool {
     line_of_counts(lines).is_some()
 }
 
+/// Finds the line with NPTS (or NPT) and DT, or with the two numbers alone below the unit.
 fn line_of_counts(lines: &[&str]) -> Option<usize> {
-    lines.iter().take(HEADER).position(|line| after(line, "NPTS").is_some())
+    let header = &lines[..lines.len().min(HEADER)];
+    let named = header.iter().position(|line| after(line, "NPT").is_some());
+    let below = || header.iter().position(|line| after(line, "UNITS OF").is_some()).map(|at| at + 1);
+    let is_bare = |at: &usize| {
+        let words = header.get(*at).map_or(Vec::new(), |line| line.split_ascii_whitespace().collect());
+        matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
+    };
+    named.or_else(|| below().filter(is_bare))
 }
 
 /// Reads the motion of an AT2 file.
@@ -28,14 +36,17 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let (header, counts) = (&lines[..at], lines[at]);
     let unit = unit(header, options)?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
-    let named = |key| first_number(after(counts, key)?.trim_start().strip_prefix('=')?);
+    let named = |key| {
+        let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
+        first_number(value.strip_prefix(['=', ':'])?)
+    };
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
-    let announced = named("NPTS").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
+    let announced = named("NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
     let dt_s = named("DT").or(second).or(options.dt_s);
     let expected = "one such as 'DT= .0050 SEC'";
     let dt_s = dt_s.ok_or(RecordFileError::NoTimeStep { line: at + 1, expected })?;
-    let values = samples(lines, at + 1, announced, str::split_ascii_whitespace)?;
+    let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
     let title: Vec<&str> = header.get(1).map_or("", |line| line).split(',').map(str::trim).collect();

@@ -32,8 +32,8 @@ use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
-use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
-use crate::records::plausibility::rarity;
+use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
+use crate::records::implausibility::rarity;
 use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::table::writer::write_file;
@@ -71,7 +71,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
-    #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(4.0..=9.5, "a moment magnitude"))]
+    #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
@@ -85,7 +85,7 @@ pub struct Evaluate {
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
     #[arg(long, value_name = "S", requires = "hazard", group = "site",
-          value_parser = number(0.005..=0.5, "PGV/PGA in s, from 0.005 to 0.5, of PGA in m/s2 and PGV in m/s"))]
+          value_parser = number(PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]

@@ -21,7 +21,6 @@ use crate::rocking::Structure;
 use crate::sheet::{Heading, Sheet};
 use crate::stages::shared::hazard::{headings, peak, rename};
 use crate::stages::shared::model_args::Models;
-use crate::stages::shared::motions::known;
 use crate::stages::shared::object_list::describes_object;
 use crate::stages::shared::objects::{Object, StructureArgs};
 use crate::stages::shared::spec::{Place, Restitution, Spec};
@@ -91,12 +90,12 @@ fn with_probabilities<'a>(
     for (row, (&pga, &pgv)) in pga.iter().zip(&pgv).enumerate() {
         judge_peaks(pga, pgv).map_err(|problem| batch.value_error(row, "pgv_m_s", problem))?;
     }
-    let mw = batch.magnitudes()?;
+    let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
         let warnings = [of_structure.clone(), subject.warnings([pga[row], pgv[row]])].concat();
         let [pga_m_s2, pgv_m_s] = [pga[row], pgv[row]].map(Some);
-        let motion = Motion { pga_m_s2, pgv_m_s, mw: known(mw[row]), vs30_m_s: None };
+        let motion = Motion { pga_m_s2, pgv_m_s, mw: mw[row], vs30_m_s: None };
         let (tree, budget) = TreeRow::new(&motion, subject);
         (tree, DoubtsRow::new(&warnings, &budget), warnings)
     };
@@ -139,10 +138,12 @@ fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
             return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
         }
     };
-    let judged = |(row, value): (usize, f64)| match judge_peak(wanted == Peak::Pgv, value * unit) {
-        Ok(()) => Ok(value * unit),
-        Err(_) if value.is_nan() => Err(batch.value_error(row, column, "no value").into()),
-        Err(possible) => Err(batch.value_error(row, column, format!("expected {possible}")).into()),
+    let judged = |(row, value): (usize, Option<f64>)| match value.map(|value| value * unit) {
+        None => Err(batch.value_error(row, column, "no value").into()),
+        Some(value) => match judge_peak(wanted == Peak::Pgv, value) {
+            Ok(()) => Ok(value),
+            Err(possible) => Err(batch.value_error(row, column, format!("expected {possible}")).into()),
+        },
     };
     batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
 }

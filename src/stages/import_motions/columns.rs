@@ -62,7 +62,7 @@ fn source(motion: &ImportedMotion) -> SourceRow {
     let names: Vec<&str> = [event, station, component].into_iter().flatten().map(String::as_str).collect();
     SourceRow {
         motion_id: motion.motion_id.clone(),
-        suite: motion.suite,
+        suite: Suite::Record,
         name: (!names.is_empty()).then(|| names.join(", ")),
         earthquake: event.clone(),
         mw: motion.record.mw,

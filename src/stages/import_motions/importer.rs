@@ -11,7 +11,7 @@ use super::about::About;
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
-use crate::records::plausibility::Implausibility;
+use crate::records::implausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
 use crate::records::rotation::pairs;
 use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
@@ -26,9 +26,27 @@ pub struct Importer {
     reading: ReadOptions,
     processing: Processing,
     pub about: About,
-    /// Whether vertical components are imported too, and how many were not.
+    /// Whether vertical components are imported too.
     vertical: bool,
-    left_out: AtomicUsize,
+    left_out: LeftOut,
+}
+
+/// How many components were left out, and why.
+#[derive(Default)]
+pub struct LeftOut {
+    pub vertical: AtomicUsize,
+    pub in_borehole: AtomicUsize,
+}
+
+impl LeftOut {
+    /// The counts in words; none where all are imported.
+    pub fn words(&self) -> Option<String> {
+        let counts = [(&self.vertical, "vertical component"), (&self.in_borehole, "borehole component")];
+        let counts = counts.map(|(count, name)| (count.load(Ordering::Relaxed), name));
+        let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| counted(*count, name));
+        let words: Vec<String> = words.collect();
+        (!words.is_empty()).then(|| words.join(" and "))
+    }
 }
 
 /// What one thread imports: a file, or two components by their file and number.
@@ -55,7 +73,7 @@ impl Importer {
             let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
             both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
         }
-        let left_out = AtomicUsize::new(0);
+        let left_out = LeftOut::default();
         Ok(Importer { files, names, reading, processing, about, vertical, left_out })
     }
 
@@ -71,8 +89,7 @@ impl Importer {
                 Vec::new()
             });
             for (index, record) in records.into_iter().enumerate() {
-                if record.motion.is_vertical() {
-                    self.left_out.fetch_add(1, Ordering::Relaxed);
+                if self.leaves_out(&record.motion) {
                     continue;
                 }
                 // Samples are read again once a pair is found: that takes less memory than keeping all of them.
@@ -93,9 +110,21 @@ impl Importer {
         Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
     }
 
-    /// How many vertical components were left out.
-    pub fn left_out(&self) -> usize {
-        self.left_out.load(Ordering::Relaxed)
+    /// How many components were left out, in words.
+    pub fn left_out(&self) -> Option<String> {
+        self.left_out.words()
+    }
+
+    /// Counts a component that is not to be imported. A column that was chosen is.
+    fn leaves_out(&self, motion: &RecordedMotion) -> bool {
+        let is_vertical = motion.is_vertical() && !self.vertical && self.reading.column.is_none();
+        let counter = match (motion.is_in_borehole, is_vertical) {
+            (true, _) => &self.left_out.in_borehole,
+            (_, true) => &self.left_out.vertical,
+            _ => return false,
+        };
+        counter.fetch_add(1, Ordering::Relaxed);
+        true
     }
 
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
@@ -105,9 +134,7 @@ impl Importer {
                     Ok(records) => records,
                     Err(refusal) => return vec![Err(refusal)],
                 };
-                let all = records.len();
-                records.retain(|record| self.vertical || !record.motion.is_vertical());
-                self.left_out.fetch_add(all - records.len(), Ordering::Relaxed);
+                records.retain(|record| !self.leaves_out(&record.motion));
                 let import =
                     |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
                 records.into_iter().map(import).collect()

@@ -16,7 +16,7 @@ use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::motion::MeasurePlan;
-use crate::number::counted;
+use crate::number::significant;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stream::pipelined;
@@ -53,9 +53,6 @@ pub struct ImportMotions {
     /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
     column: Option<String>,
-    /// Tolerated difference from the peak in the header, as a fraction
-    #[arg(long, default_value = "0.05", value_name = "FRACTION", value_parser = number(0.0..=1e9, "a fraction of 0 or more"))]
-    pga_tolerance: f64,
     /// Remove from acceleration: none, mean or linear
     #[arg(long, default_value = "none")]
     baseline: Baseline,
@@ -81,9 +78,6 @@ pub struct ImportMotions {
     /// Velocity pulses: find (Baker 2007, then a fit of Eq. 1, the velocity) or skip
     #[arg(long, default_value = "find")]
     pulses: PulseSearch,
-    /// Also write motions without their pulse, as suite residual
-    #[arg(long)]
-    residual: bool,
     /// Add spectral accelerations (5 % damping) at these periods, s, as sa_0p20_m_s2
     #[arg(long, value_name = "S,...", value_parser = periods)]
     sa: Option<Steps>,
@@ -114,9 +108,6 @@ impl Stage for ImportMotions {
         if self.files.is_empty() {
             return Err(UsageError::because("no files; expected files or folders of records"));
         }
-        if self.residual && self.pulses == PulseSearch::Skip {
-            return Err(UsageError::because("residual motions need their pulses; leave out pulses: skip"));
-        }
         Ok(())
     }
 
@@ -126,13 +117,8 @@ impl Stage for ImportMotions {
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
         let unused = about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone()));
         context.warn(unused.collect());
-        let reading = ReadOptions {
-            format: self.format,
-            dt_s: self.dt,
-            unit: self.unit,
-            column: self.column.clone(),
-            pga_tolerance: self.pga_tolerance,
-        };
+        let reading =
+            ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let importer = Importer::new(&self.files, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
@@ -154,19 +140,17 @@ impl Stage for ImportMotions {
                         Vec::new()
                     });
                     summary.add(&imported)?;
-                    let warning = |motion: &ImportedMotion| {
-                        let text = format!("{}: {}", motion.motion_id, motion.warning?);
-                        Some((Warning::ImplausibleRecord, text))
-                    };
-                    context.warn(imported.iter().filter_map(warning).collect());
+                    context.warn(imported.iter().flat_map(warnings).collect());
                     writer.append(&batch(&imported, &periods)?)?;
                 }
                 Ok(())
             },
         )?;
         if summary.is_empty() && refused.is_empty() {
-            let verticals = counted(importer.left_out(), "vertical component");
-            anyhow::bail!("no horizontal component; {verticals}, which --vertical imports");
+            let left_out = importer.left_out().unwrap_or("no component".to_string());
+            anyhow::bail!(
+                "{left_out}; expected horizontal ones at the surface (--vertical imports vertical ones)"
+            );
         }
         if summary.is_empty() || !refused.is_empty() && !self.keep_going {
             let others = if summary.is_empty() { "" } else { "\n--keep-going imports the others" };
@@ -182,6 +166,13 @@ impl Stage for ImportMotions {
         context.finish(writer, &summary)?;
         Ok(summary)
     }
+}
+
+fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> {
+    let (id, doubts) = (&motion.motion_id, motion.doubts);
+    let implausible = doubts.implausibility.map(|why| (Warning::ImplausibleRecord, format!("{id}: {why}")));
+    let lost = doubts.lost_pga.map(|share| format!("{id}: {} % lower", significant(100.0 * share, 2)));
+    implausible.into_iter().chain(lost.map(|lost| (Warning::LoweredPeak, lost)))
 }
 
 impl ImportMotions {
@@ -203,7 +194,6 @@ impl ImportMotions {
             direction: self.rotate,
             scaling,
             pulses: self.pulses,
-            residual: self.residual,
             accept_implausible: self.accept_implausible,
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
         })

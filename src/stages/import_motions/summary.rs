@@ -54,17 +54,14 @@ impl Summary {
         self.peaks.is_empty()
     }
 
-    pub fn text(&self, verticals: usize) -> String {
+    pub fn text(&self, left_out: Option<String>) -> String {
         let kinds: Vec<String> = self.kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
         let range = |peak: usize| {
             let values = self.peaks.iter().map(|peaks| peaks[peak]);
             let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
             format!("{} to {}", fixed(low, 3), fixed(high, 3))
         };
-        let left_out = match verticals {
-            0 => String::new(),
-            n => format!("; {} left out", counted(n, "vertical component")),
-        };
+        let left_out = left_out.map_or(String::new(), |components| format!("; {components} left out"));
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
             counted(self.peaks.len(), "motion"),

@@ -5,20 +5,12 @@ use std::path::Path;
 
 use crate::keyword;
 use crate::motion::{IntensityMeasures, MeasureScratch, Suite, SyntheticSuite, measures};
-use crate::records::plausibility;
-use crate::rocking::{Outcome, Record, RecordError, Response, Structure};
+use crate::records::implausibility::implausibility;
+use crate::rocking::{Outcome, Record, Response, Structure};
 use crate::table::TableError;
-use crate::table::motions::{ACCELERATION, Motion};
+use crate::table::motions::Motion;
 use crate::table::responses::ResponseRow;
 use crate::warning::{Warning, Warnings};
-
-/// The record of a motion of the file at `path`.
-pub fn record<'a>(path: &Path, motion: &'a Motion) -> Result<Record<'a>, TableError> {
-    Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| {
-        let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
-        TableError::value(path, motion.row, column, problem)
-    })
-}
 
 /// Measures of a motion: those of the file, or of the record where the file has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,10 +26,10 @@ impl Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let pgv = || measures::peak(&measures::velocity(samples, dt_s));
         Measures {
-            pga_m_s2: known(motion.pga_m_s2).unwrap_or(record.peak_m_s2()),
-            pgv_m_s: known(motion.pgv_m_s).unwrap_or_else(pgv),
-            tm_s: known(motion.tm_s).or_else(|| measures::mean_period(samples, dt_s, scratch)),
-            tp_s: known(motion.tp_s),
+            pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
+            pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
+            tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s, scratch)),
+            tp_s: motion.tp_s,
         }
     }
 
@@ -62,8 +54,8 @@ impl Measures {
             outcome: response.outcome,
             edp: (response.outcome != Outcome::Overturning).then_some(response.edp),
             impacts: i32::try_from(response.impacts).ok(),
-            mw: known(motion.mw),
-            re_km: known(motion.re_km),
+            mw: motion.mw,
+            re_km: motion.re_km,
             earthquake: motion.earthquake.clone(),
             pga_m_s2: self.pga_m_s2,
             pgv_m_s: self.pgv_m_s,
@@ -71,11 +63,6 @@ impl Measures {
             tm_s: self.tm_s,
         }
     }
-}
-
-/// A number of a file, if it has one.
-pub fn known(number: f64) -> Option<f64> {
-    (!number.is_nan()).then_some(number)
 }
 
 /// By which share the peaks that a file gives may miss those of the samples.
@@ -90,9 +77,11 @@ pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     }
     let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
     let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
-    let differs = |given: f64, peak: f64| (given - peak).abs() > PEAK_TOLERANCE * peak;
+    let differs = |given: Option<f64>, peak: f64| {
+        given.is_some_and(|given| (given - peak).abs() > PEAK_TOLERANCE * peak)
+    };
     let is_other = differs(motion.pga_m_s2, record.peak_m_s2()) || differs(motion.pgv_m_s, pgv_m_s);
-    let implausible = plausibility::implausibility(samples, dt_s)
+    let implausible = implausibility(samples, dt_s)
         .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
     let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));
     implausible.into_iter().chain(other_peak).collect()

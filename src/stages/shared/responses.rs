@@ -80,10 +80,11 @@ fn add(
     let outcomes = batch.required_words::<Outcome>("outcome")?;
     let edp = demands(batch, &outcomes)?;
     let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
-    let (mw, re_km, earthquakes) = (batch.magnitudes()?, batch.numbers("re_km")?, batch.texts("earthquake")?);
+    let (mw, re_km) = (or_nan(batch.numbers("mw")?), or_nan(batch.numbers("re_km")?));
+    let earthquakes = batch.texts("earthquake")?;
     let measure = |measure: &Measure| match measure {
         Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
-        other => batch.numbers(other.as_str()),
+        other => batch.numbers(other.as_str()).map(or_nan),
     };
     let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
     for (row, motion) in batch.texts("motion_id")?.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
@@ -144,9 +145,13 @@ fn cases_of<'a>(
     Ok(cases)
 }
 
+fn or_nan(numbers: Vec<Option<f64>>) -> Vec<f64> {
+    numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect()
+}
+
 /// The demands, which only overturned structures lack.
 fn demands(batch: &Batch, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> {
-    let mut edp = batch.numbers("edp")?;
+    let mut edp = or_nan(batch.numbers("edp")?);
     for (row, (edp, outcome)) in edp.iter_mut().zip(outcomes).enumerate() {
         if *outcome == Outcome::Overturning {
             *edp = f64::NAN;

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use clap::{Args, Parser};
 
 use crate::pipeline::options::{in_one_line, number};
+use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
@@ -60,7 +61,7 @@ pub struct Shape {
     pub beam_mass_ratio: Option<f64>,
     /// Frequency parameter, rad/s
     #[arg(long, value_name = "RAD/S",
-          value_parser = number(0.2..=50.0, "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"))]
+          value_parser = number(GIVEN_FREQUENCIES_RAD_S, "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"))]
     pub p: Option<f64>,
     /// Slenderness, rad
     #[arg(long, value_name = "RAD",

@@ -54,9 +54,9 @@ pub fn motion(motions: &[Motion]) -> Figure {
 }
 
 fn words(motion: &Motion) -> String {
-    match motion.mw.is_nan() || motion.re_km.is_nan() {
-        true => format!("motion {}", motion.motion_id),
-        false => format!("magnitude {}, distance {} km", motion.mw, motion.re_km),
+    match motion.mw.zip(motion.re_km) {
+        Some((mw, re_km)) => format!("magnitude {mw}, distance {re_km} km"),
+        None => format!("motion {}", motion.motion_id),
     }
 }
 

@@ -13,7 +13,7 @@ pub use self::columns::{headings, peak, rename, renamed};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
-use crate::plausibility::judge_hazard;
+use crate::plausibility::{MAGNITUDES, judge_hazard};
 use crate::sheet::{Heading, Sheet};
 use crate::units::{CM_PER_M, G_M_S2};
 use crate::warning::{Warning, Warnings};
@@ -238,7 +238,7 @@ fn joint(
         bail!("rates of occurrence without PGA and PGV; expected both, or rates of exceedance");
     };
     let magnitude = |row: usize, column: usize| match sheet.number(row, column)? {
-        mw @ 3.0..=10.0 => Ok(mw),
+        mw if MAGNITUDES.contains(&mw) => Ok(mw),
         _ => Err(sheet.refusal(row, column, "a moment magnitude")),
     };
     let bins = of_rows(sheet, |row| {

@@ -3,25 +3,14 @@
 
 use crate::motion::measures::{peak, velocity};
 use crate::number::significant;
+use crate::plausibility::{
+    PGV_PGA_RECORDED_S, RARE_PGA_G, RARE_PGV_M_S, RECORDED_STEPS_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S,
+    WEAKEST_PGA_G,
+};
 use crate::units::G_M_S2;
 
-/// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.
-const STEPS_S: (f64, f64) = (1e-4, 0.1);
 /// Least number of samples: half a second at a step of 0.02 s, enough to rise, peak and decay.
 const FEWEST_SAMPLES: usize = 25;
-/// Largest PGA, g, with a margin: the largest recorded is 4278 cm/s2, the vector of three components at
-/// IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration records of
-/// large earthquakes, Seismological Research Letters 80).
-const LARGEST_PGA_G: f64 = 5.0;
-/// Largest PGV, m/s, with a margin over the 3.18 m/s of Chi-Chi 1999 (Wikipedia, "1999 Jiji earthquake";
-/// whether it is the largest is not known).
-const LARGEST_PGV_M_S: f64 = 5.0;
-/// Above these, a motion is rare: m/s2 read as g is ten times too strong, without effect on PGV/PGA.
-const RARE_PGA_G: f64 = 2.0;
-const RARE_PGV_M_S: f64 = 2.5;
-/// Range of PGV/PGA, s: 0.005 for a sine of 30 Hz, and twice the largest in the records of FEMA P695, which
-/// have 0.06 to 0.47.
-const PGV_PGA_S: (f64, f64) = (0.005, 1.0);
 /// Highest mean frequency, Hz: the ground damps frequencies above some 20 Hz even on the hardest rock; the
 /// records of FEMA P695 have 1.5 to 14.
 const HIGHEST_FREQUENCY_HZ: f64 = 30.0;
@@ -31,9 +20,6 @@ const SPIKE: (f64, f64) = (0.02, 0.25);
 /// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground is
 /// at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
-/// Least PGA, g: accelerographs resolve some 1e-4 g, and 1e-3 g rocks no stable structure.
-const WEAKEST_PGA_G: f64 = 1e-3;
-
 fn digits(value: &f64) -> String {
     significant(*value, 3)
 }
@@ -96,15 +82,18 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
     let warnings = [
-        (!(STEPS_S.0..=STEPS_S.1).contains(&dt_s), Implausibility::TimeStep { dt_s }),
+        (!RECORDED_STEPS_S.contains(&dt_s), Implausibility::TimeStep { dt_s }),
         (samples < FEWEST_SAMPLES, Implausibility::FewSamples { samples }),
         (pga_m_s2 == 0.0, Implausibility::Still),
         (spike.is_some(), Implausibility::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
-        (pga_g > LARGEST_PGA_G, Implausibility::Pga { pga_g }),
+        (pga_g > STRONGEST_PGA_G, Implausibility::Pga { pga_g }),
         (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Implausibility::Drift { velocity_m_s }),
-        (pgv_m_s > LARGEST_PGV_M_S, Implausibility::Pgv { pgv_m_s }),
-        (ratio_s > PGV_PGA_S.1, Implausibility::Slow { ratio_s }),
-        (frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < PGV_PGA_S.0, Implausibility::Fast { frequency_hz }),
+        (pgv_m_s > STRONGEST_PGV_M_S, Implausibility::Pgv { pgv_m_s }),
+        (ratio_s > *PGV_PGA_RECORDED_S.end(), Implausibility::Slow { ratio_s }),
+        (
+            frequency_hz > HIGHEST_FREQUENCY_HZ || ratio_s < *PGV_PGA_RECORDED_S.start(),
+            Implausibility::Fast { frequency_hz },
+        ),
         (pga_g < WEAKEST_PGA_G, Implausibility::WeakPga { pga_g }),
         (pga_g > RARE_PGA_G, Implausibility::RarePga { pga_g }),
         (pgv_m_s > RARE_PGV_M_S, Implausibility::RarePgv { pgv_m_s }),
