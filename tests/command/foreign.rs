@@ -7,8 +7,7 @@ use arrow_array::builder::{Decimal128Builder, FixedSizeListBuilder, Float64Build
 use arrow_array::builder::{Float16Builder, PrimitiveBuilder, UInt16Builder, UInt32Builder};
 use arrow_array::types::{ArrowPrimitiveType, Float16Type};
 use arrow_array::{
-    Array, ArrayRef, Decimal128Array, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray,
-    UInt64Array,
+    ArrayRef, Decimal128Array, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray, UInt64Array,
 };
 use arrow_schema::DataType;
 use parquet::arrow::ArrowWriter;
@@ -310,9 +309,8 @@ fn responses_that_cannot_be_are_named_by_all_that_read_them() {
         ("pgv_m_s", f64::INFINITY),
     ] {
         write_with(column, value);
-        for command in ["fit-pro", "fit-pex", "rank-ims", "validate", "report"] {
-            let input = if command == "report" { "r.parquet" } else { "--in r.parquet" };
-            fail(folder.path(), &format!("{command} {input}"), 1, &["r.parquet", "row 2", column]);
+        for command in ["fit-pro", "fit-pex", "rank-ims", "validate"] {
+            fail(folder.path(), &format!("{command} --in r.parquet"), 1, &["r.parquet", "row 2", column]);
         }
     }
 }
@@ -370,7 +368,6 @@ fn two_columns_of_one_name_are_refused() {
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
     writer.write(&batch).unwrap();
     writer.close().unwrap();
-    assert!(!batch.columns().is_empty());
     for command in [
         "inspect m.parquet",
         "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.9",

@@ -169,8 +169,8 @@ fn every_file_has_its_schema() {
     let is_wanted = |name: &str| ["mw", "re_km", "earthquake"].contains(&name);
     let table = Table::open(&folder.join("out/records.parquet")).unwrap();
     let of_record = table.batches(&is_wanted).next().unwrap().unwrap();
-    assert_eq!(of_record.numbers("mw").unwrap(), [7.3]);
-    assert_eq!(of_record.numbers("re_km").unwrap(), [4.5]);
+    assert_eq!(of_record.numbers("mw").unwrap(), [Some(7.3)]);
+    assert_eq!(of_record.numbers("re_km").unwrap(), [Some(4.5)]);
     assert_eq!(of_record.texts("earthquake").unwrap(), [Some("A".into())]);
     std::fs::write(folder.join("about.csv"), "file,magnitude\nrecord.csv,73\n").unwrap();
     fail(folder, "import-motions record.csv --out other.parquet --about about.csv", 2, &["about.csv", "73"]);
