@@ -129,7 +129,8 @@ fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
     // The share of the stripes that overturns passes one half there.
     let table = Table::open(&folder.path().join("ida.stripes.parquet")).unwrap();
     let stripes = table.batches(&|_| true).next().unwrap().unwrap();
-    let (intensity, outcome) = (stripes.numbers("intensity").unwrap(), stripes.texts("outcome").unwrap());
+    let (intensity, outcome) =
+        (stripes.required_numbers("intensity").unwrap(), stripes.texts("outcome").unwrap());
     let share = |level: f64| {
         let at: Vec<usize> = (0..intensity.len()).filter(|&row| intensity[row] == level).collect();
         at.iter().filter(|&&row| outcome[row].as_deref() == Some("overturning")).count() as f64
