@@ -89,6 +89,8 @@ pub mod export;
 pub mod fragility;
 pub mod hazard;
 #[doc(hidden)]
+pub mod inputs;
+#[doc(hidden)]
 pub mod keyword;
 pub mod motion;
 #[doc(hidden)]
@@ -104,8 +106,6 @@ pub mod records;
 #[doc(hidden)]
 pub mod report;
 pub mod rocking;
-#[doc(hidden)]
-pub mod sheet;
 #[doc(hidden)]
 pub mod stages;
 pub mod statistics;

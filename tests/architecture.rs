@@ -5,13 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The rooms from the top down; those of one line stand beside each other.
-const LAYERS: [&[&str]; 7] = [
+const LAYERS: [&[&str]; 8] = [
     &["main", "cli"],
     &["stages"],
     &["pipeline"],
     &["table", "export", "report"],
     &["studies", "records"],
-    &["fragility", "hazard", "paper", "sheet"],
+    &["inputs"],
+    &["fragility", "hazard", "paper"],
     &["motion", "rocking", "random", "statistics", "keyword", "number", "plausibility", "units", "warning"],
 ];
 

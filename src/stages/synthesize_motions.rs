@@ -17,7 +17,7 @@ use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::pipeline::{Stage, UsageError};
-use crate::sheet::Sheet;
+use crate::inputs::Grid;
 use crate::table::file::{Partition, Table};
 use crate::table::{TableError, motions, rows};
 
@@ -195,7 +195,7 @@ fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
             name.display()
         )
     };
-    let sheet = Sheet::parse(&std::fs::read(name).with_context(place)?).with_context(place)?;
+    let sheet = Grid::read(name).with_context(place)?;
     let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
     SiteAmplification::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
 }

@@ -8,6 +8,5 @@ mod pulses;
 mod references;
 #[path = "../shared/mod.rs"]
 mod shared;
-mod sheet;
 mod slips;
 mod writers;

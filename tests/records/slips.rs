@@ -83,7 +83,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (lines("acc_g,time", G, |k, a| format!("{:.2},{a:.6}", time(k))), "", "Exchanged"),
         // Time steps.
         (csv("time,acc_g", G), "dt=0.005", "Contradiction"),
-        (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), "", "Sheet(Cell"),
+        (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), "", "Input(Cell"),
         (
             lines("time,acc_g", G, |k, a| format!("{:.2},{a:.6}", -time(k))),
             "",
@@ -96,14 +96,14 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (at2(IN_G, "NPTS= 103"), "", "NoTimeStep { line: 4"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
-        (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Sheet(Cell { line: 32"),
-        (csv("time,acc_g", G).replace('.', ","), "", "Sheet(Cells"),
+        (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Input(Cell { line: 32"),
+        (csv("time,acc_g", G).replace('.', ","), "", "Input(Cells"),
         (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
         (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),
         (knet(&motion(100)).replace("/8388608", "/0"), "", "Value { line: 8"),
         // Not a record.
         ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),
-        ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Sheet(Binary"),
+        ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Input(Binary"),
     ] {
         let found = match read(&text, options) {
             Ok((dt_s, samples)) => format!("{} samples of {dt_s} s", samples.len()),

@@ -3,8 +3,8 @@
 
 use super::error::RecordFileError;
 use super::header::{expect_step, expect_unit, first_number, given_unit, time_step};
+use crate::inputs::{Grid, Heading};
 use crate::records::{ReadOptions, RecordedMotion};
-use crate::sheet::{Heading, Sheet};
 use crate::units::{Quantity, Unit};
 
 /// Accepted relative difference of a step of time from the usual one.
@@ -12,13 +12,14 @@ const UNEVEN: f64 = 0.05;
 
 /// Reads the motion in a table.
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
-    let sheet = Sheet::parse(bytes)?;
+    let sheet = Grid::parse(bytes, None)?;
     let has_numbers = |row: usize| (0..sheet.columns).any(|column| sheet.number(row, column).is_ok());
     let Some(&line) = sheet.lines.first().filter(|_| has_numbers(0)) else {
-        let found = sheet.notes.first().cloned().unwrap_or_default();
+        let heading = || sheet.headings.first().map(|heading| heading.text.clone());
+        let found = sheet.notes.first().cloned().or_else(heading).unwrap_or_default();
         return Err(RecordFileError::Unrecognised { found });
     };
-    let notes: Vec<Heading> = sheet.notes.iter().map(|note| Heading::of(note)).collect();
+    let notes: Vec<Heading> = sheet.notes.iter().map(|note| Heading::new(note)).collect();
     let quantities = quantities(&sheet);
     let column = match options.column.as_deref() {
         Some("all") => None,
@@ -46,7 +47,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<RecordedMotion, Reco
 }
 
 /// Reads a column, or all cells as one series; the last row may be short.
-fn numbers(sheet: &Sheet, column: Option<usize>) -> Result<Vec<f64>, RecordFileError> {
+fn numbers(sheet: &Grid, column: Option<usize>) -> Result<Vec<f64>, RecordFileError> {
     let columns = column.map_or(0..sheet.columns, |column| column..column + 1);
     let cells = (0..sheet.lines.len()).flat_map(|row| columns.clone().map(move |column| (row, column)));
     let read = cells.filter(|(row, place)| column.is_some() || !sheet.cell(*row, *place).is_empty());
@@ -54,7 +55,7 @@ fn numbers(sheet: &Sheet, column: Option<usize>) -> Result<Vec<f64>, RecordFileE
 }
 
 /// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
-fn quantities(sheet: &Sheet) -> Vec<Option<Quantity>> {
+fn quantities(sheet: &Grid) -> Vec<Option<Quantity>> {
     let known = |heading: &Heading| {
         let named = heading.name.split('_').find_map(|word| match word {
             "a" | "ag" => Some(Quantity::Acceleration),
@@ -79,7 +80,7 @@ fn quantities(sheet: &Sheet) -> Vec<Option<Quantity>> {
 
 /// Finds the column of acceleration: the chosen one, the one with that heading, or the only candidate.
 fn acceleration(
-    sheet: &Sheet,
+    sheet: &Grid,
     quantities: &[Option<Quantity>],
     choice: Option<&str>,
     line: usize,
@@ -138,7 +139,7 @@ fn step_of_note(note: &Heading) -> Option<f64> {
 }
 
 /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the `given` step.
-fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64, RecordFileError> {
+fn step_of_times(sheet: &Grid, column: usize, given: Option<f64>) -> Result<f64, RecordFileError> {
     let unit = sheet.headings.get(column).and_then(|heading| heading.unit);
     let in_s = unit.filter(|unit| unit.quantity == Quantity::Time).map_or(1.0, |unit| unit.si);
     let times: Vec<f64> = numbers(sheet, Some(column))?.into_iter().map(|time| time * in_s).collect();
@@ -165,7 +166,7 @@ fn step_of_times(sheet: &Sheet, column: usize, given: Option<f64>) -> Result<f64
 }
 
 /// Replaces the error of uneven times if the column of accelerations has even steps: headings exchanged.
-fn exchanged(sheet: &Sheet, times: usize, column: usize, refusal: RecordFileError) -> RecordFileError {
+fn exchanged(sheet: &Grid, times: usize, column: usize, refusal: RecordFileError) -> RecordFileError {
     let headings = sheet.headings.get(times).zip(sheet.headings.get(column));
     let has_steps = step_of_times(sheet, column, None).is_ok_and(|step| step > 0.0);
     match headings.filter(|_| has_steps) {

@@ -1,11 +1,11 @@
-use crate::sheet::SheetError;
+use crate::inputs::InputError;
 
 /// An error in the file of a record: place (lines count from 1), value found, value expected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum RecordFileError {
     #[error(transparent)]
-    Sheet(#[from] SheetError),
+    Input(#[from] InputError),
     #[error("'{found}'; expected AT2, COSMOS, ESM, K-NET, KiK-net or CSV: ObsPy converts other formats")]
     Unrecognised { found: String },
     #[error("line {line}: {found}; expected acceleration: import that of the same record")]

@@ -21,9 +21,9 @@ mod peer_at2;
 pub use error::RecordFileError;
 
 use super::{Format, HeaderPga, ReadOptions, RecordedMotion};
+use crate::inputs::decode;
 use crate::keyword::Keyword;
 use crate::motion::measures::peak;
-use crate::sheet::decode;
 
 /// Accepted relative difference of the samples from the peak in the header, which some programs round or take
 /// before a correction.

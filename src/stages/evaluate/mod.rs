@@ -23,11 +23,11 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args, ValueHint};
 
-use super::shared::hazard;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{Object, StructureArgs};
 use super::shared::responses;
 use super::shared::spec::{Place, Restitution, Spec};
+use crate::inputs::{Rename, Renames, hazard};
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
@@ -77,9 +77,9 @@ pub struct Evaluate {
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
           value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
-    /// Column names for headings of --hazard or --in
-    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',', value_parser = hazard::renamed)]
-    columns: Vec<(String, String)>,
+    /// Column names for headings of --hazard, --structures or --in
+    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
+    columns: Vec<Rename>,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -167,7 +167,9 @@ impl Evaluate {
             let (row, budget) = TreeRow::new(motion, subject);
             (row, budget, motion.peaks(&subject.directions[0].1), Vec::new())
         };
-        let objects = self.objects(models, context)?;
+        let mut renames = Renames::new(&self.columns);
+        let objects = self.objects(&mut renames, models, context)?;
+        renames.expect_used()?;
         let bar = context.bar(objects.len());
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
         self.finish(&all, point::text(&all, self.out.as_deref()), context)
@@ -175,14 +177,16 @@ impl Evaluate {
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
         models.expect_ground()?;
-        let site = self.site(context)?;
+        let mut renames = Renames::new(&self.columns);
+        let site = self.site(&mut renames, context)?;
+        let objects = self.objects(&mut renames, models, context)?;
+        renames.expect_used()?;
         let predict = |object: &Object, subject: &Subject| {
             let rates = site.rates(&subject.directions, &subject.unknowns);
             let widths = |target| target::widths(object, models, &site, self.years, target);
             let row = RatesRow::new(&rates, self.years, self.target.map_or([None; 2], widths));
             (row, rates.budgets.overturning, rates.motion, rates.warnings)
         };
-        let objects = self.objects(models, context)?;
         let bar = context.bar(objects.len());
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
         if let Some(path) = &self.responses {
@@ -192,8 +196,8 @@ impl Evaluate {
     }
 
     /// Reads the hazard and what rates over it need.
-    fn site(&self, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&self.hazard, &self.columns, self.effective_years)?;
+    fn site(&self, renames: &mut Renames, context: &Context) -> anyhow::Result<Site> {
+        let (mut hazard, unused) = hazard::read(&self.hazard, renames, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
@@ -218,12 +222,17 @@ impl Evaluate {
     }
 
     /// Returns the given structures, or all fitted ones.
-    fn objects(&self, models: &Models, context: &Context) -> anyhow::Result<Vec<Object>> {
+    fn objects(
+        &self,
+        renames: &mut Renames,
+        models: &Models,
+        context: &Context,
+    ) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
             let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
             return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
         }
-        let (objects, unused) = self.structures.objects(&self.place)?;
+        let (objects, unused) = self.structures.objects(&self.place, renames)?;
         context.warn(unused);
         match (objects.first().map(Object::expect_directions), &self.structures.structures) {
             (Some(Err(reason)), path) if objects.iter().all(Object::is_implausible) => match path {

@@ -18,8 +18,8 @@ use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::plausibility::{judge_peak, judge_peaks};
 use crate::rocking::Structure;
-use crate::sheet::{Heading, Sheet};
-use crate::stages::shared::hazard::{headings, peak, rename};
+use crate::inputs::hazard::peak;
+use crate::inputs::{Grid, Heading, Rename, Renames};
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::object_list::describes_object;
 use crate::stages::shared::objects::{Object, StructureArgs};
@@ -34,7 +34,7 @@ use crate::warning::Warning;
 /// is given each row has its own.
 pub fn evaluate(
     path: &Path,
-    renamed: &[(String, String)],
+    renamed: &[Rename],
     structures: &StructureArgs,
     place: &Place,
     models: &Models,
@@ -44,7 +44,7 @@ pub fn evaluate(
         true => vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }],
         false => Table::open(path)?.batches(&|_| true).collect::<Result<Vec<_>, TableError>>()?,
     };
-    let given = if structures.is_given() { structures.objects(place)?.0 } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(place, &mut Renames::new(&[]))?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -116,7 +116,7 @@ fn with_probabilities<'a>(
 fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let schema = batch.rows.schema();
     let names = || schema.fields().iter().map(|field| field.name().as_str());
-    let unit = |name| peak(&Heading::of(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| unit);
+    let unit = |name| peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| unit);
     let mut found: Vec<(&str, f64)> = names().filter_map(|name| Some((name, unit(name)?))).collect();
     let (column, expected) = match wanted {
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
@@ -157,11 +157,11 @@ fn structures_of_rows(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
 }
 
 /// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.
-fn read_csv(path: &Path, renamed: &[(String, String)]) -> anyhow::Result<RecordBatch> {
+fn read_csv(path: &Path, renamed: &[Rename]) -> anyhow::Result<RecordBatch> {
     let refuse = |problem: String| TableError::table(path, problem);
-    let bytes = std::fs::read(path).map_err(|source| TableError::io(path, source))?;
-    let mut sheet = Sheet::parse(&bytes).map_err(|error| refuse(error.to_string()))?;
-    rename(&mut sheet, renamed)?;
+    let mut sheet = Grid::read(path).map_err(|error| refuse(error.to_string()))?;
+    let mut renames = Renames::new(renamed);
+    renames.apply(&mut sheet).and_then(|()| renames.expect_used()).map_err(|error| refuse(error.to_string()))?;
     if let Some(heading) = sheet.headings.iter().find(|heading| describes_object(heading)) {
         let problem = format!(
             "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \
@@ -171,7 +171,7 @@ fn read_csv(path: &Path, renamed: &[(String, String)]) -> anyhow::Result<RecordB
         return Err(refuse(problem).into());
     }
     if sheet.headings.is_empty() || sheet.lines.is_empty() {
-        let (rows, headings) = (counted(sheet.lines.len(), "row"), headings(&sheet));
+        let (rows, headings) = (counted(sheet.lines.len(), "row"), sheet.found());
         let problem = format!("{rows} under {headings}; expected intensities under pga_g and pgv_m_s");
         return Err(refuse(problem).into());
     }

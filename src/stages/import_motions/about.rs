@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::pipeline::UsageError;
 use crate::plausibility::MAGNITUDES;
 use crate::records::RecordedMotion;
-use crate::sheet::{Sheet, SheetError};
+use crate::inputs::{Grid, InputError};
 
 #[derive(Default)]
 pub struct About {
@@ -27,8 +27,7 @@ impl About {
     /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`.
     pub fn read(path: &Path) -> anyhow::Result<About> {
         let problem = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
-        let bytes = std::fs::read(path).map_err(|error| problem(error.to_string()))?;
-        let sheet = Sheet::parse(&bytes).map_err(|error| problem(error.to_string()))?;
+        let sheet = Grid::read(path).map_err(|error| problem(error.to_string()))?;
         let Some(name) = sheet.column(&["file", "name", "motion_id"]) else {
             return Err(problem("no column 'file' or 'name'".to_string()));
         };
@@ -50,7 +49,7 @@ impl About {
                 let value = sheet.number(row, column)?;
                 if is_possible(value) { Ok(Some(value)) } else { Err(sheet.refusal(row, column, expected)) }
             };
-        let known = |row: usize| -> Result<(String, Known), SheetError> {
+        let known = |row: usize| -> Result<(String, Known), InputError> {
             let mw = number(row, magnitude, &|mw| MAGNITUDES.contains(&mw), "a moment magnitude")?;
             let re_km = number(row, distance, &|km| km >= 0.0, "a distance of 0 km or more")?;
             let cell = |column| sheet.cell(row, column).to_string();

@@ -1,7 +1,6 @@
-//! What several stages have: objects and models as options, and what they read: hazards, motions, responses.
+//! What several stages have: objects and models as options, and what they read: motions, responses.
 
 pub mod fit_tables;
-pub mod hazard;
 pub mod model_args;
 pub mod motions;
 pub mod object_list;

@@ -1,13 +1,13 @@
 //! Lists of objects as people keep them: names, sizes, floors, numbers, anchors.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
 use clap::CommandFactory;
 
-use super::hazard::headings;
 use super::spec::{Reason, Spec};
-use crate::sheet::{Heading, Sheet};
+use crate::inputs::{Grid, Heading, Renames};
 use crate::units::{Quantity, Unit};
 use crate::warning::{Warning, Warnings};
 
@@ -40,16 +40,20 @@ const HELD: [&str; 7] = ["anchor", "brac", "fix", "restrain", "castor", "caster"
 const FREE: [&str; 10] = ["", "no", "n", "none", "false", "0", "-", "free", "unanchored", "free-standing"];
 
 /// Reads a list: the objects of its rows, and warnings about columns that say nothing of them.
-pub fn read(path: &Path) -> anyhow::Result<(Vec<Spec>, Warnings)> {
-    let objects = || objects(&Sheet::parse(&std::fs::read(path)?)?);
+pub fn read(path: &Path, renames: &mut Renames) -> anyhow::Result<(Vec<Spec>, Warnings)> {
+    let mut objects = || {
+        let mut grid = Grid::read(path)?;
+        renames.apply(&mut grid)?;
+        objects(&grid)
+    };
     objects().with_context(|| path.display().to_string())
 }
 
-fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Warnings)> {
+fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Spec>, Warnings)> {
     let columns: Vec<Column> = sheet.headings.iter().map(meaning).collect();
     let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
     if !(has("height") || has("p")) {
-        bail!("{}; expected name, width, depth and height, or p, alpha and eta", headings(sheet));
+        bail!("{}; expected name, width, depth and height, or p, alpha and eta", sheet.found());
     }
     if sheet.lines.is_empty() {
         bail!("no rows; expected one per object");
@@ -72,9 +76,11 @@ fn objects(sheet: &Sheet) -> anyhow::Result<(Vec<Spec>, Warnings)> {
         name => name.to_string(),
     };
     let names: Vec<String> = (0..sheet.lines.len()).map(name).collect();
+    let mut uses = HashMap::new();
+    names.iter().for_each(|name| *uses.entry(name.as_str()).or_insert(0) += 1);
     let spec = |(row, name): (usize, &String)| {
         let is_total = TOTALS.contains(&name.to_lowercase().as_str());
-        let name = match names.iter().filter(|other| *other == name).count() {
+        let name = match uses[name.as_str()] {
             1 => name.clone(),
             _ => format!("{name} (line {})", sheet.lines[row]),
         };
@@ -116,7 +122,7 @@ fn meaning(heading: &Heading) -> Column {
     }
 }
 
-fn spec(sheet: &Sheet, columns: &[Column], row: usize) -> Result<Spec, String> {
+fn spec(sheet: &Grid, columns: &[Column], row: usize) -> Result<Spec, String> {
     let mut pairs: Vec<(String, String)> = Vec::new();
     for (at, column) in columns.iter().enumerate() {
         let (cell, unit) = (sheet.cell(row, at), sheet.headings[at].unit);

@@ -9,6 +9,7 @@ use super::object_list;
 use super::spec::{Place, Reason, Restitution, Shape, Spec};
 use crate::fragility::Z_95;
 use crate::hazard::{Part, Unknown};
+use crate::inputs::Renames;
 use crate::motion::Floor;
 use crate::paper;
 use crate::pipeline::UsageError;
@@ -47,7 +48,7 @@ impl StructureArgs {
     /// All structures, each of the weaker direction of an object, and warnings about them and their list: of
     /// a list without its rows that do not rock on the ground.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
-        let (objects, mut warnings) = self.objects(&Place::default())?;
+        let (objects, mut warnings) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
         let (mut structures, mut first) = (Vec::new(), None);
         for object in &objects {
             let name = &object.spec.name;
@@ -73,14 +74,14 @@ impl StructureArgs {
 
     /// All objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
     /// them.
-    pub fn objects(&self, place: &Place) -> anyhow::Result<(Vec<Object>, Warnings)> {
+    pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let of_paper = |structure| Spec::of_structure(structure, Restitution::Number);
         let (mut specs, mut unused) = (self.structure.clone(), Warnings::default());
         match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
                 specs = paper::structures().into_iter().map(of_paper).collect();
             }
-            Some(path) => (specs, unused) = object_list::read(path)?,
+            Some(path) => (specs, unused) = object_list::read(path, renames)?,
             None if self.one != Shape::default() => {
                 specs = vec![Spec { name: UNNAMED.to_string(), shape: self.one.clone(), ..Spec::default() }];
             }

@@ -1,0 +1,60 @@
+use std::path::Path;
+
+use crate::hazard::{HazardError, MatchError};
+use crate::plausibility::ImplausibleHazard;
+
+/// What is wrong with a file. Lines count from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the message says it")]
+pub enum InputError {
+    #[error("{0}")]
+    Unreadable(String),
+    #[error("damaged, or not what its beginning says: {0}")]
+    Damaged(String),
+    #[error("{found}; expected a table: CSV, text or a workbook (.xlsx, .ods)")]
+    NoTable { found: &'static str },
+    #[error("{} files: {}; expected one table: unpack them, and give those meant", .found.len(), .found.join(", "))]
+    Members { found: Vec<String> },
+    #[error("sheets {}; expected one of them: FILE#SHEET", .found.join(", "))]
+    Sheets { found: Vec<String> },
+    #[error("line {line}: a quotation mark opens here and never closes")]
+    Quote { line: usize },
+    #[error("line {line}: {found} cells; expected {expected}: between decimal commas, write semicolons")]
+    Cells { line: usize, found: usize, expected: usize },
+    #[error("line {line}, column '{heading}': '{found}'; expected {expected}")]
+    Cell { line: usize, heading: String, found: String, expected: String },
+    #[error(
+        "line {line}, column '{heading}': '{found}': decimal, or between thousands? Write 1029 or 1.0290"
+    )]
+    Thousands { line: usize, heading: String, found: String },
+    #[error("heading '{heading}' has a unit of another quantity than '{unit}'")]
+    Units { heading: String, unit: String },
+    #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
+    Heading { heading: String, expected: &'static str, found: String },
+    #[error("{found}; expected {expected}")]
+    Missing { found: String, expected: &'static str },
+    #[error("line {line}: '{first}' and '{other}' contradict; keep one")]
+    Contradiction { line: usize, first: String, other: String },
+    #[error(
+        "column '{heading}': the lowest floor is {lowest}: --ground-floor 1 if the ground floor is called 1, \
+         --ground-floor 0 if 1 is the floor above it"
+    )]
+    GroundFloor { heading: String, lowest: u32 },
+    #[error("{found} in any file; found {seen}")]
+    Renamed { found: String, seen: String },
+    #[error(transparent)]
+    Curve(#[from] HazardError),
+    #[error(transparent)]
+    Match(#[from] MatchError),
+    #[error(transparent)]
+    Implausible(#[from] ImplausibleHazard),
+    #[error("{path}: {error}")]
+    File { path: String, error: Box<InputError> },
+}
+
+impl InputError {
+    /// The error with the name of its file.
+    pub fn of(self, path: &Path) -> InputError {
+        InputError::File { path: path.display().to_string(), error: Box::new(self) }
+    }
+}

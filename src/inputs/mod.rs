@@ -1,0 +1,30 @@
+//! The files that people bring: from bytes to tables, and from tables to what they are about.
+//!
+//! ```text
+//! unpack    gzip and zip
+//! decode    bytes to text: UTF-8, UTF-16, Windows-1252, Shift JIS, any ends of lines
+//! workbook  sheets of .xlsx, .xls and .ods
+//! grid      text or a sheet to cells under headings, with the line of each
+//! heading   names and units
+//! numbers   which signs are decimal and which stand between thousands, settled for a whole table
+//! rename    headings that the user names
+//! hazard    the hazard of a site
+//! error     what is wrong with a file
+//! ```
+
+mod decode;
+mod error;
+mod grid;
+pub mod hazard;
+mod heading;
+mod numbers;
+mod rename;
+mod unpack;
+mod workbook;
+
+pub use decode::decode;
+pub use error::InputError;
+pub use grid::Grid;
+pub use heading::Heading;
+pub use rename::{Rename, Renames};
+pub use unpack::{Member, unpack};

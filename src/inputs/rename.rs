@@ -1,0 +1,81 @@
+//! Headings that the user names: `--columns pga_g=PGA`.
+
+use std::str::FromStr;
+
+use super::error::InputError;
+use super::grid::Grid;
+use super::heading::Heading;
+
+/// A column, and its heading in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rename {
+    pub column: String,
+    pub heading: String,
+}
+
+impl FromStr for Rename {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Rename, &'static str> {
+        let (column, heading) = text.split_once('=').ok_or("expected COLUMN=HEADING, such as pga_g=PGA")?;
+        Ok(Rename { column: column.trim().to_string(), heading: heading.trim().to_string() })
+    }
+}
+
+/// Columns that the user names; each must be in one of the files of a call.
+#[derive(Debug)]
+pub struct Renames<'a> {
+    all: &'a [Rename],
+    used: Vec<bool>,
+    /// Headings of files that were seen.
+    seen: Vec<String>,
+}
+
+impl<'a> Renames<'a> {
+    pub fn new(all: &'a [Rename]) -> Renames<'a> {
+        Renames { all, used: vec![false; all.len()], seen: Vec::new() }
+    }
+
+    /// Renames the columns of a table that has the headings. A unit or a percent sign of the heading stays.
+    pub fn apply(&mut self, grid: &mut Grid) -> Result<(), InputError> {
+        for heading in &mut grid.headings {
+            self.seen.push(heading.text.clone());
+            let Some(at) = self.all.iter().position(|rename| rename.heading == heading.text) else {
+                continue;
+            };
+            let column = &self.all[at].column;
+            let wanted = Heading::new(column);
+            if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old.quantity != new.quantity) {
+                let (heading, unit) = (heading.text.clone(), column.clone());
+                return Err(InputError::Units { heading, unit });
+            }
+            let unit = wanted.unit.or(heading.unit);
+            *heading = Heading { unit, is_percent: heading.is_percent, ..wanted };
+            self.used[at] = true;
+        }
+        Ok(())
+    }
+
+    /// The name of a column of a table of others, as it is to be called.
+    pub fn name(&mut self, name: &str) -> String {
+        self.seen.push(name.to_string());
+        match self.all.iter().position(|rename| rename.heading == name) {
+            Some(at) => {
+                self.used[at] = true;
+                self.all[at].column.clone()
+            }
+            None => name.to_string(),
+        }
+    }
+
+    /// Refuses a heading that no file has.
+    pub fn expect_used(self) -> Result<(), InputError> {
+        match self.used.iter().position(|used| !used) {
+            Some(at) => {
+                let found = format!("no heading '{}'", self.all[at].heading);
+                Err(InputError::Renamed { found, seen: self.seen.join(", ") })
+            }
+            None => Ok(()),
+        }
+    }
+}

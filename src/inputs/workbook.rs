@@ -1,0 +1,54 @@
+//! Sheets of workbooks: .xlsx, .xls, .xlsb and .ods.
+
+use std::io::Cursor;
+
+use calamine::{Data, Reader, SheetVisible, open_workbook_auto_from_rs};
+
+use super::error::InputError;
+
+/// Whether bytes can be a workbook.
+pub fn is_workbook(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
+}
+
+/// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of the
+/// first row.
+pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+    let damaged = |error: calamine::Error| InputError::Damaged(error.to_string());
+    let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(damaged)?;
+    let visible = |sheet: &&calamine::Sheet| sheet.visible == SheetVisible::Visible;
+    let all = workbook.sheets_metadata().to_vec();
+    let names: Vec<String> = match name {
+        Some(name) => all.iter().map(|sheet| sheet.name.clone()).filter(|known| known == name).collect(),
+        None => all.iter().filter(visible).map(|sheet| sheet.name.clone()).collect(),
+    };
+    let mut filled = Vec::new();
+    for name in names {
+        let range = workbook.worksheet_range(&name).map_err(damaged)?;
+        if !range.is_empty() {
+            filled.push((name, range));
+        }
+    }
+    match &filled[..] {
+        [(_, range)] => {
+            let first = range.start().map_or(0, |(row, _)| row as usize);
+            Ok((first + 1, range.rows().map(|row| row.iter().map(text).collect()).collect()))
+        }
+        [] if name.is_none() => Ok((1, Vec::new())),
+        [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
+        _ => Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
+    }
+}
+
+fn text(cell: &Data) -> String {
+    match cell {
+        Data::Bool(true) => "yes".to_string(),
+        Data::Bool(false) => "no".to_string(),
+        Data::DateTime(date) if date.is_datetime() => {
+            let (year, month, day, ..) = date.to_ymd_hms_milli();
+            format!("{year}-{month:02}-{day:02}")
+        }
+        Data::Empty => String::new(),
+        other => other.to_string().trim().to_string(),
+    }
+}

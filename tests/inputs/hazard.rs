@@ -1,0 +1,174 @@
+//! Hazard as agencies and people give it, and what is not a hazard.
+
+use std::path::PathBuf;
+
+use rockfrag::hazard::{Hazard, PeakHazard};
+use rockfrag::inputs::{InputError, Rename, Renames, hazard};
+use rockfrag::units::G_M_S2;
+use rockfrag::warning::Warnings;
+
+use super::packed::{gzip, utf_16, xlsx, zip};
+
+const PGA_G: [f64; 8] = [0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 4.5];
+
+/// 1e-3 (PGA / 1 g)^-2 a year.
+fn rate(pga_g: f64) -> f64 {
+    1e-3 / (pga_g * pga_g)
+}
+
+/// A table under a heading, with a line for each PGA.
+fn table(heading: &str, line: impl Fn(f64) -> String) -> String {
+    let lines: String = PGA_G.iter().map(|&pga_g| line(pga_g) + "\n").collect();
+    format!("{heading}\n{lines}")
+}
+
+/// A curve as OpenQuake exports it, under a header.
+fn openquake(header: &str) -> String {
+    let join = |cell: fn(f64) -> String| PGA_G.map(cell).join(",");
+    let levels = join(|pga_g| format!("poe-{pga_g}"));
+    let poes = join(|pga_g| (-(-50.0 * rate(pga_g)).exp_m1()).to_string());
+    format!("{header}\nlon,lat,depth,{levels}\n13.4,42.3,0.0,{poes}\n")
+}
+
+fn read(files: &[&[u8]], columns: &str) -> Result<(Hazard, Warnings), InputError> {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |(at, bytes): (usize, &&[u8])| {
+        let path = folder.path().join(format!("{at}.csv"));
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let paths: Vec<PathBuf> = files.iter().enumerate().map(write).collect();
+    let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
+    let mut renames = Renames::new(&renames);
+    let read = hazard::read(&paths, &mut renames, None)?;
+    renames.expect_used()?;
+    Ok(read)
+}
+
+/// The hazard of one peak in files that are read without a warning, or with this part of one.
+#[track_caller]
+fn curves(files: &[&[u8]], columns: &str, warning: &str) -> PeakHazard {
+    let (hazard, warnings) = read(files, columns).unwrap_or_else(|why| panic!("{why}"));
+    let lines = warnings.lines().join("\n");
+    assert!(lines.contains(warning) && lines.is_empty() == warning.is_empty(), "{lines}");
+    let Hazard::Curve(hazard) = hazard else { panic!("a joint hazard") };
+    hazard
+}
+
+#[track_caller]
+fn expect_curve(bytes: &[u8], columns: &str, warning: &str) {
+    let found = curves(&[bytes], columns, warning).curve;
+    assert_eq!(found.points().len(), PGA_G.len(), "{}", String::from_utf8_lossy(bytes));
+    for (&(pga_m_s2, found), pga_g) in found.points().iter().zip(PGA_G) {
+        assert!((pga_m_s2 / (pga_g * G_M_S2) - 1.0).abs() < 1e-9, "{pga_m_s2}");
+        assert!((found / rate(pga_g) - 1.0).abs() < 1e-6, "{found} at {pga_g}");
+    }
+}
+
+#[test]
+fn one_curve_is_one_curve_however_it_is_written() {
+    let plain = table("pga_g,AFE", |a| format!("{a},{}", rate(a)));
+    let comma = |value: f64| value.to_string().replace('.', ",");
+    let poe = |years: f64, a: f64| -(-years * rate(a)).exp_m1();
+    let cells: Vec<Vec<&str>> = plain.lines().map(|line| line.split(',').collect()).collect();
+    for bytes in [
+        plain.clone().into_bytes(),
+        plain.replace('\n', "\r").into_bytes(),
+        utf_16(&plain.replace(',', "\t"), true, false),
+        gzip(plain.as_bytes()),
+        zip(&[("h/curve.csv", plain.as_bytes())]),
+        xlsx(&[("Hazard", &cells)]),
+        table("\"pga_g\",\"AFE\"", |a| format!("\"{}\",\"{}\"", comma(a), comma(rate(a)))).into_bytes(),
+        table("PGA,AFE\n(g),(1/yr)", |a| format!("{a},{}", rate(a))).into_bytes(),
+        table("PGA;PoE in 50 years\n[g];[%]", |a| format!("{};{}", comma(a), comma(100.0 * poe(50.0, a))))
+            .into_bytes(),
+        table("Ground Motion (g),AFE PGA", |a| format!("{a},{}", rate(a))).into_bytes(),
+        table("IML (g),lambda (1/a)", |a| format!("{a},{}", rate(a))).into_bytes(),
+        table("pga_g,PE50", |a| format!("{a},{}", poe(50.0, a))).into_bytes(),
+        table("pga_g,PoE 50y (%)", |a| format!("{a},{}", 100.0 * poe(50.0, a))).into_bytes(),
+        table("pga_g,probability_of_exceedance_in_16_years", |a| format!("{a},{}", poe(16.0, a)))
+            .into_bytes(),
+        table("pga_g,PoE in 84 years", |a| format!("{a},{}", poe(84.0, a))).into_bytes(),
+        table("periodo de retorno (años);PGA (g)", |a| format!("{};{a}", 1.0 / rate(a))).into_bytes(),
+        table("TR (years);PGA (cm/s2)", |a| {
+            let years = format!("{:.3}", 1.0 / rate(a));
+            let (whole, rest) = years.split_once('.').unwrap();
+            let (start, end) = whole.split_at(whole.len().saturating_sub(3));
+            let point = if start.is_empty() { "" } else { "." };
+            format!("{start}{point}{end},{rest};{}", comma(a * 981.0))
+        })
+        .into_bytes(),
+        openquake("# mean, investigation_time=50.0, imt=PGA").into_bytes(),
+        openquake("# kind=\"mean\", investigation_time=50.0, imt=\"PGA\"").into_bytes(),
+        openquake(
+            "#,,,\"generated_by='OpenQuake engine 3.18.0', kind='mean', investigation_time=50.0, imt='PGA'\"",
+        )
+        .into_bytes(),
+    ] {
+        expect_curve(&bytes, "", "");
+    }
+    let named = table("Spitze (g),wie oft", |a| format!("{a},{}", rate(a)));
+    expect_curve(named.as_bytes(), "pga=Spitze (g),AFE=wie oft", "");
+}
+
+#[test]
+fn a_table_of_one_motion_and_several_measures_has_their_curves() {
+    let text = table("Ground Motion (g),AFE PGA,AFE SA(0.2),AFE SA1.0", |a| {
+        format!("{a},{},{},{}", rate(a), 4.0 * rate(a), 0.8 * rate(a))
+    });
+    let hazard = curves(&[text.as_bytes()], "", "");
+    assert!(hazard.velocity.is_some());
+    assert!((hazard.curve.points()[0].1 / rate(0.05) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_is_not_known_to_be_a_mean_is_not_taken_for_it() {
+    let header = |kind: &str| format!("#,,,\"kind='{kind}', investigation_time=50.0, imt='PGA'\"");
+    for (header, named) in [
+        (header("std"), "std"),
+        (header("rlz-003"), "rlz-003"),
+        (header("max"), "max"),
+        (header("quantile-0.85"), "quantile-0.85"),
+        ("# quantile-0.85, investigation_time=50.0, imt=PGA".to_string(), "quantile-0.85"),
+        ("# max, investigation_time=50.0, imt=PGA".to_string(), "max"),
+        ("# smlt_path=b1, gsimlt_path=b11, investigation_time=50.0, imt=PGA".to_string(), "smlt_path"),
+        ("# investigation_time=50.0, imt=PGA".to_string(), "kind"),
+    ] {
+        let refusal = read(&[openquake(&header).as_bytes()], "").unwrap_err().to_string();
+        assert!(refusal.contains(named) && refusal.contains("mean"), "{refusal}");
+    }
+    expect_curve(openquake(&header("quantile-0.5")).as_bytes(), "", "median");
+    let median = table("pga_g,AFE median", |a| format!("{a},{}", rate(a)));
+    expect_curve(median.as_bytes(), "", "median");
+}
+
+#[test]
+fn what_is_no_hazard_is_refused_for_its_reason() {
+    let kind = |text: &str, columns: &str| match read(&[text.as_bytes()], columns).unwrap_err() {
+        InputError::File { error, .. } => format!("{error:?}"),
+        error => format!("{error:?}"),
+    };
+    let curve = |heading: &str| table(heading, |a| format!("{a},{}", rate(a)));
+    for (text, columns, named) in [
+        ("hello\n".to_string(), "", "Heading { heading: \"hello\""),
+        ("pga_g,note\n".to_string(), "", "Heading { heading: \"note\""),
+        ("pga_g,AFE\n".to_string(), "", "TooFewPoints(0)"),
+        ("pga_g,AFE\nNA,NA\nNaN,null\n".to_string(), "", "Cell { line: 2"),
+        ("pga_g,AFE\n0.001,NA\n0.01,0.1\n0.1,0.01\n".to_string(), "", "Cell { line: 2"),
+        ("<!DOCTYPE html>\n<html><body>504</body></html>\n".to_string(), "", "a web page"),
+        ("pga_g,AFE\n\"0.1,0.01\n0.2,0.001\n".to_string(), "", "Quote { line: 2"),
+        (
+            "name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n".to_string(),
+            "",
+            "each level from 0.01 to 0.05",
+        ),
+        (curve("PGA (x10 m/s2),AFE"), "", "Heading { heading: \"PGA (x10 m/s2)\""),
+        (curve("pga_g,monthly rate"), "", "Heading { heading: \"monthly rate\""),
+        (curve("pga_g,AFE"), "pgv_m_s=Speed", "Renamed"),
+        (curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),
+        ("PGA (g),AFE\n(m/s2),\n0.1,0.01\n0.2,0.001\n".to_string(), "", "Units"),
+    ] {
+        let found = kind(&text, columns);
+        assert!(found.contains(named), "{named}: {found}");
+    }
+}
