@@ -7,6 +7,7 @@ use clap::{Args, ValueHint};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::inputs::Grid;
 use crate::motion::{
     Difference, Epoch, LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
     SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
@@ -17,7 +18,6 @@ use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::pipeline::{Stage, UsageError};
-use crate::inputs::Grid;
 use crate::table::file::{Partition, Table};
 use crate::table::{TableError, motions, rows};
 

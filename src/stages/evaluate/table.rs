@@ -13,13 +13,13 @@ use super::object::{DoubtsRow, Subject};
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
+use crate::inputs::hazard::peak;
+use crate::inputs::{Grid, Heading, Rename, Renames};
 use crate::number::counted;
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::plausibility::{judge_peak, judge_peaks};
 use crate::rocking::Structure;
-use crate::inputs::hazard::peak;
-use crate::inputs::{Grid, Heading, Rename, Renames};
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::object_list::describes_object;
 use crate::stages::shared::objects::{Object, StructureArgs};
@@ -44,7 +44,8 @@ pub fn evaluate(
         true => vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }],
         false => Table::open(path)?.batches(&|_| true).collect::<Result<Vec<_>, TableError>>()?,
     };
-    let given = if structures.is_given() { structures.objects(place, &mut Renames::new(&[]))?.0 } else { Vec::new() };
+    let given =
+        if structures.is_given() { structures.objects(place, &mut Renames::new(&[]))?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -161,7 +162,10 @@ fn read_csv(path: &Path, renamed: &[Rename]) -> anyhow::Result<RecordBatch> {
     let refuse = |problem: String| TableError::table(path, problem);
     let mut sheet = Grid::read(path).map_err(|error| refuse(error.to_string()))?;
     let mut renames = Renames::new(renamed);
-    renames.apply(&mut sheet).and_then(|()| renames.expect_used()).map_err(|error| refuse(error.to_string()))?;
+    renames
+        .apply(&mut sheet)
+        .and_then(|()| renames.expect_used())
+        .map_err(|error| refuse(error.to_string()))?;
     if let Some(heading) = sheet.headings.iter().find(|heading| describes_object(heading)) {
         let problem = format!(
             "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \

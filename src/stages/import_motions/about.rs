@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use crate::inputs::{Grid, InputError};
 use crate::pipeline::UsageError;
 use crate::plausibility::MAGNITUDES;
 use crate::records::RecordedMotion;
-use crate::inputs::{Grid, InputError};
 
 #[derive(Default)]
 pub struct About {
