@@ -67,7 +67,8 @@ const STAGES: [&str; 14] = [
 /// The names of the options that a help lists.
 fn options(help: &str) -> Vec<&str> {
     // Lines of meanings are further to the right.
-    let listed = help.lines().filter(|line| line.find('-').is_some_and(|at| at <= 6 && line[..at].trim().is_empty()));
+    let listed =
+        help.lines().filter(|line| line.find('-').is_some_and(|at| at <= 6 && line[..at].trim().is_empty()));
     listed.filter_map(|line| line.split([' ', ',']).find(|word| word.starts_with("--"))).collect()
 }
 
@@ -185,7 +186,8 @@ fn a_long_list_is_printed_by_its_worst() {
     let folder = folder(&[("short.csv", &list(25)), ("long.csv", &list(41))]);
     let objects = |call: &str| {
         let printed = succeed(folder.path(), &format!("evaluate --pga 0.6 --pgv 0.8 {call}")).0;
-        let is_row = |line: &&str| line.starts_with("object ") && (line.contains(" x ") || line.contains(','));
+        let is_row =
+            |line: &&str| line.starts_with("object ") && (line.contains(" x ") || line.contains(','));
         (printed.lines().filter(is_row).count(), printed.clone())
     };
     assert_eq!(objects("--structures short.csv").0, 25);
