@@ -1,33 +1,35 @@
-//! Probability that a block overturns in one motion, and its annual rate at a site.
+//! How often a cabinet overturns at a site, and with what probability in one motion.
 
-use rockfrag::fragility::{Kind, Model, Peak, Scenarios};
-use rockfrag::hazard::{Hazard, HazardCurve, PeakHazard, Site};
-use rockfrag::motion::IntensityMeasures;
-use rockfrag::rocking::Structure;
+use rockfrag::fragility::{Kind, Peak};
+use rockfrag::hazard::{AnnualRate, Hazard, HazardCurve, Motion, Site};
+use rockfrag::object::{Object, Subject};
 use rockfrag::units::G_M_S2;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // 0.5 m wide and 2 m high. Failure is a rotation beyond a tenth of its slenderness, or overturning.
-    let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
-    let model = Model::shipped(Kind::Recorded, &block, 0.10);
-    let motion = IntensityMeasures::new(&block, 0.5 * G_M_S2, 0.6, None, None);
-    if let Some(given) = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking {
-        let p = given.p_ro;
-        println!(
-            "PGA 0.5 g, PGV 0.6 m/s: overturns with probability {:.3} ({:.3} to {:.3})",
-            p.value, p.low, p.high
-        );
-    }
+    // 0.5 m wide and 1.9 m high. Failure is a rotation beyond a tenth of its slenderness, or overturning.
+    let cabinet = Object::block("cabinet", 0.5, 1.9);
+    let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
 
     // PGA in g, and how often a year it is exceeded.
-    let rates = [(0.1, 1e-2), (0.2, 3e-3), (0.5, 5e-4), (1.0, 8e-5), (2.0, 8e-6), (4.0, 4e-7)];
-    let curve = HazardCurve::new(rates.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
-    // PGV/PGA is that of an average site, in earthquakes of magnitude 6.5.
-    let hazard = Hazard::Curve(PeakHazard { peak: Peak::Pga, curve, fractiles: None, velocity: None });
-    let (mw, vs30_m_s) = (Some(6.5), None);
-    let site = Site { hazard, mw, vs30_m_s, extrapolate: false, responses: Vec::new() };
-    if let [Some(rate), Some(low), Some(high)] = site.rates(&[(block, model)], &[]).overturning {
-        println!("overturns {rate:.1e} times a year ({low:.1e} to {high:.1e})");
+    let points = [(0.1, 1e-2), (0.2, 3e-3), (0.5, 5e-4), (1.0, 8e-5), (2.0, 8e-6), (4.0, 4e-7)];
+    let curve = HazardCurve::new(points.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
+    let site = Site { mw: Some(6.5), ..Site::new(Hazard::over(Peak::Pga, curve)) };
+    match site.rates(&subject).overturning {
+        Some(AnnualRate::Estimate(rate)) => {
+            println!("overturns {:.1e} times a year ({:.1e} to {:.1e})", rate.value, rate.low, rate.high);
+        }
+        Some(AnnualRate::Range { low, high }) => {
+            println!("overturns {low:.1e} to {high:.1e} times a year: the curve ends early");
+        }
+        None => println!("has no rate of overturning"),
     }
+
+    // PGA 0.5 g and PGV 0.6 m/s.
+    let motion = Motion { pga_m_s2: Some(0.5 * G_M_S2), pgv_m_s: Some(0.6), mw: None, vs30_m_s: None };
+    let p = motion.probabilities(&subject).states.overturning;
+    println!(
+        "at 0.5 g and 0.6 m/s overturns with probability {:.3} ({:.3} to {:.3})",
+        p.value, p.low, p.high
+    );
     Ok(())
 }

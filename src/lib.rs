@@ -11,29 +11,46 @@
 //! response to near-fault excitations* (Earthquake Engineering & Structural Dynamics), extended to recorded
 //! motions, other structures and hazard curves.
 //!
-//! # The probability that a block overturns
+//! # From an object to its annual rate
 //!
 //! Without simulation, by the universal surface: a regression on the responses of many structures.
 //!
 //! ```
-//! use rockfrag::fragility::{Kind, Model, Scenarios};
-//! use rockfrag::motion::IntensityMeasures;
-//! use rockfrag::rocking::Structure;
+//! use rockfrag::fragility::{Kind, Peak};
+//! use rockfrag::hazard::{AnnualRate, Hazard, HazardCurve, Site, probability_in_years};
+//! use rockfrag::object::{Object, Subject};
 //!
-//! // 0.5 m wide and 2 m high; eta after Housner. Failure: |theta|max above 0.10 alpha, or overturning.
-//! let block = Structure::rectangular_block("block", 0.5, 2.0, None)?;
-//! let model = Model::shipped(Kind::Recorded, &block, 0.10);
-//!
-//! // A motion of PGA 0.5 g = 4.9 m/s2 and PGV 0.6 m/s; pulse period and mean period are not needed.
-//! let motion = IntensityMeasures::new(&block, 4.9, 0.6, None, None);
-//! let given_rocking = model.probabilities(&block, &motion, None, Scenarios::One).given_rocking;
-//! let p = given_rocking.expect("PGA is above g tan alpha").p_ro;
-//! assert!(0.0 < p.low && p.low < p.value && p.value < p.high && p.high < 1.0);
-//! # assert!((0.01..0.6).contains(&p.value), "{p:?}");
-//! # Ok::<(), rockfrag::rocking::StructureError>(())
+//! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
+//! let cabinet = Object::block("cabinet", 0.5, 1.9);
+//! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+//! // PGA in m/s2, and how often a year it is exceeded; PGV / PGA is that of sites in general.
+//! let curve = HazardCurve::new(vec![(0.5, 2e-2), (1.0, 7e-3), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
+//! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
+//! let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("the curve ends early") };
+//! let in_50_years = rate.map(|rate| probability_in_years(rate, 50.0));
+//! println!("{:.1} % ({:.1} to {:.1} %)", 100.0 * in_50_years.value, 100.0 * in_50_years.low, 100.0 * in_50_years.high);
+//! # assert!(0.0 < rate.low && rate.low < rate.value && rate.value < rate.high && rate.high < 0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`hazard::Site::rates`] integrates it over the hazard of a site, with limits: see `examples/block.rs`.
+//! The limits hold what is not known: of the model, the magnitude, PGV, the restitution, the object and its floor. An
+//! [`Object`](object::Object) has more to it:
+//!
+//! ```
+//! # use rockfrag::fragility::Kind;
+//! # use rockfrag::hazard::Motion;
+//! # use rockfrag::object::{Object, Subject};
+//! // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
+//! let mut cabinet = Object::block("cabinet", 0.5, 1.9);
+//! cabinet.shape.depth = Some(0.8);
+//! (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
+//! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+//! // Under one motion of the ground, of 0.3 g; its PGV is that of such motions.
+//! let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
+//! let p = motion.probabilities(&subject).states.overturning;
+//! assert!(p.low < p.value && p.value < p.high);
+//! # Ok::<(), rockfrag::object::Reason>(())
+//! ```
 //!
 //! # The response to a record
 //!
@@ -51,8 +68,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`rocking::trace`] gives the rotation over time. The folder `examples` has three programs: the probability
-//! and rate of a block, the response to your own record, and the way from earthquake scenarios to a fragility
+//! [`rocking::trace`] gives the rotation over time. The folder `examples` has three programs: the rate and
+//! probability of a cabinet, the response to your own record, and the way from earthquake scenarios to a fragility
 //! curve.
 //!
 //! # What is where
@@ -62,7 +79,8 @@
 //! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
-//! | [`hazard`] | hazard curves, annual rates | not in the paper |
+//! | [`object`] | what is known of an object, and what is not | not in the paper |
+//! | [`hazard`] | hazard curves, annual rates, probabilities under one motion | not in the paper |
 //! | [`records`] | recorded motions: formats, processing, pulses | not in the paper |
 //! | [`studies`] | ranking of measures, validation, comparison with the paper | tables, worked example |
 //! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
@@ -95,6 +113,7 @@ pub mod keyword;
 pub mod motion;
 #[doc(hidden)]
 pub mod number;
+pub mod object;
 pub mod paper;
 #[doc(hidden)]
 pub mod pipeline;

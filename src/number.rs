@@ -3,8 +3,36 @@
 
 use std::borrow::Cow;
 
-/// A value with its limits, or limits alone where there is no value.
-pub type Limited = [Option<f64>; 3];
+use serde::{Deserialize, Serialize};
+
+use crate::statistics::Estimate;
+
+/// A value with its limits as it is stored and printed: of what is not known there is none, and limits alone
+/// are bounds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Limited {
+    pub value: Option<f64>,
+    pub low: Option<f64>,
+    pub high: Option<f64>,
+}
+
+impl Limited {
+    /// Makes a value without limits.
+    pub fn value(value: Option<f64>) -> Limited {
+        Limited { value, low: None, high: None }
+    }
+
+    /// Applies a rising function to what is there.
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Limited {
+        Limited { value: self.value.map(&f), low: self.low.map(&f), high: self.high.map(&f) }
+    }
+}
+
+impl From<Estimate> for Limited {
+    fn from(Estimate { value, low, high }: Estimate) -> Limited {
+        Limited { value: Some(value), low: Some(low), high: Some(high) }
+    }
+}
 
 /// Writes a number with this many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
@@ -99,8 +127,8 @@ impl Style {
     }
 
     /// Writes a value without its limits; without a value the limits: `0.50 to 0.98 %`.
-    pub fn value(self, [value, low, high]: Limited) -> String {
-        match (value, low, high) {
+    pub fn value(self, of: Limited) -> String {
+        match (of.value, of.low, of.high) {
             (Some(value), ..) => self.one(value),
             (None, Some(low), Some(high)) => self.range(low, high),
             _ => "-".to_string(),
@@ -108,8 +136,8 @@ impl Style {
     }
 
     /// Writes the limits of a value, after words that name them: `(95 % limits 0.50 to 0.98 %)`.
-    pub fn limits(self, [value, low, high]: Limited, words: &str) -> String {
-        let limits = low.zip(high).filter(|_| value.is_some());
+    pub fn limits(self, of: Limited, words: &str) -> String {
+        let limits = of.low.zip(of.high).filter(|_| of.value.is_some());
         limits.map_or(String::new(), |(low, high)| format!("({words}{})", self.range(low, high)))
     }
 

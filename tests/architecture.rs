@@ -12,7 +12,7 @@ const LAYERS: [&[&str]; 8] = [
     &["table", "export", "report"],
     &["studies", "records"],
     &["inputs"],
-    &["fragility", "hazard", "paper"],
+    &["fragility", "hazard", "object", "paper"],
     &["motion", "rocking", "random", "statistics", "keyword", "number", "plausibility", "units", "warning"],
 ];
 

@@ -135,12 +135,12 @@ pub fn fit_curve<'py>(
     let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
     let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
     let estimate = |(value, gradient): (f64, Vec<f64>)| {
-        Estimate::new(value, variance(covariance, &gradient).sqrt(), quantile)
+        Estimate::around(value, quantile * variance(covariance, &gradient).sqrt())
     };
-    let three = |Estimate { value, low, high, .. }: Estimate| [value, low, high];
+    let three = |Estimate { value, low, high }: Estimate| [value, low, high];
     let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };
     result.set_item("status", status.as_str())?;
-    result.set_item("theta", three(estimate(mu(b)).exp()))?;
+    result.set_item("theta", three(estimate(mu(b)).map(f64::exp)))?;
     result.set_item("beta", three(estimate(beta(b))))?;
     result.set_item("coefficients", b)?;
     result.set_item("covariance", covariance)?;

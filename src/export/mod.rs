@@ -14,7 +14,7 @@ pub use levels::{levels, whole_curve_end};
 pub use openquake::discrete;
 pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
 
-use crate::fragility::Peak;
+use crate::fragility::{LimitStates, Peak};
 
 /// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for
 /// pelicun, which keeps six digits where it converts units.
@@ -24,25 +24,33 @@ pub const GAP: f64 = 2e-5;
 #[derive(Debug, Clone, PartialEq)]
 pub struct FragilityModel {
     pub id: String,
-    /// Where it comes from, for a reader.
-    pub description: String,
     pub limit_states: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
-    /// Letters, digits and underscores: the programs give other signs a meaning.
+    /// Letters, digits and underscores: the programs give other signs a meaning. No other function has it.
     pub id: String,
+    /// What falls and what predicts it, for a reader.
+    pub description: String,
     pub peak: Peak,
     /// Intensities, m/s2 or m/s, rising from uplift: below the first all probabilities are 0.
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
-    pub probabilities: Vec<[f64; 3]>,
+    pub probabilities: Vec<LimitStates<f64>>,
     /// Intensity at uplift, and the largest one for which there are data and that was ever recorded.
     pub range_of_data: [f64; 2],
 }
 
-/// Returns the id of a structure, without the signs that have a meaning in these programs.
-pub fn own_id(name: &str) -> String {
-    format!("rockfrag_{}", name.replace(|sign: char| !sign.is_ascii_alphanumeric(), "_"))
+/// Makes an id for each name, without the signs that have a meaning in these programs: names that are told apart by
+/// these alone get numbers.
+pub fn distinct_ids(names: &[&str]) -> Vec<String> {
+    let mut ids: Vec<String> = Vec::new();
+    for name in names {
+        let id = format!("rockfrag_{}", name.replace(|sign: char| !sign.is_ascii_alphanumeric(), "_"));
+        let numbered = (2..).map(|number| format!("{id}_{number}"));
+        let is_new = |id: &String| ids.iter().all(|other| !other.eq_ignore_ascii_case(id));
+        ids.extend(std::iter::once(id.clone()).chain(numbered).find(is_new));
+    }
+    ids
 }

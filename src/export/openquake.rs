@@ -17,20 +17,21 @@ fn measure(peak: Peak) -> (&'static str, f64) {
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &FragilityModel, functions: &[Function]) -> String {
     let names = LimitState::ALL.iter().map(|state| state.as_str());
-    let mut description = vec![model.description.clone()];
     let meanings = names.clone().zip(&model.limit_states);
-    description.extend(meanings.map(|(state, meaning)| format!("{state}: {meaning}")));
+    let mut description: Vec<String> =
+        meanings.map(|(state, meaning)| format!("{state}: {meaning}")).collect();
     let mut tables = String::new();
     for function in functions {
         let (imt, unit) = measure(function.peak);
         let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
-        description.push(format!("{}: holds from {imt} {low:.4} (uplift) to {high:.4}", function.id));
+        let (id, what) = (&function.id, &function.description);
+        description.push(format!("{id}: {what}, from {imt} {low:.4} (uplift) to {high:.4}"));
         let levels = numbers(function.levels.iter().map(|level| level / unit));
         let id = escaped(&function.id);
         tables += &format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">\n");
         tables += &format!("      <imls imt=\"{imt}\" noDamageLimit=\"{low}\">{levels}</imls>\n");
-        for (index, state) in names.clone().enumerate() {
-            let poes = numbers(function.probabilities.iter().map(|p| p[index]));
+        for state in LimitState::ALL {
+            let poes = numbers(function.probabilities.iter().map(|p| p.get(*state)));
             tables += &format!("      <poes ls=\"{state}\">{poes}</poes>\n");
         }
         tables += "    </fragilityFunction>\n";

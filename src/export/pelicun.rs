@@ -45,12 +45,12 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
         let tables = match function.peak {
             Peak::Pga => {
                 row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
-                1..3
+                &LimitState::ALL[1..]
             }
-            Peak::Pgv => 0..3,
+            Peak::Pgv => LimitState::ALL,
         };
         for state in tables {
-            let table = cumulative_distribution(function, state, unit);
+            let table = cumulative_distribution(function, *state, unit);
             row.extend(["multilinear_CDF", &table, "", ""].map(str::to_string));
         }
         writer.write_record(row)?;
@@ -59,12 +59,12 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
 }
 
 /// Writes the levels, a bar, and the probabilities at them.
-fn cumulative_distribution(function: &Function, state: usize, unit: f64) -> String {
+fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) -> String {
     let below_uplift = (function.range_of_data[0] * (1.0 - GAP), 0.0);
     let mut points = vec![below_uplift];
     for (&level, probabilities) in function.levels.iter().zip(&function.probabilities) {
         let (last_level, last) = points[points.len() - 1];
-        let p = probabilities[state];
+        let p = probabilities.get(state);
         if level >= last_level * (1.0 + GAP) && p - last > LEAST_RISE && 1.0 - p > LEAST_RISE {
             points.push((level, p));
         }
@@ -88,7 +88,7 @@ pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
     let mut all = json!({
         "_GeneralInformation": {
             "ShortName": model.id,
-            "Description": model.description,
+            "Description": "Rocking and overturning of free-standing structures",
             "Version": env!("CARGO_PKG_VERSION"),
             "ComponentGroups": { "Rocking structures": [] },
         },
@@ -102,7 +102,7 @@ pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
         };
         let states: Map<String, Value> = model.limit_states.iter().enumerate().map(state).collect();
         all[&function.id] = json!({
-            "Description": model.description,
+            "Description": function.description,
             "Comments": format!(
                 "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
             ),

@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Event, Sample, grouped};
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Kind, Predictor, Prior, predictor};
-use super::tree::{Probability, Z_95};
+use super::tree::Z_95;
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::{independent_errors, variance};
+use crate::statistics::{Estimate, independent_errors, variance};
 use crate::warning::Warning;
 
 /// Whether the limits of a probability include the standard deviation between earthquakes, tau; its value is
@@ -162,7 +162,7 @@ impl Calibration {
 
     /// Computes the calibrated probability, with 95 % limits: those of c + s L + m (M - 6.9) by the delta
     /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
-    pub fn probability(&self, motion: &Predictor, scenarios: Scenarios) -> Probability {
+    pub fn probability(&self, motion: &Predictor, scenarios: Scenarios) -> Estimate {
         let by_parameters = [1.0, self.ln_s.exp() * motion.logit, self.magnitude(motion)];
         let between = match scenarios {
             Scenarios::One => self.tau.hypot(self.m * motion.magnitude_sd),
@@ -170,7 +170,7 @@ impl Calibration {
         };
         let half_width = Z_95 * variance(&self.covariance, &by_parameters).sqrt().hypot(between);
         let z = self.calibrated(motion);
-        Probability::with_limits(half_width, |shift| logistic(z + shift))
+        Estimate::shifted(half_width, |shift| logistic(z + shift))
     }
 
     /// It with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.

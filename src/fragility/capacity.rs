@@ -4,11 +4,11 @@
 use nalgebra::DVector;
 
 use super::tree::Z_95;
-use crate::statistics::FitStatus;
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::ln_cdf_and_slope;
+use crate::statistics::{Estimate, FitStatus};
 
 /// What is known of a capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,12 +26,8 @@ pub enum KnownCapacity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
-    pub theta: f64,
-    pub theta_low: f64,
-    pub theta_high: f64,
-    pub beta: f64,
-    pub beta_low: f64,
-    pub beta_high: f64,
+    pub theta: Estimate,
+    pub beta: Estimate,
 }
 
 /// Fits the distribution. Where each capacity is known, of mean and standard deviation of their logarithms
@@ -56,14 +52,11 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
     // Of one earthquake alone nothing is known about others.
     let wider = if wider.is_finite() { wider } else { 1.0 };
-    let widened = |value: f64, limit: f64| value * (limit / value).powf(wider);
-    Ok(CapacityFit {
-        theta_low: widened(fit.theta, fit.theta_low),
-        theta_high: widened(fit.theta, fit.theta_high),
-        beta_low: widened(fit.beta, fit.beta_low),
-        beta_high: widened(fit.beta, fit.beta_high),
-        ..fit
-    })
+    let widened = |of: Estimate| {
+        let limit = |limit: f64| of.value * (limit / of.value).powf(wider);
+        Estimate { value: of.value, low: limit(of.low), high: limit(of.high) }
+    };
+    Ok(CapacityFit { theta: widened(fit.theta), beta: widened(fit.beta) })
 }
 
 /// The same of capacities that do not depend on each other; `known` has the logarithms of the known ones.
@@ -84,12 +77,8 @@ fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<Capaci
     let half_width = t_quantile(0.975, n - 1.0) * beta / n.sqrt();
     let beta_at = |share| (squares / chi_squared_quantile(share, n - 1.0)).sqrt();
     Ok(CapacityFit {
-        theta: mean.exp(),
-        theta_low: (mean - half_width).exp(),
-        theta_high: (mean + half_width).exp(),
-        beta,
-        beta_low: beta_at(0.975),
-        beta_high: beta_at(0.025),
+        theta: Estimate::around(mean, half_width).map(f64::exp),
+        beta: Estimate { value: beta, low: beta_at(0.975), high: beta_at(0.025) },
     })
 }
 
@@ -135,11 +124,7 @@ fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<Capacity
     let beta_factor = (Z_95 * covariance[(0, 0)].sqrt() / per_beta).exp();
     let (theta, beta) = ((mean + shift / per_beta).exp(), 1.0 / per_beta);
     Ok(CapacityFit {
-        theta,
-        theta_low: theta / theta_factor,
-        theta_high: theta * theta_factor,
-        beta,
-        beta_low: beta / beta_factor,
-        beta_high: beta * beta_factor,
+        theta: Estimate { value: theta, low: theta / theta_factor, high: theta * theta_factor },
+        beta: Estimate { value: beta, low: beta / beta_factor, high: beta * beta_factor },
     })
 }

@@ -11,11 +11,10 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Sample, grouped};
 use super::measure::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
-use super::tree::Probability;
 use crate::keyword::{Keyword, keywords};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
-use crate::statistics::{FitStatus, Limits, LinearFit};
+use crate::statistics::{Estimate, FitStatus, LinearFit};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
@@ -116,7 +115,7 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
 /// more than chance above it: limits that hold a break with this confidence, its jump being large against the
 /// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
 /// scatter on both sides). None without a scan.
-pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Limits)> {
+pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate> {
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
     let is_likely = |point: &&TransitionPoint| {
@@ -125,7 +124,7 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Lim
     };
     let mut likely = scan.iter().filter(is_likely).map(|point| point.im4);
     let low = likely.next()?;
-    Some((best.im4, Limits { low, high: likely.next_back().unwrap_or(low) }))
+    Some(Estimate { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
 }
 
 /// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
@@ -133,12 +132,12 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<(f64, Lim
 /// plane over all cases. `confidence` is that of the limits of the transition of least residual.
 pub fn fit_demand(cases: &Cases, im4: Option<f64>, confidence: f64, all: bool) -> Vec<DemandFit> {
     let found = transition(&scan_transition(cases), confidence);
-    let im4 = im4.or(found.map(|(im4, _)| im4)).unwrap_or(TRANSITION);
+    let im4 = im4.or(found.map(|found| found.value)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
     for fit in &mut fits {
-        fit.transition_found = found.map(|(im4, _)| im4);
-        fit.transition_low = found.map(|(_, limits)| limits.low);
-        fit.transition_high = found.map(|(_, limits)| limits.high);
+        fit.transition_found = found.map(|found| found.value);
+        fit.transition_low = found.map(|found| found.low);
+        fit.transition_high = found.map(|found| found.high);
     }
     if all {
         fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
@@ -271,7 +270,7 @@ impl DemandFit {
         measures: &IntensityMeasures,
         limit_state: f64,
         confidence: f64,
-    ) -> Option<Probability> {
+    ) -> Option<Estimate> {
         let beta = self.beta?;
         let ims = values(self.im_x, self.im_y, measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
@@ -279,7 +278,7 @@ impl DemandFit {
         let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
         let half_width = quantile(confidence, self.degrees) * (of_median + of_beta).sqrt();
         let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
-        Some(Probability::with_limits(half_width, p_at))
+        Some(Estimate::shifted(half_width, p_at))
     }
 
     /// It with each independent error of its coefficients, and that of beta, at the limits of confidence.

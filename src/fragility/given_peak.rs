@@ -3,18 +3,18 @@
 use std::f64::consts::TAU;
 
 use super::calibration::Scenarios;
-use super::model::Model;
+use super::model::{Direction, Model};
 use super::peaks::{Peak, RatioGiven};
-use super::tree::Probability;
+use super::tree::{LimitStates, UNKNOWN};
 use crate::motion::IntensityMeasures;
-use crate::rocking::Structure;
+use crate::statistics::Estimate;
 use crate::statistics::numerics::{first, quadrature};
 
 /// Motions of a given PGA or PGV, and the object.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenPeak<'a> {
-    /// A structure with the model that predicts for it, in each direction in which the object falls.
-    pub directions: &'a [(Structure, Model)],
+    /// The directions in which the object falls.
+    pub directions: &'a [Direction],
     /// The peak that is given.
     pub peak: Peak,
     /// PGV / PGA of the motions, given the peak.
@@ -26,21 +26,19 @@ pub struct GivenPeak<'a> {
 /// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of
 /// its directions, which fall independently under one motion. NaN where a model has none.
 pub(crate) fn limit_states_at(
-    directions: &[(Structure, Model)],
+    directions: &[Direction],
     [pga_m_s2, pgv_m_s]: [f64; 2],
     mw: Option<f64>,
     scenarios: Scenarios,
-) -> [Probability; 3] {
-    let in_direction = |(structure, model): &(Structure, Model)| {
+) -> LimitStates<Estimate> {
+    let in_direction = |Direction { structure, model }: &Direction| {
         let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
         let probabilities = model.probabilities(structure, &measures, mw, scenarios);
-        let rocking = Probability::exact(1.0 - probabilities.p_nr);
-        probabilities.limit_states().unwrap_or([rocking, Probability::UNKNOWN, Probability::UNKNOWN])
+        let rocking = Estimate::exact(1.0 - probabilities.p_nr);
+        probabilities.limit_states().unwrap_or(LimitStates { rocking, ..LimitStates::all(UNKNOWN) })
     };
-    let either = |a: [Probability; 3], b: [Probability; 3]| {
-        [0, 1, 2].map(|state| a[state].zip(b[state], |a, b| a + b - a * b))
-    };
-    directions.iter().map(in_direction).reduce(either).unwrap_or([Probability::exact(0.0); 3])
+    let either = |a: LimitStates<Estimate>, b| a.zip(b, |a, b| a.zip(b, |a, b| a + b - a * b));
+    directions.iter().map(in_direction).reduce(either).unwrap_or(LimitStates::all(Estimate::exact(0.0)))
 }
 
 /// Standard deviations from the median within which all ratios lie that count.
@@ -67,25 +65,25 @@ impl GivenPeak<'_> {
     }
 
     /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
-    pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> [Probability; 3] {
-        let mut mean = [Probability::exact(0.0); 3];
-        let uplifts = |(structure, model): &(Structure, Model)| intensity >= model.uplift_m_s2(structure)[0];
+    pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Estimate> {
+        let mut mean = LimitStates::all(Estimate::exact(0.0));
+        let uplifts =
+            |Direction { structure, model }: &Direction| intensity >= model.uplift_m_s2(structure)[0];
         if self.peak == Peak::Pga && !self.directions.iter().any(uplifts) {
             return mean;
         }
         for (node, weight) in self.nodes(intensity) {
             let peaks = self.peaks(intensity, node);
             let states = limit_states_at(self.directions, peaks, self.mw, scenarios);
-            for (sum, state) in mean.iter_mut().zip(states) {
-                *sum = sum.zip(state, |sum, p| sum + weight * p);
-            }
+            mean = mean.zip(states, |sum, state| sum.zip(state, |sum, p| sum + weight * p));
         }
         mean
     }
 
     /// Least intensity that uplifts the object, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> [f64; 2] {
-        let of_all = self.directions.iter().map(|(structure, model)| model.uplift_m_s2(structure));
+        let of_all =
+            self.directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure));
         let [least, usual] = of_all.fold([f64::INFINITY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
         [self.intensity_of(least, -FARTHEST), self.intensity_of(usual, 0.0)]
     }
@@ -102,13 +100,13 @@ impl GivenPeak<'_> {
     /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under
     /// pulses has a dispersion of 0.03.
     pub(crate) fn widest_panel(&self) -> f64 {
-        let is_of_paper = |(_, model): &(Structure, Model)| matches!(model, Model::Paper { .. });
+        let is_of_paper = |direction: &Direction| matches!(direction.model, Model::Paper { .. });
         if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.2 }
     }
 
     /// PGA at which a probability jumps, m/s2, rising.
     fn jumps_of_pga(&self) -> Vec<f64> {
-        let jumps = |(structure, model): &(Structure, Model)| {
+        let jumps = |Direction { structure, model }: &Direction| {
             let demand = if let Model::Paper { demand, .. } = model { &demand[..] } else { &[] };
             let transitions = demand.iter().filter_map(|fit| fit.range_low).filter(|&im4| im4 > 1.0);
             let [uplift, _] = model.uplift_m_s2(structure);
@@ -134,7 +132,7 @@ impl GivenPeak<'_> {
         let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
         match (self.ratio.is_exact(), self.peak) {
             (false, Peak::Pga) => {
-                let is_on_floor = self.directions.iter().all(|(_, model)| model.floor().is_some());
+                let is_on_floor = self.directions.iter().all(|direction| direction.model.floor().is_some());
                 let step = if is_on_floor { STEP_ON_FLOORS } else { STEP };
                 let last = (FARTHEST / step).ceil() as i32;
                 (-last..=last).map(|k| step * f64::from(k)).map(|z| (z, step * density(z))).collect()

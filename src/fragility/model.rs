@@ -6,7 +6,9 @@ use super::on_floor;
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind, Predictor};
-use super::tree::{GivenRocking, Probabilities, Probability, p_failure_given_rocking, p_no_rocking};
+use super::tree::{
+    GivenRocking, Probabilities, UNKNOWN, independent_failure, p_failure_given_rocking, p_no_rocking,
+};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
@@ -21,6 +23,15 @@ pub enum Model {
     Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
+}
+
+/// A direction in which an object falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// The structure that it rocks like.
+    pub structure: Structure,
+    /// The model that predicts for it.
+    pub model: Model,
 }
 
 /// Probability with which the limits hold the truth.
@@ -119,6 +130,14 @@ impl Model {
         }
     }
 
+    /// Returns the kind of motion that it is for.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Model::Calibrated { overturning, .. } => overturning.kind,
+            Model::Paper { overturning, .. } => Kind::of_word(overturning.suite.as_deref()),
+        }
+    }
+
     /// The floor that it is for; `None` for the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {
@@ -198,8 +217,8 @@ pub fn paper_probabilities(
         let fit = demand.iter().find(|fit| fit.holds_at(measures.im4));
         let p_ex = fit.and_then(|fit| fit.p_exceeding(measures, limit_state, confidence));
         Some(match p_ex {
-            Some(p_ex) => GivenRocking { p_ex, p_ro, p_failure: Probability::of_failure(p_ro, p_ex) },
-            None => GivenRocking { p_ex: Probability::UNKNOWN, p_ro, p_failure: Probability::UNKNOWN },
+            Some(p_ex) => GivenRocking { p_ex, p_ro, p_failure: independent_failure(p_ro, p_ex) },
+            None => GivenRocking { p_ex: UNKNOWN, p_ro, p_failure: UNKNOWN },
         })
     })
 }

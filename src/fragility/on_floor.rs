@@ -1,10 +1,10 @@
 //! The probabilities on a floor: those at its own peaks, averaged over what they may be, and moved by how
 //! narrow the band of its motion is.
 
-use super::tree::{GivenRocking, Probabilities, Probability};
+use super::tree::{GivenRocking, LimitState, Probabilities};
 use crate::motion::{Floor, IntensityMeasures, floor};
 use crate::rocking::Structure;
-use crate::statistics::normal;
+use crate::statistics::{Estimate, normal};
 
 /// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its
 /// velocity; of P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
@@ -65,15 +65,15 @@ pub(super) fn probabilities(
         false => nodes[0].0.p_nr,
     };
     let rocks = 1.0 - p_nr;
-    let mean = |state: usize| {
-        let add = |sum: Probability, (node, weight): &(Probabilities, f64)| {
-            Some(sum.zip(node.limit_states()?[state], |sum, p| sum + weight * p))
+    let mean = |state: LimitState| {
+        let add = |sum: Estimate, (node, weight): &(Probabilities, f64)| {
+            Some(sum.zip(node.limit_states()?.get(state), |sum, p| sum + weight * p))
         };
-        let sum = nodes.iter().try_fold(Probability::exact(0.0), add)?;
+        let sum = nodes.iter().try_fold(Estimate::exact(0.0), add)?;
         Some(sum.map(|p| (p / rocks).min(1.0)))
     };
     let given_rocking = || {
-        let (p_failure, p_ro) = (mean(1)?, mean(2)?);
+        let (p_failure, p_ro) = (mean(LimitState::Failure)?, mean(LimitState::Overturning)?);
         let p_ex = p_failure
             .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
         Some(GivenRocking { p_ex, p_ro, p_failure })

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Event, grouped};
 use super::measure::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
-use super::tree::Probability;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
@@ -154,7 +153,7 @@ grouped!(CurveFit);
 impl CurveFit {
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of ln IM - mu. None without a fit, or where a measure is missing.
-    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Probability> {
+    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Estimate> {
         let ims = values(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
         let b = &self.coefficients;
         let (mu, beta) = (mu(b).0, beta(b).0);
@@ -164,7 +163,7 @@ impl CurveFit {
         };
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
         let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
-        Some(Probability::with_limits(quantile(confidence, self.degrees) * error, p_at))
+        Some(Estimate::shifted(quantile(confidence, self.degrees) * error, p_at))
     }
 
     /// It with each independent error of its coefficients at the limits of confidence.
@@ -193,7 +192,7 @@ impl CurveFit {
         if self.coefficients.is_empty() {
             return Vec::new();
         }
-        let row = |parameter: Parameter, estimate: Estimate| ParameterRow {
+        let row = |parameter: Parameter, estimate: Estimate, standard_error: f64| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
             model: self.event.as_str().to_string(),
@@ -202,22 +201,20 @@ impl CurveFit {
             range_low: None,
             parameter,
             value: estimate.value,
-            standard_error: estimate.standard_error,
+            standard_error,
             low: estimate.low,
             high: estimate.high,
             confidence,
         };
         let quantile = quantile(confidence, self.degrees);
-        let estimate = |(value, gradient): (f64, Vec<f64>)| {
-            Estimate::new(value, variance(&self.covariance, &gradient).sqrt(), quantile)
+        let with_error = |parameter: Parameter, (value, gradient): (f64, Vec<f64>)| {
+            let error = variance(&self.covariance, &gradient).sqrt();
+            row(parameter, Estimate::around(value, quantile * error), error)
         };
         let b = &self.coefficients;
-        let of_hybrid = self.im_y.map(|_| row(Parameter::Lambda, estimate(lambda(b))));
-        let of_all = [
-            row(Parameter::Mu, estimate(mu(b))),
-            row(Parameter::Beta, estimate(beta(b))),
-            row(Parameter::Theta, estimate(mu(b)).exp()),
-        ];
-        of_hybrid.into_iter().chain(of_all).collect()
+        let ratio = self.im_y.map(|_| with_error(Parameter::Lambda, lambda(b)));
+        let mu = with_error(Parameter::Mu, mu(b));
+        let theta = row(Parameter::Theta, mu.estimate().map(f64::exp), mu.value.exp() * mu.standard_error);
+        ratio.into_iter().chain([mu, with_error(Parameter::Beta, beta(b)), theta]).collect()
     }
 }

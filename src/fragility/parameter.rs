@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::measure::Measure;
 use crate::keyword::keywords;
+use crate::statistics::Estimate;
 use crate::statistics::distributions::t_quantile;
 
 /// How many standard errors the limits of a confidence are away; normal ones without degrees of freedom.
@@ -52,4 +53,11 @@ pub struct ParameterRow {
     pub high: f64,
     /// Probability with which the limits hold the truth.
     pub confidence: f64,
+}
+
+impl ParameterRow {
+    /// Returns the value with its limits.
+    pub fn estimate(&self) -> Estimate {
+        Estimate { value: self.value, low: self.low, high: self.high }
+    }
 }

@@ -1,6 +1,7 @@
 //! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
 
 use crate::keyword::keywords;
+use crate::statistics::Estimate;
 
 /// The 97.5 % quantile of the normal distribution.
 pub const Z_95: f64 = 1.959_963_984_540_054;
@@ -34,65 +35,86 @@ pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
     (1.0 - p_nr) * given_rocking
 }
 
-/// A probability with limits of confidence.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Probability {
-    pub value: f64,
-    pub low: f64,
-    pub high: f64,
+/// What there is of each limit state: a probability, a rate, an estimate of either.
+///
+/// ```
+/// use rockfrag::fragility::LimitStates;
+///
+/// let rates = LimitStates { rocking: 4e-3, failure: 9e-4, overturning: 4e-4 };
+/// let return_periods = rates.map(f64::recip);
+/// assert_eq!(return_periods.rocking, 250.0);
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[expect(missing_docs, reason = "LimitState says it")]
+pub struct LimitStates<T> {
+    pub rocking: T,
+    pub failure: T,
+    pub overturning: T,
 }
 
-impl Probability {
-    /// One that no model gives: NaN.
-    pub const UNKNOWN: Probability = Probability { value: f64::NAN, low: f64::NAN, high: f64::NAN };
-
-    /// Makes a probability that is known for certain.
-    pub fn exact(value: f64) -> Probability {
-        Probability { value, low: value, high: value }
+impl<T> LimitStates<T> {
+    /// Applies a function to each.
+    pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> LimitStates<U> {
+        LimitStates { rocking: f(self.rocking), failure: f(self.failure), overturning: f(self.overturning) }
     }
 
-    /// Computes a probability that rises with a shift of its argument, at 0 and at the limits of the shift:
-    /// limits that lie between 0 and 1.
-    pub fn with_limits(half_width: f64, p_at: impl Fn(f64) -> f64) -> Probability {
-        let [low, value, high] = [-half_width, 0.0, half_width].map(p_at);
-        Probability { value, low, high }
-    }
-
-    /// Applies a rising function to the value and both limits.
-    pub(super) fn map(self, f: impl Fn(f64) -> f64) -> Probability {
-        let [value, low, high] = [self.value, self.low, self.high].map(f);
-        Probability { value, low, high }
-    }
-
-    /// Joins two probabilities whose errors have the same causes: the values, the low and the high limits.
-    pub(super) fn zip(self, other: Probability, join: impl Fn(f64, f64) -> f64) -> Probability {
-        Probability {
-            value: join(self.value, other.value),
-            low: join(self.low, other.low),
-            high: join(self.high, other.high),
+    /// Joins each with that of other limit states.
+    pub fn zip<U, V>(self, other: LimitStates<U>, join: impl Fn(T, U) -> V) -> LimitStates<V> {
+        LimitStates {
+            rocking: join(self.rocking, other.rocking),
+            failure: join(self.failure, other.failure),
+            overturning: join(self.overturning, other.overturning),
         }
     }
 
-    /// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
-    /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
-    /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
-    /// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
-    pub fn of_failure(p_ro: Probability, p_ex: Probability) -> Probability {
-        // Finite, so that a certain event has limits.
-        let ln_survival = |p: f64| (-p).ln_1p().max(f64::MIN_POSITIVE.ln());
-        let (ro, ex) = (ln_survival(p_ro.value), ln_survival(p_ex.value));
-        let away =
-            |ro_limit: f64, ex_limit: f64| (ln_survival(ro_limit) - ro).hypot(ln_survival(ex_limit) - ex);
-        let value = p_failure_given_rocking(p_ro.value, p_ex.value);
-        let low = -(ro + ex + away(p_ro.low, p_ex.low)).exp_m1();
-        let high = -(ro + ex - away(p_ro.high, p_ex.high)).exp_m1();
-        Probability {
-            value,
-            // What rounding loses of limits near 0.
-            low: low.max(p_ro.low).max(p_ex.low).min(value),
-            high: high.max(p_ro.high).max(p_ex.high).max(value),
+    /// Returns them in the order of [`LimitState`].
+    pub fn into_array(self) -> [T; 3] {
+        [self.rocking, self.failure, self.overturning]
+    }
+}
+
+impl<T: Copy> LimitStates<T> {
+    /// Makes the same of all.
+    pub const fn all(value: T) -> LimitStates<T> {
+        LimitStates { rocking: value, failure: value, overturning: value }
+    }
+
+    /// Returns that of a limit state.
+    pub fn get(&self, state: LimitState) -> T {
+        match state {
+            LimitState::Rocking => self.rocking,
+            LimitState::Failure => self.failure,
+            LimitState::Overturning => self.overturning,
         }
+    }
+}
+
+impl<T> From<[T; 3]> for LimitStates<T> {
+    fn from([rocking, failure, overturning]: [T; 3]) -> LimitStates<T> {
+        LimitStates { rocking, failure, overturning }
+    }
+}
+
+/// What no model gives: NaN.
+pub(super) const UNKNOWN: Estimate = Estimate::exact(f64::NAN);
+
+/// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
+/// that of overturning times that of the demand of the others. Survival is a product, so that limits of
+/// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
+/// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
+pub fn independent_failure(p_ro: Estimate, p_ex: Estimate) -> Estimate {
+    // Finite, so that a certain event has limits.
+    let ln_survival = |p: f64| (-p).ln_1p().max(f64::MIN_POSITIVE.ln());
+    let (ro, ex) = (ln_survival(p_ro.value), ln_survival(p_ex.value));
+    let away = |ro_limit: f64, ex_limit: f64| (ln_survival(ro_limit) - ro).hypot(ln_survival(ex_limit) - ex);
+    let value = p_failure_given_rocking(p_ro.value, p_ex.value);
+    let low = -(ro + ex + away(p_ro.low, p_ex.low)).exp_m1();
+    let high = -(ro + ex - away(p_ro.high, p_ex.high)).exp_m1();
+    Estimate {
+        value,
+        // What rounding loses of limits near 0.
+        low: low.max(p_ro.low).max(p_ex.low).min(value),
+        high: high.max(p_ro.high).max(p_ex.high).max(value),
     }
 }
 
@@ -109,11 +131,11 @@ pub struct Probabilities {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenRocking {
     /// A demand above the limit state, in safe rocking.
-    pub p_ex: Probability,
+    pub p_ex: Estimate,
     /// Overturning.
-    pub p_ro: Probability,
+    pub p_ro: Estimate,
     /// Failure, the one or the other (Eq. 12).
-    pub p_failure: Probability,
+    pub p_failure: Estimate,
 }
 
 impl Probabilities {
@@ -125,12 +147,14 @@ impl Probabilities {
 
     /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
     /// None where a measure is missing.
-    pub fn limit_states(&self) -> Option<[Probability; 3]> {
-        let rocking = Probability::exact(1.0 - self.p_nr);
+    pub fn limit_states(&self) -> Option<LimitStates<Estimate>> {
+        let rocking = Estimate::exact(1.0 - self.p_nr);
         if self.p_nr == 1.0 {
-            return Some([rocking; 3]);
+            return Some(LimitStates::all(rocking));
         }
-        let over_tree = |given: Probability| given.map(|p| p_failure(self.p_nr, p));
-        self.given_rocking.map(|given| [rocking, over_tree(given.p_failure), over_tree(given.p_ro)])
+        let given = self.given_rocking?;
+        let [failure, overturning] =
+            [given.p_failure, given.p_ro].map(|given| given.map(|p| p_failure(self.p_nr, p)));
+        Some(LimitStates { rocking, failure, overturning })
     }
 }

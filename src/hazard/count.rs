@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::curve::HazardCurve;
 use crate::random::{Purpose, stream};
-use crate::statistics::Limits;
+use crate::statistics::Estimate;
 use crate::statistics::distributions::chi_squared_quantile;
 
 /// Most bins of equal numbers of motions, and least motions in each.
@@ -32,10 +32,8 @@ pub struct CountedMotion {
 /// An annual rate counted among motions, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
-    /// The rate.
-    pub value: f64,
-    /// 95 % limits.
-    pub limits: Limits,
+    /// The rate, a year.
+    pub annual_rate: Estimate,
     /// How many motions were counted.
     pub motions: usize,
 }
@@ -77,9 +75,10 @@ pub fn counted_rate(
     let mut drawn: Vec<f64> = (0..RESAMPLES).into_par_iter().map(draw).collect();
     drawn.sort_by(f64::total_cmp);
     let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
-    let poisson = poisson_limits(&in_all);
-    let limits = Limits { low: poisson.low.min(at(TAIL)), high: poisson.high.max(at(1.0 - TAIL)) };
-    Some(CountedRate { value: rate(&in_all), limits, motions: motions.len() })
+    let [low, high] = poisson_limits(&in_all);
+    let (low, high) = (low.min(at(TAIL)), high.max(at(1.0 - TAIL)));
+    let annual_rate = Estimate { value: rate(&in_all), low, high };
+    Some(CountedRate { annual_rate, motions: motions.len() })
 }
 
 /// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle
@@ -115,7 +114,7 @@ fn rate(bins: &[Bin]) -> f64 {
     bins.iter().map(|bin| bin.annual_rate * bin.events / bin.motions).sum()
 }
 
-fn poisson_limits(bins: &[Bin]) -> Limits {
+fn poisson_limits(bins: &[Bin]) -> [f64; 2] {
     let weight = |bin: &Bin| bin.annual_rate / bin.motions;
     let sum = |power: i32| bins.iter().map(|bin| weight(bin).powi(power) * bin.events).sum::<f64>();
     let (rate, variance) = (sum(1), sum(2));
@@ -127,8 +126,5 @@ fn poisson_limits(bins: &[Bin]) -> Limits {
             0.5 * variance / rate * chi_squared_quantile(p, 2.0 * rate * rate / variance)
         }
     };
-    Limits {
-        low: scaled(rate, variance, TAIL),
-        high: scaled(rate + largest, variance + largest * largest, 1.0 - TAIL),
-    }
+    [scaled(rate, variance, TAIL), scaled(rate + largest, variance + largest * largest, 1.0 - TAIL)]
 }

@@ -18,12 +18,12 @@ mod pgv_pga;
 mod rates;
 mod site;
 
-pub use budget::{Budget, Budgets, Part, Unknown};
+pub use budget::Budget;
 pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
-pub use rates::{PairOfPeaks, Rate, Rates, exceedance, mean_annual_rates, rates_over_curve};
+pub use rates::{AnnualRate, PairOfPeaks, Rate, exceedance, mean_annual_rates, rates_over_curve};
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

@@ -1,10 +1,10 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
-use super::budget::{Budgets, Part, Unknown};
+use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
-use crate::fragility::{GivenPeak, Model, Peak, Probability, Scenarios, Z_95, limit_states_at};
-use crate::rocking::Structure;
-use crate::statistics::Limits;
+use crate::fragility::{Direction, GivenPeak, LimitStates, Model, Peak, Scenarios, Z_95, limit_states_at};
+use crate::object::{Part, Subject, Unknown};
+use crate::statistics::Estimate;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +19,13 @@ pub struct Motion {
     pub vs30_m_s: Option<f64>,
 }
 
-/// Probabilities of LS1, LS2 and LS3, and the errors of the logits of the last two.
+/// Probabilities of the limit states, with limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
-    pub states: [Probability; 3],
-    pub budgets: Budgets,
+    pub states: LimitStates<Estimate>,
+    /// Standard deviations of the logit of the probability of overturning, by what is not known.
+    pub errors: Budget,
 }
 
 impl Motion {
@@ -35,6 +36,7 @@ impl Motion {
             velocity.at(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
         };
         match (self.pga_m_s2, self.pgv_m_s) {
+            _ if self.is_still() => [0.0; 2],
             (Some(pga), Some(pgv)) => [pga, pgv],
             (Some(pga), None) => [pga, pga * ratio(Peak::Pga, pga)],
             (None, Some(pgv)) => [pgv / ratio(Peak::Pgv, pgv), pgv],
@@ -42,62 +44,83 @@ impl Motion {
         }
     }
 
-    /// The probabilities for an object in its directions, of which there is one or more, averaged over the peak
-    /// that is not known. `unknowns` are its uncertain inputs: the same directions with one of them at its
-    /// quantiles.
-    pub fn probabilities(
-        &self,
-        directions: &[(Structure, Model)],
-        unknowns: &[Unknown<Vec<(Structure, Model)>>],
-    ) -> MotionProbabilities {
-        let model = &directions[0].1;
-        let (mw, of_magnitude) = magnitude(self.mw);
-        let velocity = |peak: Peak| PgvPgaRatio::of_model(model, peak, self.vs30_m_s);
-        let one = match (self.pga_m_s2, self.pgv_m_s) {
-            (Some(_), Some(_)) => None,
-            (Some(pga), None) => Some((Peak::Pga, pga, velocity(Peak::Pga))),
-            (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0), velocity(Peak::Pgv))),
+    /// Whether the ground stands still: a peak of 0.
+    pub fn is_still(&self) -> bool {
+        self.pga_m_s2 == Some(0.0) || self.pgv_m_s == Some(0.0)
+    }
+
+    /// Computes the probabilities for an object, averaged over the peak that is not known.
+    pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
+        if self.is_still() {
+            let states = LimitStates::all(Estimate::exact(0.0));
+            return MotionProbabilities { states, errors: Budget::default() };
+        }
+        let (directions, model) = (&subject.directions[..], &subject.directions[0].model);
+        let (mw, magnitude) = magnitude(self.mw);
+        let velocity = self.given().map(|(peak, _)| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
+        let states = |directions: &[Direction], mw: f64, ln: f64| {
+            self.states(directions, velocity.map(|velocity| (velocity, mw, ln)), Scenarios::Many)
         };
-        let states = |directions: &[(Structure, Model)], mw: f64, ln: f64, scenarios: Scenarios| {
-            let Some((peak, intensity, velocity)) = one else {
-                let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                return limit_states_at(directions, peaks, self.mw, scenarios);
-            };
-            let (ratio, mw) = (velocity.at(mw, ln), velocity.magnitude(self.mw, mw));
-            GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
-        };
-        let logits = |directions: &[(Structure, Model)], mw: f64, ln: f64| {
-            let [_, failure, overturning] = states(directions, mw, ln, Scenarios::Many);
-            [failure, overturning].map(|p| logit(p.value))
-        };
-        let [of_one, of_many] =
-            [Scenarios::One, Scenarios::Many].map(|scenarios| states(directions, mw, 0.0, scenarios));
-        let fit = [of_many[1], of_many[2]].map(sd_of_limits);
-        let mut budgets = Budgets::about(logits(directions, mw, 0.0));
-        budgets.add(Part::Fit, fit.map(|sd| [sd, sd]));
+        let many = states(directions, mw, 0.0);
+        let one = self.states(directions, velocity.map(|velocity| (velocity, mw, 0.0)), Scenarios::One);
+        let mut ends: Vec<Unknown<LimitStates<Estimate>>> = Vec::new();
         // Of a motion whose peaks are both known, what magnitude adds is beside tau in its own limits.
-        if let Some((.., velocity)) = one {
+        if let Some(velocity) = velocity {
             if model.depends_on_magnitude() && self.mw.is_none() {
-                budgets.vary(&of_magnitude, |mw| logits(directions, *mw, 0.0));
+                ends.push(magnitude.map(|mw| states(directions, *mw, 0.0)));
             }
-            budgets.vary(&velocity.unknown(), |ln| logits(directions, mw, *ln));
+            ends.push(velocity.unknown().map(|ln| states(directions, mw, *ln)));
         }
-        for unknown in unknowns {
-            budgets.vary(unknown, |directions| logits(directions, mw, 0.0));
-        }
-        let tau = [0, 1].map(|k| (sd_of_limits(of_one[k + 1]).powi(2) - fit[k] * fit[k]).max(0.0).sqrt());
-        let [rocking, failure, overturning] = of_many;
-        let limited = |p: Probability, limits: Limits| match p.value > 0.0 && p.value < 1.0 {
-            true => Probability { low: limits.low, high: limits.high.min(rocking.value), ..p },
-            false => p,
-        };
-        let of_failure = budgets.failure.limits_of_probability(failure.value, tau[0]);
-        let of_overturning = budgets.overturning.limits_of_probability(overturning.value, tau[1]);
-        MotionProbabilities {
-            states: [rocking, limited(failure, of_failure), limited(overturning, of_overturning)],
-            budgets,
+        let unknowns = subject.unknowns.iter();
+        ends.extend(unknowns.map(|unknown| unknown.map(|change| states(&subject.changed(change), mw, 0.0))));
+        let failure = Budget::new(&many, &ends, |states| logit(states.failure.value));
+        let overturning = Budget::new(&many, &ends, |states| logit(states.overturning.value));
+        let rocking = many.rocking;
+        let (failure, _) = limited(many.failure, one.failure, failure, rocking.value);
+        let (overturning, errors) = limited(many.overturning, one.overturning, overturning, rocking.value);
+        MotionProbabilities { states: LimitStates { rocking, failure, overturning }, errors }
+    }
+
+    /// The peak that is given alone, and its value; none where both are given.
+    fn given(&self) -> Option<(Peak, f64)> {
+        match (self.pga_m_s2, self.pgv_m_s) {
+            (Some(_), Some(_)) => None,
+            (Some(pga), None) => Some((Peak::Pga, pga)),
+            (None, pgv) => Some((Peak::Pgv, pgv.unwrap_or(0.0))),
         }
     }
+
+    /// The probabilities in these directions; of one peak with this PGV / PGA, of a magnitude and off by a factor.
+    fn states(
+        &self,
+        directions: &[Direction],
+        velocity: Option<(PgvPgaRatio, f64, f64)>,
+        scenarios: Scenarios,
+    ) -> LimitStates<Estimate> {
+        match self.given().zip(velocity) {
+            None => {
+                let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
+                limit_states_at(directions, peaks, self.mw, scenarios)
+            }
+            Some(((peak, intensity), (velocity, mw, ln))) => {
+                let (ratio, mw) = (velocity.at(mw, ln), velocity.magnitude(self.mw, mw));
+                GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
+            }
+        }
+    }
+}
+
+/// Gives a probability under many motions the limits of one, which are never above the probability of rocking; and adds
+/// the error of the fit to the others.
+fn limited(many: Estimate, one: Estimate, mut errors: Budget, rocking: f64) -> (Estimate, Budget) {
+    let fit = sd_of_limits(many);
+    errors.add(Part::Fit, [fit, fit]);
+    let tau = (sd_of_limits(one).powi(2) - fit * fit).max(0.0).sqrt();
+    if !(many.value > 0.0 && many.value < 1.0) {
+        return (many, errors);
+    }
+    let p = errors.limit_probability(many.value, tau);
+    (Estimate { high: p.high.min(rocking), ..p }, errors)
 }
 
 fn logit(p: f64) -> f64 {
@@ -105,7 +128,7 @@ fn logit(p: f64) -> f64 {
 }
 
 /// The standard deviation of a logit by its 95 % limits.
-fn sd_of_limits(p: Probability) -> f64 {
+fn sd_of_limits(p: Estimate) -> f64 {
     let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
     if sd.is_finite() { sd } else { 0.0 }
 }

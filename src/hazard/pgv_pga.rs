@@ -3,10 +3,10 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use super::budget::{Part, Unknown};
 use super::curve::HazardCurve;
 use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
 use crate::keyword::keywords;
+use crate::object::{Part, Unknown};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::statistics::normal;
 use crate::units::G_M_S2;
@@ -97,7 +97,8 @@ pub enum MatchError {
 /// is not known of it.
 pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
     let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
-    (median, Unknown { part: Part::Magnitude, quantiles: [-Z_95, Z_95].map(|off| median + off * sd) })
+    let (low, high) = (median - Z_95 * sd, median + Z_95 * sd);
+    (median, Unknown { part: Part::Magnitude, low, high })
 }
 
 /// The curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
@@ -188,7 +189,7 @@ impl PgvPgaRatio {
 
     /// Its uncertainty, as ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
-        Unknown { part: Part::Velocity, quantiles: [-Z_95, Z_95].map(|off| off * self.sd) }
+        Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
     /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is known

@@ -2,8 +2,9 @@
 //! times the probabilities of a model.
 
 use super::curve::HazardCurve;
-use crate::fragility::{GivenPeak, Model, Probability, Scenarios, limit_states_at};
-use crate::rocking::Structure;
+use crate::fragility::{Direction, GivenPeak, LimitStates, Scenarios, limit_states_at};
+use crate::number::Limited;
+use crate::statistics::Estimate;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,34 +60,74 @@ pub struct Rate {
     pub beyond: f64,
 }
 
-/// Annual rates of LS1 to LS3 without limits; NaN where the model has no probability.
-pub type Rates = [Rate; 3];
+impl Rate {
+    /// Returns it if no motion above the last intensity causes the event.
+    pub fn least(&self) -> f64 {
+        self.value - self.of_last
+    }
 
-/// Integrates the probabilities given one peak over its hazard curve.
-pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> Rates {
-    let values = |states: [Probability; 3]| states.map(|state| state.value);
-    let states = |intensity| values(given_peak.limit_states(intensity, Scenarios::Many));
-    let sums = curve.mean_annual_rates(&given_peak.jumps(), given_peak.widest_panel(), states);
+    /// Returns it if each motion above the last intensity causes the event.
+    pub fn most(&self) -> f64 {
+        self.value + self.beyond
+    }
+}
+
+/// An annual rate of an object at a site, with 95 % limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnnualRate {
+    /// A value with its limits.
+    Estimate(Estimate),
+    /// Where the hazard ends too early for a value: the lower limit of what it is if no stronger motion than the last
+    /// has the effect, and the upper limit of what it is if each has.
+    #[expect(missing_docs, reason = "the names say it")]
+    Range { low: f64, high: f64 },
+}
+
+impl AnnualRate {
+    /// Returns the value; none of a range.
+    pub fn value(&self) -> Option<f64> {
+        match self {
+            AnnualRate::Estimate(rate) => Some(rate.value),
+            AnnualRate::Range { .. } => None,
+        }
+    }
+}
+
+impl From<AnnualRate> for Limited {
+    fn from(rate: AnnualRate) -> Limited {
+        match rate {
+            AnnualRate::Estimate(rate) => rate.into(),
+            AnnualRate::Range { low, high } => Limited { value: None, low: Some(low), high: Some(high) },
+        }
+    }
+}
+
+/// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
+pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
+    let states = |intensity| given_peak.limit_states(intensity, Scenarios::Many).map(|state| state.value);
+    let (jumps, widest) = (given_peak.jumps(), given_peak.widest_panel());
+    let sums = curve.mean_annual_rates(&jumps, widest, |intensity| states(intensity).into_array());
     let [_, (last, rate_beyond)] = curve.ends();
-    let at_last = states(last);
-    [0, 1, 2].map(|k| Rate {
-        value: sums[k],
-        of_last: at_last[k] * rate_beyond,
-        beyond: (1.0 - at_last[k]).max(0.0) * rate_beyond,
+    LimitStates::from(sums).zip(states(last), |value, at_last| Rate {
+        value,
+        of_last: at_last * rate_beyond,
+        beyond: (1.0 - at_last).max(0.0) * rate_beyond,
     })
 }
 
 /// Sums the probabilities of an object in its directions over bins of PGA and PGV.
 pub(super) fn rates_over_pairs(
-    directions: &[(Structure, Model)],
+    directions: &[Direction],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
-) -> Rates {
+) -> LimitStates<Rate> {
     let states = |bin: &PairOfPeaks| {
         let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many).map(|state| state.value)
+        limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many)
+            .map(|state| state.value)
+            .into_array()
     };
-    mean_annual_rates(bins, states).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
+    LimitStates::from(mean_annual_rates(bins, states)).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
 }
 
 /// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
@@ -95,7 +136,7 @@ pub(super) fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f
     const STEPS: i32 = 100;
     let [(first, _), (last, rate_beyond)] = curve.ends();
     let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));
-    let overturning = |intensity| given_peak.limit_states(intensity, Scenarios::Many)[2].value;
+    let overturning = |intensity| given_peak.limit_states(intensity, Scenarios::Many).overturning.value;
     let step = |k: i32| {
         let middle = (edge(k) * edge(k + 1)).sqrt();
         (middle, overturning(middle) * (curve.exceedance(edge(k)) - curve.exceedance(edge(k + 1))))

@@ -1,14 +1,15 @@
 //! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the ends of
 //! its curve leave open.
 
-use super::budget::{Budget, Budgets, Part, Unknown};
+use super::budget::Budget;
 use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource, magnitude};
-use super::rates::{PairOfPeaks, Rate, Rates, median_intensity, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Cases, GivenPeak, Kind, Model, Peak};
+use super::rates::{AnnualRate, PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
+use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitStates, Peak};
+use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::rocking::{Outcome, Structure};
+use crate::rocking::Outcome;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -32,6 +33,13 @@ pub struct PeakHazard {
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it.
     pub velocity: Option<PgvPgaRatio>,
+}
+
+impl Hazard {
+    /// Makes the hazard of a curve of one peak; PGV / PGA is that of sites in general.
+    pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
+        Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity: None })
+    }
 }
 
 /// Fraction of a rate that stronger motions than the last may add before it is no value.
@@ -66,16 +74,15 @@ pub struct Site {
     pub responses: Vec<Cases>,
 }
 
-/// Annual rates of a structure: of failure (LS2) and of overturning (LS3) a value and its lower and upper 95 %
-/// limit. Where the hazard ends too early for a value, it is none, and the limits are bounds.
+/// Annual rates of an object; none where the model has no probability.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct SiteRates {
-    pub rocking: Option<f64>,
-    pub failure: [Option<f64>; 3],
-    pub overturning: [Option<f64>; 3],
-    /// Standard deviations of ln rate.
-    pub budgets: Budgets,
+    pub rocking: Option<AnnualRate>,
+    pub failure: Option<AnnualRate>,
+    pub overturning: Option<AnnualRate>,
+    /// Standard deviations of ln of the rate of overturning, by what is not known.
+    pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub velocity: Option<VelocitySource>,
     /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
@@ -88,90 +95,108 @@ pub struct SiteRates {
     pub warnings: Vec<Warning>,
 }
 
+/// Rates with all at its median, and with each unknown at its quantiles.
+struct Varied {
+    rates: LimitStates<Rate>,
+    ends: Vec<Unknown<LimitStates<Rate>>>,
+}
+
 impl Site {
-    /// The rates of an object in its directions, of which there is one or more. `unknowns` are its uncertain
-    /// inputs: the same directions with one of them at its quantiles.
-    pub fn rates(
-        &self,
-        directions: &[(Structure, Model)],
-        unknowns: &[Unknown<Vec<(Structure, Model)>>],
-    ) -> SiteRates {
+    /// Makes a site of which only the hazard is known.
+    pub fn new(hazard: Hazard) -> Site {
+        Site { hazard, mw: None, vs30_m_s: None, extrapolate: false, responses: Vec::new() }
+    }
+
+    /// Computes the annual rates of an object, with limits.
+    pub fn rates(&self, subject: &Subject) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(hazard) => self.rates_over_curve(hazard, directions, unknowns),
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
             Hazard::Joint(bins) => {
-                let rates = |directions: &[(Structure, Model)]| rates_over_pairs(directions, self.mw, bins);
-                let value = rates(directions);
-                let mut budgets = Budgets::about(ln_rates(&value));
-                for unknown in parameters(directions).iter().chain(unknowns) {
-                    budgets.vary(unknown, |directions| ln_rates(&rates(directions)));
-                }
+                let rates = |directions: &[Direction]| rates_over_pairs(directions, self.mw, bins);
+                let varied =
+                    Varied { rates: rates(&subject.directions), ends: ends_of_subject(subject, rates) };
                 let strongest = bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
                 let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
-                SiteRates::new(value, budgets, motion, false)
+                varied.with_limits(motion, false)
             }
         }
     }
 
-    fn rates_over_curve(
-        &self,
-        hazard: &PeakHazard,
-        directions: &[(Structure, Model)],
-        unknowns: &[Unknown<Vec<(Structure, Model)>>],
-    ) -> SiteRates {
-        let (peak, model) = (hazard.peak, &directions[0].1);
-        let velocity = hazard.velocity.unwrap_or_else(|| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
-        let (mw, of_magnitude) = magnitude(self.mw);
-        let given = |mw: f64, ln: f64| {
-            let of_motions = velocity.magnitude(self.mw, mw);
-            GivenPeak { directions, peak, ratio: velocity.at(mw, ln), mw: of_motions }
+    /// Computes the annual rate of overturning alone; none where the hazard ends too early for it.
+    pub fn overturning(&self, subject: &Subject) -> Option<f64> {
+        let rate = match &self.hazard {
+            Hazard::Joint(bins) => rates_over_pairs(&subject.directions, self.mw, bins).overturning.value,
+            Hazard::Curve(hazard) => {
+                let given = self.motions(hazard, subject).given(&subject.directions, 0.0, None);
+                let rate = rates_over_curve(&given, &hazard.curve).overturning;
+                match (ends_early(hazard, &rate), self.extrapolate) {
+                    (false, _) => rate.value,
+                    (true, false) => return None,
+                    (true, true) => rates_over_curve(&given, &hazard.curve.extrapolated()).overturning.value,
+                }
+            }
         };
-        let middle = given(mw, 0.0);
+        Some(rate).filter(|rate| !rate.is_nan())
+    }
+
+    /// The motions of a curve of one peak, with all that is not given of them at its median.
+    fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
+        let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
+        let velocity = hazard.velocity.unwrap_or_else(of_model);
+        let (median, unknown) = magnitude(self.mw);
+        Motions { peak: hazard.peak, velocity, given: self.mw, median, unknown }
+    }
+
+    fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
+        let (directions, motions) = (&subject.directions[..], self.motions(hazard, subject));
+        let middle = motions.given(directions, 0.0, None);
         let as_given = rates_over_curve(&middle, &hazard.curve);
-        let [(first, _), (last, _)] = hazard.curve.ends();
-        let ends_early = last < strongest(peak) && as_given[2].beyond > NEGLIGIBLE * as_given[2].value;
+        let ends_early = ends_early(hazard, &as_given.overturning);
         let is_extrapolated = ends_early && self.extrapolate;
-        let extended =
-            |curve: &HazardCurve| if is_extrapolated { curve.extrapolated() } else { curve.clone() };
-        let curve = extended(&hazard.curve);
+        let [curve, low, high] = match &hazard.fractiles {
+            Some([low, high]) => [&hazard.curve, low, high],
+            None => [&hazard.curve; 3],
+        }
+        .map(|curve| if is_extrapolated { curve.extrapolated() } else { curve.clone() });
         let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
 
-        let mut budgets = Budgets::about(ln_rates(&rates));
-        let of = |given: &GivenPeak, curve: &HazardCurve| ln_rates(&rates_over_curve(given, curve));
-        if model.depends_on_magnitude() && middle.mw.is_some() {
-            budgets.vary(&of_magnitude, |mw| of(&given(*mw, 0.0), &curve));
+        let mut ends = Vec::new();
+        if directions[0].model.depends_on_magnitude() && middle.mw.is_some() {
+            let at = |mw: &f64| rates_over_curve(&motions.given(directions, 0.0, Some(*mw)), &curve);
+            ends.push(motions.unknown.map(at));
         }
-        budgets.vary(&velocity.unknown(), |ln| of(&given(mw, *ln), &curve));
-        for unknown in parameters(directions).iter().chain(unknowns) {
-            budgets.vary(unknown, |directions| of(&GivenPeak { directions, ..middle }, &curve));
-        }
-        if let Some(fractiles) = &hazard.fractiles {
-            let fractiles = Unknown { part: Part::Hazard, quantiles: fractiles.each_ref().map(extended) };
-            budgets.vary(&fractiles, |curve| of(&middle, curve));
+        let velocity = motions.velocity.unknown();
+        ends.push(velocity.map(|ln| rates_over_curve(&motions.given(directions, *ln, None), &curve)));
+        ends.extend(ends_of_subject(subject, |directions| {
+            rates_over_curve(&motions.given(directions, 0.0, None), &curve)
+        }));
+        if hazard.fractiles.is_some() {
+            let fractiles = Unknown { part: Part::Hazard, low, high };
+            ends.push(fractiles.map(|curve| rates_over_curve(&middle, curve)));
         }
 
         let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
+        let [(first, _), _] = hazard.curve.ends();
         let warnings = [
             is_extrapolated.then_some(Warning::HazardExtrapolated),
             (ends_early && !is_extrapolated).then_some(Warning::HazardEndsEarly),
             (first > middle.uplift()[1]).then_some(Warning::HazardStartsLate),
         ];
+        let share_beyond = 1.0 - as_given.overturning.least() / rates.overturning.value;
         SiteRates {
-            velocity: Some(velocity.source),
-            beyond: is_extrapolated.then(|| 1.0 - (as_given[2].value - as_given[2].of_last) / rates[2].value),
+            velocity: Some(motions.velocity.source),
+            beyond: is_extrapolated.then_some(share_beyond),
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().flatten().collect(),
-            ..SiteRates::new(rates, budgets, motion, ends_early && !is_extrapolated)
+            ..Varied { rates, ends }.with_limits(motion, ends_early && !is_extrapolated)
         }
     }
 
     /// The rate of overturning, counted among the responses of this structure to this kind of motion.
     fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
         let kind_of = |suite: &Option<String>| Kind::of_word(suite.as_deref());
-        let [(structure, model)] = given.directions else { return None };
-        let kind = match model {
-            Model::Calibrated { overturning, .. } => overturning.kind,
-            Model::Paper { overturning, .. } => kind_of(&overturning.suite),
-        };
+        let [Direction { structure, model }] = given.directions else { return None };
+        let kind = model.kind();
         let is_same = |cases: &&Cases| kind_of(&cases.suite) == kind && structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
         let motion = |case: usize| CountedMotion {
@@ -189,25 +214,41 @@ impl Site {
     }
 }
 
-impl SiteRates {
-    /// Of the rates of the limit states; `ends_early` where the hazard does so for values.
-    fn new(rates: Rates, budgets: Budgets, motion: [f64; 2], ends_early: bool) -> SiteRates {
-        let [rocking, failure, overturning] = rates;
-        let known = |rate: f64| Some(rate).filter(|rate| !rate.is_nan());
-        let limited = |rate: Rate, budget: &Budget| match ends_early {
-            // No stronger motion has the effect, or each has.
-            true => [None, known(rate.value - rate.of_last), known(rate.value + rate.beyond)],
-            false => {
-                let limits = budget.limits_of_rate(rate.value, rocking.value);
-                [known(rate.value), known(limits.low), known(limits.high)]
-            }
-        };
-        let is_rocking_known = !ends_early || rocking.beyond <= NEGLIGIBLE * rocking.value;
+/// Whether a curve ends too early for a rate.
+fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
+    let [_, (last, _)] = hazard.curve.ends();
+    last < strongest(hazard.peak) && rate.beyond > NEGLIGIBLE * rate.value
+}
+
+/// The motions of a curve of one peak.
+struct Motions {
+    peak: Peak,
+    velocity: PgvPgaRatio,
+    /// The mean magnitude, if it is given; its median, and what is not known of it.
+    given: Option<f64>,
+    median: f64,
+    unknown: Unknown<f64>,
+}
+
+impl Motions {
+    /// The motions with this error of ln(PGV / PGA), of this magnitude or the median one.
+    fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
+        let mw = mw.unwrap_or(self.median);
+        let known = self.velocity.magnitude(self.given, mw);
+        GivenPeak { directions, peak: self.peak, ratio: self.velocity.at(mw, ln), mw: known }
+    }
+}
+
+impl Varied {
+    /// Gives the rates their limits; `ends_early` where the hazard does so for values.
+    fn with_limits(&self, motion: [f64; 2], ends_early: bool) -> SiteRates {
+        let LimitStates { rocking, failure, overturning } = &self.rates;
+        let is_rocking_early = ends_early && rocking.beyond > NEGLIGIBLE * rocking.value;
         SiteRates {
-            rocking: known(rocking.value).filter(|_| is_rocking_known),
-            failure: limited(failure, &budgets.failure),
-            overturning: limited(overturning, &budgets.overturning),
-            budgets,
+            rocking: self.limited(rocking, |rates| &rates.rocking, is_rocking_early),
+            failure: self.limited(failure, |rates| &rates.failure, ends_early),
+            overturning: self.limited(overturning, |rates| &rates.overturning, ends_early),
+            errors: self.budget(|rates| rates.overturning.value),
             velocity: None,
             beyond: None,
             counted: None,
@@ -215,22 +256,40 @@ impl SiteRates {
             warnings: Vec::new(),
         }
     }
+
+    /// Gives one rate its limits. Where the hazard ends too early, either no stronger motion than its last has the
+    /// effect, or each: the rate lies within the lower limit of the one and the upper limit of the other.
+    fn limited(
+        &self,
+        rate: &Rate,
+        of: fn(&LimitStates<Rate>) -> &Rate,
+        ends_early: bool,
+    ) -> Option<AnnualRate> {
+        if rate.value.is_nan() {
+            return None;
+        }
+        let most = self.rates.rocking.value + if ends_early { self.rates.rocking.beyond } else { 0.0 };
+        Some(match ends_early {
+            false => AnnualRate::Estimate(self.budget(|rates| of(rates).value).limit_rate(rate.value, most)),
+            true => AnnualRate::Range {
+                low: self.budget(|rates| of(rates).least()).limit_rate(rate.least(), most).low,
+                high: self.budget(|rates| of(rates).most()).limit_rate(rate.most(), most).high,
+            },
+        })
+    }
+
+    /// The standard deviations of ln of a rate.
+    fn budget(&self, rate: impl Fn(&LimitStates<Rate>) -> f64) -> Budget {
+        Budget::new(&self.rates, &self.ends, |rates| rate(rates).max(LEAST).ln())
+    }
 }
 
-/// ln of the rates of failure and of overturning.
-fn ln_rates(rates: &Rates) -> [f64; 2] {
-    [rates[1], rates[2]].map(|rate| rate.value.max(LEAST).ln())
-}
-
-/// What is not known of the models: the same error moves both directions.
-fn parameters(directions: &[(Structure, Model)]) -> Vec<Unknown<Vec<(Structure, Model)>>> {
-    let ends: Vec<Vec<[Model; 2]>> = directions.iter().map(|(_, model)| model.ends()).collect();
-    let at = |error: usize, end: usize| {
-        let models = directions.iter().zip(&ends);
-        models.map(|((structure, _), ends)| (structure.clone(), ends[error][end].clone())).collect()
-    };
-    let fewest = ends.iter().map(Vec::len).min().unwrap_or(0);
-    (0..fewest)
-        .map(|error| Unknown { part: Part::Fit, quantiles: [0, 1].map(|end| at(error, end)) })
-        .collect()
+/// Computes rates with each unknown of an object, and each error of its models, at its quantiles.
+fn ends_of_subject(
+    subject: &Subject,
+    rates: impl Fn(&[Direction]) -> LimitStates<Rate>,
+) -> Vec<Unknown<LimitStates<Rate>>> {
+    let model_errors = subject.model_errors();
+    let all = model_errors.iter().chain(&subject.unknowns);
+    all.map(|unknown| unknown.map(|change| rates(&subject.changed(change)))).collect()
 }

@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, words_of};
-use super::shared::objects::StructureArgs;
+use super::shared::objects::{StructureArgs, named};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
-use crate::export::{discrete, levels, metadata, own_id, parameters, whole_curve_end};
-use crate::fragility::{GivenPeak, Peak, Scenarios};
+use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
+use crate::fragility::{GivenPeak, LimitStates, Peak, Scenarios};
 use crate::hazard::{PgvPgaRatio, magnitude, strongest};
+use crate::inputs::Renames;
 use crate::keyword::keywords;
+use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::{Stage, UsageError};
-use crate::rocking::Structure;
 use crate::table::writer::write_file;
+use crate::warning::Warnings;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args)]
@@ -58,30 +60,27 @@ impl Stage for Export {
             let out = out.display();
             return Err(UsageError::because(format!("out is {out}; expected a name that ends in .{ending}")));
         }
-        self.structures.resolve().map(|_| ())
+        self.objects().map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, warnings) = self.structures.resolve()?;
-        context.warn(warnings);
         let models = self.model.read()?;
-        let (mut functions, mut description) = (Vec::new(), String::new());
-        let bar = context.bar(structures.len());
-        for structure in &structures {
+        let (objects, unused) = self.objects()?;
+        context.warn(unused);
+        let names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
+        let ids = distinct_ids(&names);
+        let bar = context.bar(objects.len());
+        let functions = objects.iter().zip(&ids).map(|(object, id)| {
             bar.advance(1)?;
-            let (model, warnings) = models.model(structure)?;
-            context.warn(warnings.into_iter().map(|warning| (warning, structure.name.clone())).collect());
-            let (velocity, median) = (PgvPgaRatio::of_model(&model, self.im, None), magnitude(None).0);
-            let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
-            let directions = [(structure.clone(), model.clone())];
-            let given_peak = GivenPeak { directions: &directions, peak: self.im, ratio, mw };
-            functions.push(self.function(structure, &given_peak));
-            description = words_of(&model);
-        }
+            let (subject, warnings) = models.subject(object)?;
+            let warnings = warnings.into_iter().chain(subject.structure_warnings());
+            context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
+            Ok(self.function(id, object, &subject))
+        });
+        let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
-            id: own_id(&structures[0].name),
-            description,
+            id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
         };
         let files = self.outputs();
@@ -107,11 +106,29 @@ impl Export {
         }
     }
 
-    /// The probabilities of a structure as a table, from uplift to where all are 1 or nothing was ever
-    /// recorded.
-    fn function(&self, structure: &Structure, given_peak: &GivenPeak) -> Function {
+    /// Reads the objects, each of which must rock, on the ground.
+    fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
+        let (objects, unused) = self.structures.objects(&Place::default(), &mut Renames::new(&[]))?;
+        for object in &objects {
+            object.sides().map_err(|reason| named(object, &reason))?;
+            if object.place.floor().is_ok_and(|floor| floor.is_some()) {
+                let problem = "stands on a floor; expected an object on the ground, without level and period";
+                return Err(named(object, &problem));
+            }
+        }
+        Ok((objects, unused))
+    }
+
+    /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1 or nothing
+    /// was ever recorded.
+    fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
+        let model = &subject.directions[0].model;
+        let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None).0);
+        let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
+        let given_peak = GivenPeak { directions: &subject.directions, peak: self.im, ratio, mw };
         let reaching = |intensity: f64| {
-            given_peak.limit_states(intensity, Scenarios::One).map(|state| state.value.clamp(0.0, 1.0))
+            let states = given_peak.limit_states(intensity, Scenarios::One);
+            states.map(|state| state.value.clamp(0.0, 1.0)).into_array()
         };
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let [uplift, _] = given_peak.uplift();
@@ -122,13 +139,15 @@ impl Export {
         let levels = levels(&edges, tolerance, reaching);
         // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has
         // been.
-        let mut most = [0.0_f64; 3];
+        let mut most = LimitStates::all(0.0_f64);
         let held = |&level: &f64| {
-            most.iter_mut().zip(reaching(level)).for_each(|(most, p)| *most = most.max(p));
+            most = most.zip(reaching(level).into(), f64::max);
             most
         };
+        let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
         Function {
-            id: format!("{}_{}", own_id(&structure.name), self.im),
+            id: format!("{id}_{}", self.im),
+            description: format!("{}{directions}, by {}", object.name, words_of(model)),
             peak: self.im,
             probabilities: levels.iter().map(held).collect(),
             range_of_data: [uplift, end],

@@ -81,7 +81,7 @@ fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
     let line = |fit: &CurveFit| {
         let parameters = fit.parameters(confidence);
         let of = |wanted: Parameter| match parameters.iter().find(|row| row.parameter == wanted) {
-            Some(row) => THREE_DIGITS.both([row.value, row.low, row.high].map(Some), ""),
+            Some(row) => THREE_DIGITS.both(row.estimate().into(), ""),
             None => "-".to_string(),
         };
         let (median, dispersion) = (of(Parameter::Theta), of(Parameter::Beta));

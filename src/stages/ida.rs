@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, expect_distinct, warnings};
 use super::shared::objects::StructureArgs;
-use crate::fragility::{CapacityFit, Cluster, KnownCapacity, fit_capacities, grouped};
+use crate::fragility::{Cluster, KnownCapacity, fit_capacities, grouped};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::number::{Limited, THREE_DIGITS, counted, fixed, name, significant};
@@ -293,9 +293,6 @@ impl Ida {
         };
         let clusters = clusters(&rows);
         let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
-        let of = |limited: fn(&CapacityFit) -> [f64; 3]| {
-            fit.as_ref().map_or([None; 3], |fit| limited(fit).map(Some))
-        };
         let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
         CapacityFitRow {
             suite: rows[0].suite.clone(),
@@ -305,8 +302,8 @@ impl Ida {
             n_safe: count(CapacityStatus::Safe),
             n_below: count(CapacityStatus::Below),
             half_overturn_at: None,
-            theta: of(|fit| [fit.theta, fit.theta_low, fit.theta_high]),
-            beta: of(|fit| [fit.beta, fit.beta_low, fit.beta_high]),
+            theta: fit.as_ref().map(|fit| fit.theta.into()).unwrap_or_default(),
+            beta: fit.as_ref().map(|fit| fit.beta.into()).unwrap_or_default(),
             status: fit.err().unwrap_or(FitStatus::Ok),
         }
     }
@@ -416,7 +413,7 @@ fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
 /// Of the structures that half of the motions or more do not overturn, or overturn at the first intensity, so
 /// that there is no median.
 fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
-    let early = fits.iter().filter(|row| row.theta[0].is_none() && 2 * row.n_safe >= row.n);
+    let early = fits.iter().filter(|row| row.theta.value.is_none() && 2 * row.n_safe >= row.n);
     let late = fits.iter().filter(|row| 2 * row.n_below >= row.n);
     let late = late.map(|row| (Warning::ScanStartsLate, row.structure.clone()));
     early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
@@ -427,7 +424,8 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {
-        let weakness = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta[0]).unwrap_or(f64::INFINITY);
+        let weakness =
+            |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
         fits.sort_by(|a, b| weakness(a).total_cmp(&weakness(b)));
     }
     first_lines(&fits.iter().map(|row| line(row)).collect::<String>(), 0, out)
@@ -446,7 +444,7 @@ fn line(row: &CapacityFitRow) -> String {
             format!("{} of {motions} never overturn it, half of them at no intensity", row.n_safe)
         }
     };
-    let lowest = row.theta[0].zip(row.beta[0]).map_or(String::new(), |(theta, beta)| {
+    let lowest = row.theta.value.zip(row.beta.value).map_or(String::new(), |(theta, beta)| {
         let limits = THREE_DIGITS.limits(row.theta, "95 % limits ");
         let (theta, beta) = (significant(theta, 3), fixed(beta, 2));
         format!("; lowest that overturns, median {theta}{unit} {limits}, dispersion {beta}")

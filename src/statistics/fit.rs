@@ -34,39 +34,6 @@ impl FitStatus {
 /// Largest p-value of a poor fit.
 const POOR_FIT: f64 = 0.01;
 
-/// Confidence limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Limits {
-    pub low: f64,
-    pub high: f64,
-}
-
-/// A value with its standard error and confidence limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Estimate {
-    pub value: f64,
-    pub standard_error: f64,
-    pub low: f64,
-    pub high: f64,
-}
-
-impl Estimate {
-    /// Makes an estimate with limits `quantile` standard errors away.
-    pub fn new(value: f64, standard_error: f64, quantile: f64) -> Estimate {
-        let half_width = quantile * standard_error;
-        Estimate { value, standard_error, low: value - half_width, high: value + half_width }
-    }
-
-    /// Computes the exponential: standard error by the delta method, limits transformed.
-    pub fn exp(self) -> Estimate {
-        let value = self.value.exp();
-        let standard_error = value * self.standard_error;
-        Estimate { value, standard_error, low: self.low.exp(), high: self.high.exp() }
-    }
-}
-
 /// A linear predictor z = b0 + b1 x1 + ..., by least squares or maximum likelihood.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {

@@ -3,6 +3,7 @@
 //! ```text
 //! linear         least squares (Eqs. 16 and 17)
 //! binary         probit regression by maximum likelihood (Eqs. 19 to 22)
+//! estimate       a value with limits
 //! fit            coefficients, covariance and status of a regression
 //! design         design matrix
 //! newton         maximum of a log-likelihood
@@ -17,6 +18,7 @@ mod binary;
 pub mod clusters;
 mod design;
 pub mod distributions;
+mod estimate;
 mod fit;
 mod linear;
 #[doc(hidden)]
@@ -28,5 +30,6 @@ pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::Folds;
-pub use fit::{Estimate, Fit, FitStatus, Limits, independent_errors, predict, variance};
+pub use estimate::Estimate;
+pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};

@@ -11,4 +11,4 @@ mod ranking;
 mod validation;
 
 pub use ranking::{Form, RankedSet, Ranking, RankingRules, Target, rank_measures};
-pub use validation::{Forecasts, ReliabilityBin, Validation, wilson_limits};
+pub use validation::{Forecasts, ReliabilityBin, Validation, observed_share};

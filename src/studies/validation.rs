@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::fragility::{Event, Z_95};
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::scores::{auc, brier_score, log_score};
-use crate::statistics::{Limits, normal, tested_probit};
+use crate::statistics::{Estimate, normal, tested_probit};
 
 /// Groups of rising probability in a reliability curve.
 const BINS: usize = 10;
@@ -110,16 +110,16 @@ impl Forecasts<'_> {
         let bin = |cases: &[usize]| {
             let n = cases.len();
             let observed = cases.iter().filter(|&&case| happened[case]).count();
-            let Limits { low, high } = wilson_limits(observed, n);
+            let share = observed_share(observed, n);
             ReliabilityBin {
                 suite: self.suite.map(str::to_string),
                 structure: self.structure.to_string(),
                 event: self.event,
                 model: self.model.to_string(),
                 predicted: cases.iter().map(|&case| probabilities[case]).sum::<f64>() / n as f64,
-                share: observed as f64 / n as f64,
-                share_low: low,
-                share_high: high,
+                share: share.value,
+                share_low: share.low,
+                share_high: share.high,
                 n: n as i64,
                 observed: observed as i64,
             }
@@ -130,11 +130,15 @@ impl Forecasts<'_> {
     }
 }
 
-/// Computes the 95 % limits of a probability of which `observed` of `n` independent cases tell (Wilson 1927,
-/// Journal of the American Statistical Association 22, 209-212).
-pub fn wilson_limits(observed: usize, n: usize) -> Limits {
+/// Estimates the probability of what happened in `observed` of `n` independent cases: their share, with 95 % limits
+/// (Wilson 1927, Journal of the American Statistical Association 22, 209-212).
+pub fn observed_share(observed: usize, n: usize) -> Estimate {
     let (n, share) = (n as f64, observed as f64 / n as f64);
     let (middle, width) = (share + Z_95 * Z_95 / (2.0 * n), 1.0 + Z_95 * Z_95 / n);
     let half = Z_95 * (share * (1.0 - share) / n + (Z_95 / (2.0 * n)).powi(2)).sqrt();
-    Limits { low: ((middle - half) / width).max(0.0), high: ((middle + half) / width).min(1.0) }
+    Estimate {
+        value: share,
+        low: ((middle - half) / width).max(0.0),
+        high: ((middle + half) / width).min(1.0),
+    }
 }

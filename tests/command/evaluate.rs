@@ -1,6 +1,8 @@
 //! evaluate, export and validate as users run them: numbers against closed forms, lists, hazards that end
 //! early, slips.
 
+use std::path::Path;
+
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
 use rockfrag::warning::Warning;
@@ -93,7 +95,11 @@ fn a_hazard_that_ends_early_gives_bounds_which_hold_what_a_longer_one_gives() {
     let truth = number(&long, "overturning_per_year");
     assert!(number(&short, "overturning_per_year_low") < truth);
     assert!(number(&short, "overturning_per_year_high") > truth);
+    assert_eq!([&long, &short].map(|row| row["is_range"].as_bool()), [Some(false), Some(true)]);
     let extrapolated = evaluate("--hazard short.csv --extrapolate");
+    // A range has the errors of the model, too: it holds the limits of what the curve may go on like.
+    assert!(number(&short, "p_overturning_low") < number(&extrapolated, "p_overturning_low"));
+    assert!(number(&short, "p_overturning_high") > number(&extrapolated, "p_overturning_high"));
     assert!(has(&extrapolated, Warning::HazardExtrapolated) && !has(&extrapolated, Warning::HazardEndsEarly));
     assert!(near(number(&extrapolated, "overturning_per_year"), truth, 0.01), "the slope is the same");
     let far = evaluate("--hazard far.csv");
@@ -190,22 +196,66 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
 #[test]
 fn an_exported_curve_is_that_of_evaluate_and_rises() {
     let folder = folder(&[]);
-    succeed(folder.path(), &format!("export --to openquake {BLOCK}"));
-    let xml = std::fs::read_to_string(folder.path().join("fragility.xml")).unwrap();
+    for object in [BLOCK.to_string(), "--width 0.5 --depth 0.5 --height 1.9".to_string()] {
+        expect_exported(folder.path(), &object);
+    }
+}
+
+/// Exports an object for OpenQuake, and compares the table with rates over hazards of one PGA.
+#[track_caller]
+fn expect_exported(folder: &Path, object: &str) {
+    succeed(folder, &format!("export --to openquake {object} --force"));
+    let xml = std::fs::read_to_string(folder.join("fragility.xml")).unwrap();
     let numbers = |opening: &str| -> Vec<f64> {
         let text = xml.split_once(opening).unwrap().1.split_once('>').unwrap().1.split_once('<').unwrap().0;
         text.split(' ').map(|number| number.parse().unwrap()).collect()
     };
     let (levels, p) = (numbers("<imls"), numbers("<poes ls=\"LS3\""));
-    assert!((levels[0] - 0.25).abs() < 1e-9 && levels.is_sorted() && p.is_sorted());
+    assert!((0.25..0.27).contains(&(levels[0] + 1e-9)) && levels.is_sorted() && p.is_sorted());
     for at in [levels.len() / 4, levels.len() / 2] {
         // A hazard of this PGA alone.
         let rate = |k: i32| 1e-5 * 10f64.powi(-3 * k);
         let line = |k: i32| format!("{},{}\n", levels[at] * (1.0 + 1e-9 * f64::from(k)), rate(k));
         let curve = (0..5).map(line).collect::<String>();
         let curve = format!("pga_g,annual_rate_of_exceedance\n{curve}");
-        std::fs::write(folder.path().join("one.csv"), curve).unwrap();
-        let row = &evaluated(folder.path(), &format!("{BLOCK} --hazard one.csv"))[0];
+        std::fs::write(folder.join("one.csv"), curve).unwrap();
+        let row = &evaluated(folder, &format!("{object} --hazard one.csv"))[0];
         assert!((1e5 * number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
+    }
+}
+
+#[test]
+fn an_export_names_each_structure_once_with_its_own_description() {
+    let list = "name,width,height\na b,0.5,1.9\na-b,0.6,1.9\n\u{8868},0.7,1.9\n\u{67b6},0.8,1.9\n";
+    let folder = folder(&[("list.csv", list)]);
+    succeed(folder.path(), "export --to openquake --structures list.csv");
+    let xml = std::fs::read_to_string(folder.path().join("fragility.xml")).unwrap();
+    let mut ids: Vec<&str> =
+        xml.split("<fragilityFunction id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    assert_eq!(ids.len(), 4);
+    assert!(ids.iter().all(|id| xml.matches(&format!("{id}: ")).count() == 1), "each is described: {xml}");
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), 4, "{ids:?}");
+    succeed(folder.path(), "export --to pelicun --structures list.csv");
+    let json = std::fs::read_to_string(folder.path().join("fragility.json")).unwrap();
+    let all: Value = serde_json::from_str(&json).unwrap();
+    for name in ["a b,", "a-b,", "\u{8868},", "\u{67b6},"] {
+        let is_its = |id: &&&str| all[**id]["Description"].as_str().unwrap().starts_with(name);
+        assert_eq!(ids.iter().filter(is_its).count(), 1, "{name} {json}");
+    }
+}
+
+#[test]
+fn nothing_rocks_where_nothing_moves() {
+    let folder = folder(&[("still.csv", "pga_g,pgv_m_s\n0,0\n")]);
+    for motion in
+        ["--pgv 0", "--pga 0", "--pga 0 --pgv 0", "--pga 0 --pgv 0 --period 0.5 --level 1", "--in still.csv"]
+    {
+        let row = &evaluated(folder.path(), &format!("{BLOCK} {motion}"))[0];
+        assert_eq!((number(row, "p_nr"), number(row, "p_f")), (1.0, 0.0), "{motion}: {row}");
+        assert!(row["p_ro"].is_null(), "nothing is given rocking");
+        let (text, _) = succeed(folder.path(), &format!("evaluate {BLOCK} {motion}"));
+        assert!(!text.contains("NaN") && !text.contains(" - %"), "{text}");
     }
 }

@@ -160,6 +160,27 @@ fn slips_are_named() {
 }
 
 #[test]
+fn where_the_depth_is_too_small_both_sides_meet_the_target() {
+    let answer = row("--width 0.5 --depth 0.4 --height 1.9 --target 0.5%");
+    assert!(answer["target_width_m"].is_null());
+    for (side, of) in [("target_sides_m", "p_overturning"), ("target_sides_m_high", "p_overturning_high")] {
+        let side = number(&answer, side);
+        let p = number(&row(&format!("--width {side} --depth {side} --height 1.9")), of);
+        assert!(near(p, 0.005, 0.01), "{of} {p} at {side}");
+    }
+    // Where the width is enough, the depth stays.
+    let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
+    assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
+}
+
+#[test]
+fn an_object_whose_rate_is_a_range_counts_among_those_of_its_list() {
+    let folder = folder(&[("list.csv", "name,width,height\na,0.5,1.9\nb,0.9,1.4\n")]);
+    let (text, _) = succeed(folder.path(), &format!("evaluate --structures list.csv {HAZARD}"));
+    assert!(text.contains(" of 2"), "{text}");
+}
+
+#[test]
 fn what_is_squat_or_has_too_little_friction_slides() {
     let list = "name,width,height,friction\na,0.8,2.2,0.3\nb,0.8,2.2,0.6\nc,0.8,2.2,\n";
     let folder = folder(&[("list.csv", list)]);

@@ -125,8 +125,8 @@ fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
         rows::read(&folder.path().join("ida.fragility.parquet")).unwrap().remove(0)
     };
     let (alone, clustered) = (fit(false), fit(true));
-    assert_eq!(alone.theta[0], clustered.theta[0]);
-    let width = |fit: &CapacityFitRow| (fit.theta[2].unwrap() / fit.theta[1].unwrap()).ln();
+    assert_eq!(alone.theta.value, clustered.theta.value);
+    let width = |fit: &CapacityFitRow| (fit.theta.high.unwrap() / fit.theta.low.unwrap()).ln();
     assert!(width(&clustered) > 1.3 * width(&alone), "{clustered:?} {alone:?}");
     // The share of the stripes that overturns passes one half there.
     let table = Table::open(&folder.path().join("ida.stripes.parquet")).unwrap();

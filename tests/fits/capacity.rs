@@ -17,11 +17,11 @@ fn a_capacity_that_comes_twice_in_a_cluster_counts_once() {
     let once: Vec<KnownCapacity> = (1..=20).map(|k| KnownCapacity::At(1.1_f64.powi(k * k % 17))).collect();
     let twice: Vec<KnownCapacity> = once.iter().flat_map(|&capacity| [capacity; 2]).collect();
     let clusters: Vec<u32> = (0..40).map(|k| k / 2).collect();
-    let width = |fit: CapacityFit| (fit.theta_high / fit.theta_low).ln();
+    let width = |fit: CapacityFit| (fit.theta.high / fit.theta.low).ln();
     let (alone, of_pairs) =
         (fit_capacities(&twice).unwrap(), rockfrag::fragility::fit_capacities(&twice, &clusters).unwrap());
     close(width(of_pairs) / width(alone), (2.0_f64 * (20.0 / 19.0) * (39.0 / 40.0)).sqrt(), 1e-12);
-    close(of_pairs.theta, fit_capacities(&once).unwrap().theta, 1e-12);
+    close(of_pairs.theta.value, fit_capacities(&once).unwrap().theta.value, 1e-12);
 }
 
 #[test]
@@ -30,12 +30,12 @@ fn limits_of_known_capacities_are_scipys() {
         let (_, [theta, theta_low, theta_high, beta, beta_low, beta_high], capacities) = row;
         let known = capacities.split(' ').map(|text| KnownCapacity::At(text.parse().unwrap()));
         let fit = fit_capacities(&known.collect::<Vec<_>>()).unwrap();
-        close(fit.theta, theta, 1e-12);
-        close(fit.beta, beta, 1e-12);
-        close(fit.theta_low, theta_low, 1e-10);
-        close(fit.theta_high, theta_high, 1e-10);
-        close(fit.beta_low, beta_low, 1e-10);
-        close(fit.beta_high, beta_high, 1e-10);
+        close(fit.theta.value, theta, 1e-12);
+        close(fit.beta.value, beta, 1e-12);
+        close(fit.theta.low, theta_low, 1e-10);
+        close(fit.theta.high, theta_high, 1e-10);
+        close(fit.beta.low, beta_low, 1e-10);
+        close(fit.beta.high, beta_high, 1e-10);
     }
 }
 
@@ -51,8 +51,8 @@ fn limits_of_thirteen_capacities_hold_the_truth_in_19_of_20_samples() {
         };
         let sample: Vec<KnownCapacity> = (0..13).map(|_| draw()).collect();
         let fit = fit_capacities(&sample).unwrap();
-        of_theta += u32::from((fit.theta_low..=fit.theta_high).contains(&1.0));
-        of_beta += u32::from((fit.beta_low..=fit.beta_high).contains(&0.4));
+        of_theta += u32::from((fit.theta.low..=fit.theta.high).contains(&1.0));
+        of_beta += u32::from((fit.beta.low..=fit.beta.high).contains(&0.4));
     }
     for held in [of_theta, of_beta] {
         let share = f64::from(held) / SAMPLES as f64;

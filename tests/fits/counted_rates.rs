@@ -27,8 +27,8 @@ fn counted(least: f64, motions: Vec<CountedMotion>) -> CountedRate {
 fn an_event_that_does_not_know_the_intensity_has_its_share_of_the_hazard() {
     let count = counted(0.3, motions(6400, 0.3, |k, _| k % 4 == 1));
     let expected = 0.25 * 1e-3 * 0.3f64.powf(-2.5);
-    assert!((count.value / expected - 1.0).abs() < 1e-9, "{count:?}");
-    assert!(count.limits.low < expected && expected < count.limits.high);
+    assert!((count.annual_rate.value / expected - 1.0).abs() < 1e-9, "{count:?}");
+    assert!(count.annual_rate.low < expected && expected < count.annual_rate.high);
 }
 
 #[test]
@@ -36,7 +36,7 @@ fn an_event_from_an_intensity_on_has_the_rate_at_which_it_is_exceeded() {
     // A bin holds a third of a percent of the motions, 0.7 % of the intensity.
     let count = counted(0.3, motions(6400, 0.3, |_, im| im >= 0.8));
     let expected = 1e-3 * 0.8f64.powf(-2.5);
-    assert!((count.value / expected - 1.0).abs() < 0.02, "{count:?}");
+    assert!((count.annual_rate.value / expected - 1.0).abs() < 0.02, "{count:?}");
 }
 
 #[test]
@@ -44,8 +44,8 @@ fn no_event_says_an_upper_limit() {
     // All motions are in one bin, of which 0 of n happened: 3.69 / n of its rate (Poisson).
     let rate = counted(0.3, motions(19, 0.3, |_, _| false));
     let expected = 0.5 * 7.377_759 / 19.0 * 1e-3 * 0.3f64.powf(-2.5);
-    assert_eq!((rate.value, rate.limits.low), (0.0, 0.0));
-    assert!((rate.limits.high / expected - 1.0).abs() < 0.01, "{rate:?} for {expected}");
+    assert_eq!((rate.annual_rate.value, rate.annual_rate.low), (0.0, 0.0));
+    assert!((rate.annual_rate.high / expected - 1.0).abs() < 0.01, "{rate:?} for {expected}");
 }
 
 #[test]
@@ -64,8 +64,8 @@ fn numpy_and_scipy_count_the_same() {
     let motion = |(intensity, cluster, event)| CountedMotion { intensity, event: event == 1, cluster };
     let rate = counted(0.3, motions.map(motion).collect());
     let [value, drawn_low, drawn_high, low, high] = read::<[f64; 5]>("counted_answers.csv")[0];
-    assert!((rate.value / value - 1.0).abs() < 1e-9, "{rate:?} for {value}");
+    assert!((rate.annual_rate.value / value - 1.0).abs() < 1e-9, "{rate:?} for {value}");
     // Of 500 resamples for 20,000.
-    assert!((rate.limits.low / drawn_low.min(low) - 1.0).abs() < 0.1, "{rate:?}");
-    assert!((rate.limits.high / drawn_high.max(high) - 1.0).abs() < 0.1, "{rate:?}");
+    assert!((rate.annual_rate.low / drawn_low.min(low) - 1.0).abs() < 0.1, "{rate:?}");
+    assert!((rate.annual_rate.high / drawn_high.max(high) - 1.0).abs() < 0.1, "{rate:?}");
 }

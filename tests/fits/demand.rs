@@ -75,8 +75,9 @@ fn regressions_equal_statsmodels() {
 fn two_planes_and_their_transition_are_found() {
     let cases = on_planes(1.3, 3000);
     let scan = scan_transition(&cases);
-    let (found, limits) = transition(&scan, 0.95).unwrap();
-    assert!((found - 1.3).abs() < 0.011 && limits.low <= 1.3 && 1.3 <= limits.high, "{found} {limits:?}");
+    let transition = transition(&scan, 0.95).unwrap();
+    let found = transition.value;
+    assert!((found - 1.3).abs() < 0.011 && transition.low <= 1.3 && 1.3 <= transition.high, "{transition:?}");
     let [low, high] = fit_planes(&cases, found);
     for (fit, expected) in [(&low, LOW), (&high, HIGH)] {
         assert_eq!((fit.model, fit.status), (DemandModel::Biplanar, FitStatus::Ok));

@@ -1,13 +1,14 @@
 //! Annual rates against closed forms.
 
 use rockfrag::fragility::{
-    Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
+    Direction, Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, Part, PeakHazard, PgvPgaRatio, Site,
-    Unknown, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
+    AnnualRate, Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio,
+    Site, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
     velocity_of_spectrum,
 };
+use rockfrag::object::{Object, Part, Subject, Unknown};
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
 
@@ -116,9 +117,9 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
             (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
         ] {
             let wider = 1.0_f64.hypot(per_z);
-            let directions = [(structure.clone(), model.clone())];
+            let directions = [Direction { structure: structure.clone(), model: model.clone() }];
             let given = GivenPeak { directions: &directions, peak, ratio, mw: None };
-            let rate = rates_over_curve(&given, &curve)[2].value;
+            let rate = rates_over_curve(&given, &curve).overturning.value;
             let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
             assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");
         }
@@ -137,22 +138,17 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let velocity = PgvPgaRatio::of_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard = PeakHazard { peak: Peak::Pga, curve: pga, fractiles, velocity: Some(velocity) };
-    let site = Site {
-        hazard: Hazard::Curve(hazard),
-        mw: None,
-        vs30_m_s: None,
-        extrapolate: false,
-        responses: vec![],
-    };
-    let rates = site.rates(&[(structure, model)], &[]);
-    let errors = rates.budgets.overturning;
-    let of_velocity = errors.sd_of(Part::Velocity).unwrap();
-    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().quantiles[1] / Z_95;
+    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let rates = Site::new(Hazard::Curve(hazard)).rates(&subject);
+    let errors = rates.errors;
+    let of_velocity = errors.part_sd(Part::Velocity).unwrap();
+    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high / Z_95;
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
-    assert!((errors.sd_of(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
-    assert_eq!(errors.sd_of(Part::Magnitude), None);
-    let [value, low, high] = rates.overturning.map(Option::unwrap);
-    assert!(((value / low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6 && high > value);
+    assert!((errors.part_sd(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
+    assert_eq!(errors.part_sd(Part::Magnitude), None);
+    let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("{rates:?}") };
+    assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
+    assert!(rate.high > rate.value);
 }
 
 #[test]
@@ -162,10 +158,7 @@ fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
         let velocity = PgvPgaRatio::of_model(&model, Peak::Pga, Some(vs30));
         let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
         assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
-        assert!(
-            velocity.unknown().quantiles[1]
-                < PgvPgaRatio::of_model(&model, Peak::Pga, None).unknown().quantiles[1]
-        );
+        assert!(velocity.unknown().high < PgvPgaRatio::of_model(&model, Peak::Pga, None).unknown().high);
     }
 }
 
@@ -206,24 +199,52 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
     assert!(matches!(matched(&rare), MatchError::NothingInCommon(..)));
 }
 
+/// A block of .9 x 1.4 m, whose rate of overturning a curve up to 4 g leaves open.
+fn squat() -> Subject {
+    Subject::shipped(&Object::block("squat", 0.9, 1.4), Kind::Recorded, 0.1).unwrap()
+}
+
+fn range(rate: Option<AnnualRate>) -> [f64; 2] {
+    let Some(AnnualRate::Range { low, high }) = rate else { panic!("{rate:?}") };
+    [low, high]
+}
+
+#[test]
+fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
+    // By a curve of the same slope that ends at 0.8 g or goes on: whatever it does beyond, the range holds it.
+    let slope = -2.5;
+    let to = |last_g: f64| {
+        let points = [0.05, 0.2, last_g].map(|g: f64| (9.81 * g, 1e-3 * (g / 0.2).powf(slope)));
+        Site::new(Hazard::over(Peak::Pga, HazardCurve::new(points.to_vec()).unwrap()))
+    };
+    let early = to(0.8).rates(&squat());
+    let [low, high] = range(early.overturning);
+    let whole = to(8.0).rates(&squat());
+    let Some(AnnualRate::Estimate(rate)) = whole.overturning else { panic!("{whole:?}") };
+    assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
+    // The errors widen it: without any it is what no and what each stronger motion would make of it.
+    let certain = Subject { unknowns: vec![], ..squat() };
+    let [sure_low, sure_high] = range(to(0.8).rates(&certain).overturning);
+    assert!(low < sure_low && sure_low < sure_high && sure_high <= high);
+    let [failure_low, failure_high] = range(early.failure);
+    assert!(low <= failure_low && high <= failure_high * (1.0 + 1e-12));
+}
+
 #[test]
 fn limits_are_those_of_normal_errors() {
-    let mut budgets = rockfrag::hazard::Budgets::about([0.0, 1.0]);
-    budgets.add(Part::Fit, [[0.1, 0.1], [0.3, 0.3]]);
-    budgets.vary(&Unknown { part: Part::Eta, quantiles: [-Z_95, Z_95] }, |x| [0.0, 1.0 + 0.4 * x]);
     // What only raises a result, such as an offset to either side, has no lower side.
-    budgets.vary(&Unknown { part: Part::Object, quantiles: [-Z_95, Z_95] }, |x: &f64| {
-        [0.0, 1.0 + 1.2 * x.abs()]
-    });
-    budgets.add(Part::Floor, [[0.0; 2], [f64::NAN; 2]]);
-    let budget: Budget = budgets.overturning;
+    let by = |part, result: fn(f64) -> f64| Unknown { part, low: -Z_95, high: Z_95 }.map(|x| result(*x));
+    let unknowns = [by(Part::Eta, |x| 1.0 + 0.4 * x), by(Part::Object, |x| 1.0 + 1.2 * x.abs())];
+    let mut budget = Budget::new(&1.0, &unknowns, |result| *result);
+    budget.add(Part::Fit, [0.3, 0.3]);
+    budget.add(Part::Floor, [f64::NAN; 2]);
     let [down, up] = budget.sds();
     assert!((down - 0.5).abs() < 1e-12 && (up - 1.3).abs() < 1e-12);
-    assert_eq!((budget.largest(), budget.sd_of(Part::Floor)), (Some(Part::Object), None));
-    let limits = budget.limits_of_rate(1e-4, 2e-4);
+    assert_eq!((budget.largest(), budget.part_sd(Part::Floor)), (Some(Part::Object), None));
+    let limits = budget.limit_rate(1e-4, 2e-4);
     assert!((limits.low / (1e-4 * (-0.979_982_f64).exp()) - 1.0).abs() < 1e-6);
     assert_eq!(limits.high, 2e-4, "never above the rate of rocking");
-    let p = budget.limits_of_probability(0.5, 1.2);
+    let p = budget.limit_probability(0.5, 1.2);
     close(p.low, 1.0 / (1.0 + (1.959_964 * 1.3_f64).exp()), 1e-6);
     close(p.high, 1.0 / (1.0 + (-1.959_964 * 1.3_f64.hypot(1.2)).exp()), 1e-6);
 }

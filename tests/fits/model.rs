@@ -5,12 +5,13 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Calibration, Cases, Cluster, Event, Kind, Measure, Model, Probability, Scenarios, fit_curve,
+    Calibration, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
     p_failure_given_rocking, predictor,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::rocking::{Outcome, Response, Structure};
+use rockfrag::statistics::Estimate;
 use rockfrag::warning::Warning;
 
 use crate::common::{cases, close, equipment, random, read, rocking};
@@ -219,7 +220,7 @@ fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
 }
 
 /// Limits that are finite, hold the value, and are not all of 0 to 1.
-fn expect_limits(p: Probability) {
+fn expect_limits(p: Estimate) {
     assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
     // Magnitude is not known of any of these motions.
     assert!(p.high - p.low < 0.98, "{p:?}");
@@ -280,7 +281,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
             model.probabilities(&block, &measures(&block, pga, pgv), None, scenarios).given_rocking.unwrap()
         };
         let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
-        let joined = |of: fn(Probability) -> f64| p_failure_given_rocking(of(one.p_ro), of(one.p_ex));
+        let joined = |of: fn(Estimate) -> f64| p_failure_given_rocking(of(one.p_ro), of(one.p_ex));
         close(one.p_failure.value, joined(|p| p.value), 1e-12);
         close(one.p_failure.low, joined(|p| p.low), 1e-12);
         close(one.p_failure.high, joined(|p| p.high), 1e-12);
@@ -291,7 +292,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
         }
     }
     let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Scenarios::One);
-    assert_eq!(still.limit_states(), Some([Probability::exact(0.0); 3]));
+    assert_eq!(still.limit_states(), Some(LimitStates::all(Estimate::exact(0.0))));
     let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Scenarios::One);
     assert_eq!(unknown.limit_states(), None, "no velocity");
 }

@@ -8,7 +8,7 @@ use rockfrag::statistics::normal;
 fn overturning(model: &Model, structure: &Structure, pga: f64, pgv: f64) -> [f64; 2] {
     let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
     let probabilities = model.probabilities(structure, &measures, Some(6.9), Scenarios::Many);
-    [probabilities.p_nr, probabilities.limit_states().unwrap()[2].value]
+    [probabilities.p_nr, probabilities.limit_states().unwrap().overturning.value]
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use proptest::prelude::*;
 use rockfrag::fragility::{
-    Event, Measure, Probability, fit_curve, fit_demand, p_failure, p_failure_given_rocking, p_no_rocking,
-    paper_probabilities,
+    Event, LimitStates, Measure, fit_curve, fit_demand, independent_failure, p_failure,
+    p_failure_given_rocking, p_no_rocking, paper_probabilities,
 };
 use rockfrag::motion::IntensityMeasures;
-use rockfrag::statistics::normal;
+use rockfrag::statistics::{Estimate, normal};
 
 use crate::common::{close, equipment, rocking};
 
@@ -41,15 +41,16 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
         let measures = IntensityMeasures::new(&equipment(), pga, pgv, None, None);
         paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).limit_states()
     };
-    assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), Some([Probability::exact(0.0); 3]));
+    assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), Some(LimitStates::all(Estimate::exact(0.0))));
     let above = at(uplift * (1.0 + 1e-12), 1.0).unwrap();
-    assert!(above[0] == Probability::exact(1.0) && above[1].value > 0.0 && above[2].value > 0.0);
+    assert_eq!(above.rocking, Estimate::exact(1.0));
+    assert!(above.failure.value > 0.0 && above.overturning.value > 0.0);
     assert_eq!(at(9.0, 0.0), None, "no velocity, no IM3");
 }
 
 /// Phi(z), with limits.
-fn around(z: f64, half_width: f64) -> Probability {
-    Probability::with_limits(half_width, |shift| normal::cdf(z + shift))
+fn around(z: f64, half_width: f64) -> Estimate {
+    Estimate::shifted(half_width, |shift| normal::cdf(z + shift))
 }
 
 proptest! {
@@ -64,7 +65,7 @@ proptest! {
         (ro, ro_half) in (-45.0..45.0f64, 0.0..80.0f64), (ex, ex_half) in (-45.0..45.0f64, 0.0..80.0f64),
     ) {
         let (ro, ex) = (around(ro, ro_half), around(ex, ex_half));
-        let p = Probability::of_failure(ro, ex);
+        let p = independent_failure(ro, ex);
         prop_assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
         prop_assert!((p.value - p_failure_given_rocking(ro.value, ex.value)).abs() < 1e-14);
         let least = |a: f64, b: f64| a.max(b) * (1.0 - 1e-12);
@@ -77,7 +78,7 @@ proptest! {
         let at = |ro: f64, ex: f64| p_failure_given_rocking(normal::cdf(ro), normal::cdf(ex));
         let by_ro = (at(ro + step, ex) - at(ro - step, ex)) / (2.0 * step);
         let by_ex = (at(ro, ex + step) - at(ro, ex - step)) / (2.0 * step);
-        let p = Probability::of_failure(around(ro, ro_half), around(ex, ex_half));
+        let p = independent_failure(around(ro, ro_half), around(ex, ex_half));
         let expected = 2.0 * (ro_half * by_ro).hypot(ex_half * by_ex);
         prop_assert!(((p.high - p.low) / expected - 1.0).abs() < 1e-2, "{p:?} {expected}");
     }

@@ -2,7 +2,7 @@
 
 use rockfrag::fragility::Event;
 use rockfrag::statistics::{Folds, normal, predict, probit};
-use rockfrag::studies::{Forecasts, wilson_limits};
+use rockfrag::studies::{Forecasts, observed_share};
 
 use crate::common::{answers, close, data};
 
@@ -77,7 +77,7 @@ fn limits_of_a_share_equal_those_of_scipy() {
         (3, 0.037_118_366_829_300_004, 0.271_958_515_486_721_56),
         (17, 0.424_090_442_965_971_87, 0.764_343_134_584_204_1),
     ] {
-        let limits = wilson_limits(observed, 28);
+        let limits = observed_share(observed, 28);
         assert!((limits.low - low).abs() < 1e-14 && (limits.high - high).abs() < 1e-14, "{limits:?}");
     }
 }

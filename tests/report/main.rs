@@ -10,7 +10,7 @@ use rockfrag::stages::evaluate::{Answer, ObjectRow, RatesRow};
 use rockfrag::stages::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::stages::report::figures::*;
 use rockfrag::stages::report::tables::Tables;
-use rockfrag::studies::{ReliabilityBin, wilson_limits};
+use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::motions::Motion;
 use serde_json::json;
 
@@ -182,7 +182,7 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
     let shares = observed_shares(&cases, equal_ratios([1.0, 100.0], 4));
-    let [first, last] = [wilson_limits(2, 3), wilson_limits(1, 2)];
+    let [first, last] = [observed_share(2, 3), observed_share(1, 2)];
     let expected =
         [[5.5 / 3.0, 2.0 / 3.0, first.low, first.high, 3.0], [95.0, 0.5, last.low, last.high, 2.0]];
     assert_eq!(Marks::Estimates(shares).numbers(), expected);

@@ -1,10 +1,11 @@
 //! What predicts, the motion and its measures, and what other kinds of motion would give.
 
 use crate::fragility::{Calibration, Kind, Measure, Model, Scenarios};
-use crate::hazard::{Budget, Part};
+use crate::hazard::Budget;
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::number::{PERCENT, count, significant};
+use crate::object::Part;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::words_of_kind;
 use crate::units::G_M_S2;
@@ -40,7 +41,7 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
         Some(format!("{} {}", measure.as_str().to_uppercase(), significant(value, 3)))
     };
     lines.push(("measures:", Measure::SCALAR.iter().filter_map(measure).collect::<Vec<_>>().join(", ")));
-    let part = |part: &Part| Some(format!("{part} {}", significant(budget.sd_of(*part)?, 2)));
+    let part = |part: &Part| Some(format!("{part} {}", significant(budget.part_sd(*part)?, 2)));
     let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
     if !parts.is_empty() {
         let ([down, up], parts) = (budget.sds().map(|sd| significant(sd, 2)), parts.join(", "));

@@ -24,11 +24,11 @@ use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args, ValueHint};
 
 use super::shared::model_args::{ModelArgs, Models};
-use super::shared::objects::{Object, StructureArgs};
+use super::shared::objects::{PlaceArgs, StructureArgs, named};
 use super::shared::responses;
-use super::shared::spec::{Place, Restitution, Spec};
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
 use crate::inputs::{Rename, Renames, hazard};
+use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
@@ -40,7 +40,6 @@ use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
-use self::object::Subject;
 pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 pub use self::point::TreeRow;
 pub use self::rates::{RatesRow, expected_number};
@@ -110,7 +109,7 @@ pub struct Evaluate {
     #[command(flatten)]
     structures: StructureArgs,
     #[command(flatten)]
-    place: Place,
+    place: PlaceArgs,
 }
 
 impl Stage for Evaluate {
@@ -131,7 +130,8 @@ impl Stage for Evaluate {
         let models = self.model.read()?;
         if let Some(path) = &self.input {
             let (columns, structures) = (&self.columns, &self.structures);
-            let (rows, text) = table::evaluate(path, columns, structures, &self.place, &models, context)?;
+            let (rows, text) =
+                table::evaluate(path, columns, structures, &self.place.place(), &models, context)?;
             self.write(&rows, text, context)
         } else if self.hazard.is_empty() {
             self.under_motion(&self.motion()?, &models, context)
@@ -165,7 +165,7 @@ impl Evaluate {
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let predict = |_: &Object, subject: &Subject| {
             let (row, budget) = TreeRow::new(motion, subject);
-            (row, budget, motion.peaks(&subject.directions[0].1), Vec::new())
+            (row, budget, motion.peaks(&subject.directions[0].model), Vec::new())
         };
         let mut renames = Renames::new(&self.columns);
         let objects = self.objects(&mut renames, models, context)?;
@@ -182,10 +182,11 @@ impl Evaluate {
         let objects = self.objects(&mut renames, models, context)?;
         renames.expect_used()?;
         let predict = |object: &Object, subject: &Subject| {
-            let rates = site.rates(&subject.directions, &subject.unknowns);
-            let widths = |target| target::widths(object, models, &site, self.years, target);
-            let row = RatesRow::new(&rates, self.years, self.target.map_or([None; 2], widths));
-            (row, rates.budgets.overturning, rates.motion, rates.warnings)
+            let rates = site.rates(subject);
+            let target = self.target.map(|p| -(-p).ln_1p() / self.years).zip(rates.overturning);
+            let bases = target.map(|(target, rate)| target::bases(object, models, &site, rate, target));
+            let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
+            (row, rates.errors, rates.motion, rates.warnings)
         };
         let bar = context.bar(objects.len());
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
@@ -229,16 +230,22 @@ impl Evaluate {
         context: &Context,
     ) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
-            let fitted = |structure| Spec::of_structure(structure, Restitution::Fitted).at(&self.place);
-            return Ok(models.structures()?.into_iter().map(fitted).map(Object::new).collect());
+            let place = self.place.place();
+            let fitted = |structure| Object::with_parameters(structure, Restitution::Fitted).at(&place);
+            return Ok(models.structures()?.into_iter().map(fitted).collect());
         }
-        let (objects, unused) = self.structures.objects(&self.place, renames)?;
+        let (objects, unused) = self.structures.objects(&self.place.place(), renames)?;
         context.warn(unused);
-        match (objects.first().map(Object::expect_directions), &self.structures.structures) {
-            (Some(Err(reason)), path) if objects.iter().all(Object::is_implausible) => match path {
-                Some(path) => anyhow::bail!("{}: {reason}; every other row has a fault too", path.display()),
-                None => Err(UsageError::because(reason)),
-            },
+        match (objects.first().map(|first| (first, first.sides())), &self.structures.structures) {
+            (Some((first, Err(reason))), path) if objects.iter().all(Object::is_implausible) => {
+                let reason = named(first, &reason);
+                match path {
+                    Some(path) => {
+                        anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
+                    }
+                    None => Err(reason),
+                }
+            }
             _ => Ok(objects),
         }
     }

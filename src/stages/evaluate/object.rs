@@ -4,16 +4,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::explain::explained;
-use crate::fragility::Model;
-use crate::hazard::{Budget, Part, Unknown};
+use crate::fragility::{Direction, Kind, Model};
+use crate::hazard::Budget;
 use crate::keyword::Keyword;
-use crate::motion::{Floor, IntensityMeasures};
 use crate::number::Limited;
-use crate::pipeline::UsageError;
+use crate::object::{Object, Part, Subject};
 use crate::pipeline::context::Progress;
-use crate::rocking::Structure;
 use crate::stages::shared::model_args::{Models, words_of};
-use crate::stages::shared::objects::{Direction, Object, warnings_of};
 use crate::table::rows::Row;
 use crate::warning::Warning;
 
@@ -37,8 +34,8 @@ pub trait Predicted: Row + Default + Send + Sync {
 
     /// By which objects are sorted, the worst first.
     fn severity(&self) -> f64 {
-        let [value, _, high] = self.overturning();
-        value.or(high).unwrap_or(f64::NEG_INFINITY)
+        let rate = self.overturning();
+        rate.value.or(rate.high).unwrap_or(f64::NEG_INFINITY)
     }
 }
 
@@ -59,6 +56,8 @@ pub struct ObjectRow {
     /// tan(alpha): with less friction it slides.
     pub friction: Option<f64>,
     pub model: Option<String>,
+    /// Kind of motion that the model is for.
+    pub motions: Option<Kind>,
     pub limit_state: Option<f64>,
     /// Block, body or frame.
     #[serde(skip)]
@@ -70,25 +69,26 @@ pub struct ObjectRow {
 
 impl ObjectRow {
     /// Of an object and, if it has an answer, of the structure and the model that predict for it.
-    fn new(object: &Object, by: Option<&(Structure, Model)>, limit_state: f64) -> ObjectRow {
-        let (spec, floor) = (&object.spec, object.floor());
-        let structure = by.map(|(structure, _)| structure);
+    fn new(object: &Object, by: Option<&Direction>, limit_state: f64) -> ObjectRow {
+        let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
+        let structure = by.map(|direction| &direction.structure);
         ObjectRow {
-            structure: spec.name.clone(),
-            width_m: spec.shape.width,
-            depth_m: spec.shape.depth,
-            height_m: spec.shape.height,
+            structure: object.name.clone(),
+            width_m: shape.width,
+            depth_m: shape.depth,
+            height_m: shape.height,
             floor_period_s: floor.map(|floor| floor.period_s),
             floor_level: floor.map(|floor| floor.level),
-            count: spec.count.map(f64::from),
+            count: object.count.map(f64::from),
             p_rad_s: structure.map(|structure| structure.p_rad_s),
             alpha_rad: structure.map(|structure| structure.alpha_rad),
             eta: structure.map(|structure| structure.eta),
             friction: structure.map(|structure| structure.alpha_rad.tan()),
-            model: by.map(|(_, model)| words_of(model)),
+            model: by.map(|direction| words_of(&direction.model)),
+            motions: by.map(|direction| direction.model.kind()),
             limit_state: by.map(|_| limit_state),
-            kind: spec.shape.kind(),
-            is_friction_known: spec.place.friction.is_some(),
+            kind: shape.kind(),
+            is_friction_known: object.place.friction.is_some(),
         }
     }
 }
@@ -115,13 +115,13 @@ impl DoubtsRow {
         let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
         DoubtsRow {
             warnings: (!texts.is_empty()).then(|| texts.join("; ")),
-            error_fit: budget.sd_of(Part::Fit),
-            error_magnitude: budget.sd_of(Part::Magnitude),
-            error_velocity: budget.sd_of(Part::Velocity),
-            error_eta: budget.sd_of(Part::Eta),
-            error_object: budget.sd_of(Part::Object),
-            error_floor: budget.sd_of(Part::Floor),
-            error_hazard: budget.sd_of(Part::Hazard),
+            error_fit: budget.part_sd(Part::Fit),
+            error_magnitude: budget.part_sd(Part::Magnitude),
+            error_velocity: budget.part_sd(Part::Velocity),
+            error_eta: budget.part_sd(Part::Eta),
+            error_object: budget.part_sd(Part::Object),
+            error_floor: budget.part_sd(Part::Floor),
+            error_hazard: budget.part_sd(Part::Hazard),
             error_largest: budget.largest(),
         }
     }
@@ -142,60 +142,6 @@ impl DoubtsRow {
     }
 }
 
-/// An object in its directions, the weaker first, each with the model that predicts for it.
-pub struct Subject {
-    pub directions: Vec<(Structure, Model)>,
-    /// What is not known of them.
-    pub unknowns: Vec<Unknown<Vec<(Structure, Model)>>>,
-}
-
-impl Subject {
-    /// An object on its floor, and the warnings about the models.
-    pub fn of(object: &Object, models: &Models) -> anyhow::Result<(Subject, Vec<Warning>)> {
-        let found = object.expect_directions().map_err(UsageError::because)?;
-        let (mut on_ground, mut warnings) = (Vec::new(), Vec::new());
-        for Direction { structure, .. } in found {
-            let (model, of_model) = models.model(structure)?;
-            warnings.extend(of_model);
-            warnings.extend(warnings_of(structure));
-            on_ground.push(model);
-        }
-        let floor = object.floor();
-        if floor.is_some() {
-            models.expect_ground()?;
-        }
-        let on = |floor: Option<Floor>, structure: &dyn Fn(&Direction) -> Structure| {
-            let problem = || UsageError::because("period: the paper's model is that of the ground");
-            let pair = |(direction, model): (&Direction, &Model)| {
-                anyhow::Ok((structure(direction), model.on(floor).ok_or_else(problem)?))
-            };
-            found.iter().zip(&on_ground).map(pair).collect::<anyhow::Result<Vec<_>>>()
-        };
-        let given = |direction: &Direction| direction.structure.clone();
-        let directions = on(floor, &given)?;
-        let mut unknowns = Vec::new();
-        // The directions of an object have the same parts unknown.
-        for (number, Unknown { part, .. }) in found[0].unknowns.iter().enumerate() {
-            let at = |end: usize| on(floor, &|direction| direction.unknowns[number].quantiles[end].clone());
-            unknowns.push(Unknown { part: *part, quantiles: [at(0)?, at(1)?] });
-        }
-        if let Some([low, high]) = object.unknown_floor() {
-            let quantiles = [on(Some(low), &given)?, on(Some(high), &given)?];
-            unknowns.push(Unknown { part: Part::Floor, quantiles });
-        }
-        Ok((Subject { directions, unknowns }, warnings))
-    }
-
-    /// Warnings about predictions at a motion (m/s2 and m/s).
-    pub fn warnings(&self, motion: [f64; 2]) -> Vec<Warning> {
-        let warnings = |(structure, model): &(Structure, Model)| {
-            let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
-            model.warnings(structure, &measures)
-        };
-        self.directions.iter().flat_map(warnings).collect()
-    }
-}
-
 /// Predicts for all objects, the worst first. `predict` gives a row, the errors of the logit of the
 /// probability of overturning or of ln of its rate, the PGA and PGV (m/s2 and m/s) that matter, and warnings.
 pub fn answers<R: Predicted>(
@@ -207,19 +153,19 @@ pub fn answers<R: Predicted>(
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         bar.advance(1)?;
-        if let Err(reason) = &object.directions {
+        if let Err(reason) = object.sides() {
             let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
             let object = ObjectRow::new(&object, None, models.args.limit_state);
             return Ok(Answer { object, doubts, ..Answer::default() });
         }
-        let (subject, mut warnings) = Subject::of(&object, models)?;
+        let (subject, mut warnings) = models.subject(&object)?;
         let (row, budget, motion, of_prediction) = predict(&object, &subject);
         warnings.extend(of_prediction);
         warnings.extend(subject.warnings(motion));
         warnings.sort();
         warnings.dedup();
         let weaker = &subject.directions[0];
-        let (structure, model) = weaker;
+        let Direction { structure, model } = weaker;
         Ok(Answer {
             object: ObjectRow::new(&object, Some(weaker), models.args.limit_state),
             row,

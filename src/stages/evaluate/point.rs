@@ -4,14 +4,16 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, ObjectRow, Predicted, Subject};
+use super::object::{Answer, ObjectRow, Predicted};
 use super::words::{
     about_buildings, friction, line, model, model_of_all, mostly_unknown, table, title, too_far, validity,
 };
-use crate::fragility::{Probability, Scenarios};
+use crate::fragility::{Direction, LimitStates, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::number::{Limited, PERCENT, aligned, fixed, name, plain};
+use crate::object::Subject;
+use crate::statistics::Estimate;
 use crate::units::G_M_S2;
 
 /// The probabilities of the tree at an intensity; none where they are not known.
@@ -26,20 +28,18 @@ pub struct TreeRow {
     pub p_f: Option<f64>,
     /// Failure, and overturning, over the whole tree.
     #[serde(skip)]
-    states: [Limited; 2],
+    states: LimitStates<Limited>,
 }
 
 impl TreeRow {
     /// Of an object under a motion, with the errors of the logit of P_ro.
     pub fn new(motion: &Motion, subject: &Subject) -> (TreeRow, Budget) {
-        let MotionProbabilities { states: [rocking, failure, overturning], budgets } =
-            motion.probabilities(&subject.directions, &subject.unknowns);
-        let over = |whole: f64, p: Probability| {
-            [p.value, p.low, p.high].map(|p| Some(p / whole).filter(|p| p.is_finite()))
-        };
+        let MotionProbabilities { states, errors } = motion.probabilities(subject);
+        let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
-            ([(structure, model)], Some(pga), Some(pgv)) => {
+            _ if motion.is_still() => None,
+            ([Direction { structure, model }], Some(pga), Some(pgv)) => {
                 let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
                 model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking
             }
@@ -48,14 +48,14 @@ impl TreeRow {
         let row = TreeRow {
             pga_m_s2: motion.pga_m_s2,
             pgv_m_s: motion.pgv_m_s,
-            p_nr: Some(1.0 - rocking.value),
-            p_ex: p_ex.map_or([None; 3], |given| over(1.0, given.p_ex)),
-            p_ro: over(rocking.value, overturning),
-            p_f_r: over(rocking.value, failure),
-            p_f: over(1.0, failure)[0],
-            states: [failure, overturning].map(|p| over(1.0, p)),
+            p_nr: Some(1.0 - rocking),
+            p_ex: p_ex.map(|given| over(1.0, given.p_ex)).unwrap_or_default(),
+            p_ro: over(rocking, states.overturning),
+            p_f_r: over(rocking, states.failure),
+            p_f: over(1.0, states.failure).value,
+            states: states.map(|p| over(1.0, p)),
         };
-        (row, budgets.overturning)
+        (row, errors)
     }
 
     fn rocks(&self) -> bool {
@@ -63,9 +63,15 @@ impl TreeRow {
     }
 }
 
+/// A probability over that of the whole; none where that is 0.
+fn over(whole: f64, p: Estimate) -> Limited {
+    let share = |p: f64| Some(p / whole).filter(|p| p.is_finite());
+    Limited { value: share(p.value), low: share(p.low), high: share(p.high) }
+}
+
 impl Predicted for TreeRow {
     fn overturning(&self) -> Limited {
-        self.states[1]
+        self.states.overturning
     }
 }
 
@@ -76,7 +82,7 @@ pub fn text(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
 
 fn of_one(answer: &Answer<TreeRow>) -> String {
     let Answer { object, row: tree, .. } = answer;
-    let [failure, overturning] = tree.states;
+    let LimitStates { failure, overturning, .. } = tree.states;
     let cells =
         |name: String, p: Limited, limits: &str| vec![name, PERCENT.value(p), PERCENT.limits(p, limits)];
     let lines = [
@@ -96,7 +102,8 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
 fn of_several(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
     let worst = &all[0];
     let first = match worst.row.overturning() {
-        [None | Some(0.0), ..] => "nothing overturns".to_string(),
+        _ if !all.iter().any(|answer| answer.row.rocks()) => "nothing rocks".to_string(),
+        Limited { value: None | Some(0.0), .. } => "nothing overturns".to_string(),
         p => {
             let (name, p) = (name(&worst.object.structure), PERCENT.both(p, "95 % limits "));
             format!("{name} is the most likely to overturn: {p}")
@@ -107,7 +114,7 @@ fn of_several(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
         all,
         out,
         |Answer { object, row, .. }| {
-            let [failure, overturning] = row.states;
+            let LimitStates { failure, overturning, .. } = row.states;
             let rocks = row.p_nr.map_or("-", |_| if row.rocks() { "yes" } else { "no" });
             vec![
                 rocks.to_string(),
@@ -130,6 +137,9 @@ fn words_of_peaks(tree: &TreeRow) -> String {
 
 /// Whether it rocks: by the peak of the ground, or of the floor, over that of uplift.
 fn uplift(object: &ObjectRow, tree: &TreeRow) -> String {
+    if tree.pga_m_s2 == Some(0.0) || tree.pgv_m_s == Some(0.0) {
+        return "does not rock: nothing moves it\n".to_string();
+    }
     let Some(pga_m_s2) = tree.pga_m_s2 else {
         return format!("rocks with a probability of {}\n", PERCENT.one(1.0 - tree.p_nr.unwrap_or(f64::NAN)));
     };

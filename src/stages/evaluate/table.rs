@@ -9,21 +9,21 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use rayon::prelude::*;
 
-use super::object::{DoubtsRow, Subject};
+use super::object::DoubtsRow;
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
 use crate::inputs::hazard::peak;
 use crate::inputs::{Grid, Heading, Rename, Renames};
 use crate::number::counted;
+use crate::object::{Object, Place, Restitution, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::plausibility::{judge_peak, judge_peaks};
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::object_list::describes_object;
-use crate::stages::shared::objects::{Object, StructureArgs};
-use crate::stages::shared::spec::{Place, Restitution, Spec};
+use crate::stages::shared::objects::StructureArgs;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
@@ -60,7 +60,7 @@ pub fn evaluate(
             "{path}: column {column} and options of a structure; leave out the one or the other"
         )));
     }
-    let given = given.first().map(|object| Subject::of(object, models)).transpose()?;
+    let given = given.first().map(|object| models.subject(object)).transpose()?;
     let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
     let mut of_rows = HashMap::new();
     let mut evaluated = Vec::new();
@@ -68,8 +68,8 @@ pub fn evaluate(
         let structures = if given.is_some() { Vec::new() } else { structures_of_rows(batch)? };
         for structure in &structures {
             if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
-                let spec = Spec::of_structure(structure.clone(), Restitution::Number).at(place);
-                entry.insert(Subject::of(&Object::new(spec), models)?);
+                let object = Object::with_parameters(structure.clone(), Restitution::Number);
+                entry.insert(models.subject(&object.at(place))?);
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
@@ -94,7 +94,9 @@ fn with_probabilities<'a>(
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
-        let warnings = [of_structure.clone(), subject.warnings([pga[row], pgv[row]])].concat();
+        let mut warnings = [of_structure.clone(), subject.warnings([pga[row], pgv[row]])].concat();
+        warnings.sort();
+        warnings.dedup();
         let [pga_m_s2, pgv_m_s] = [pga[row], pgv[row]].map(Some);
         let motion = Motion { pga_m_s2, pgv_m_s, mw: mw[row], vs30_m_s: None };
         let (tree, budget) = TreeRow::new(&motion, subject);

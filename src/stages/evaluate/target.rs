@@ -1,13 +1,8 @@
 //! The width of a base that meets a target: all else of the object the same.
 
-use argmin::core::{CostFunction, Error, Executor};
-use argmin::solver::brent::BrentRoot;
-
-use super::object::Subject;
-use crate::hazard::{Site, probability_in_years};
-use crate::number::Limited;
+use crate::hazard::{AnnualRate, Site};
+use crate::object::{Object, Subject};
 use crate::stages::shared::model_args::Models;
-use crate::stages::shared::objects::Object;
 
 /// Parses a probability of overturning in the time of exposure, such as 1%.
 pub fn parse(text: &str) -> Result<f64, String> {
@@ -19,63 +14,156 @@ pub fn parse(text: &str) -> Result<f64, String> {
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
 const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Relative accuracy of a width, and largest number of steps.
-const ACCURACY: f64 = 1e-4;
-const MOST_STEPS: u64 = 60;
+/// Relative accuracy of a width, and the most steps of a search.
+const ACCURACY: f64 = 2e-5;
+const MOST_STEPS: usize = 40;
+/// By how much ln rate falls with ln width, about, where a search begins; and the least fall that it trusts.
+const USUAL_FALL: f64 = 5.0;
+const LEAST_FALL: f64 = 0.2;
 /// Halvings of the widths to the end of the hazard.
 const HALVINGS: usize = 8;
-/// Probabilities count as no less.
+/// Annual rates count as no less.
 const LEAST: f64 = 1e-12;
 
-/// A function of the width, where it has a value.
-struct OfWidth<F>(F);
+/// Bases that meet a target, by the estimate of the rate and by its upper limit.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Bases {
+    pub by_estimate: Option<Base>,
+    pub by_upper_limit: Option<Base>,
+}
 
-impl<F: Fn(f64) -> Option<f64>> CostFunction for OfWidth<F> {
-    type Param = f64;
-    type Output = f64;
+/// A base that meets a target, in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Base {
+    /// Of this width, and of the depth that the object has.
+    Width(f64),
+    /// Where the depth is what is too small: with neither side smaller than this.
+    BothSides(f64),
+}
 
-    fn cost(&self, width: &f64) -> Result<f64, Error> {
-        (self.0)(*width).ok_or_else(|| Error::msg("no rate"))
+impl Base {
+    pub fn width(self) -> Option<f64> {
+        if let Base::Width(width) = self { Some(width) } else { None }
+    }
+
+    pub fn both_sides(self) -> Option<f64> {
+        if let Base::BothSides(side) = self { Some(side) } else { None }
     }
 }
 
-/// Widths (m) that meet a target by the estimate and by its upper limit: at the same height, depth, rule of
-/// eta and relative offset; none where none within the domain of the surface does.
-pub fn widths(object: &Object, models: &Models, site: &Site, years: f64, target: f64) -> [Option<f64>; 2] {
-    let shape = &object.spec.shape;
-    let Some((width, height)) = shape.width.zip(shape.height) else { return [None; 2] };
-    let centre_height = shape.centre_height.unwrap_or(0.5 * height);
-    let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
-    let [least, end] = SLENDERNESSES.map(|alpha| 2.0 * centre_height * alpha.tan() / nearer);
-    // What is not known does not matter to an estimate, and takes most of the time.
-    let in_years = |width_m: f64, with_unknowns: bool| -> Option<Limited> {
-        let resized = Object::new(object.spec.resized(width_m / width));
-        let (subject, _) = Subject::of(&resized, models).ok()?;
-        let unknowns = if with_unknowns { &subject.unknowns[..] } else { &[] };
-        let rates = site.rates(&subject.directions, unknowns).overturning;
-        Some(rates.map(|rate| Some(probability_in_years(rate?, years))))
-    };
-    // The hazard of a wide object may end too early for a rate.
-    let is_known = |width_m: f64| in_years(width_m, false).is_some_and(|p| p[0].is_some());
-    let halve = |(known, unknown): (f64, f64), _| {
-        let middle = 0.5 * (known + unknown);
-        if is_known(middle) { (middle, unknown) } else { (known, middle) }
-    };
-    let most = if is_known(end) { end } else { (0..HALVINGS).fold((least, end), halve).0 };
-    [0, 2].map(|which| {
-        // ln of the probability by its estimate or upper limit over the target.
-        let excess = |width_m: f64| {
-            let p = in_years(width_m, which == 2)?[which]?;
-            Some((p.max(LEAST) / target).ln())
+/// Finds the bases whose annual rate of overturning is the target, at the same height, rule of eta and relative offset;
+/// none where none within the domain of the surface meets it. `rate` is that of the object as it is.
+pub fn bases(object: &Object, models: &Models, site: &Site, rate: AnnualRate, target: f64) -> Bases {
+    let mut searches = vec![Search::new(object, models, site, false)];
+    searches.extend(object.shape.depth.map(|_| Search::new(object, models, site, true)));
+    let mut searches: Vec<Search> = searches.into_iter().flatten().collect();
+    let by_estimate = searches.iter_mut().find_map(|search| search.by_estimate(target));
+    let by_upper_limit = searches.iter_mut().find_map(|search| search.by_upper_limit(rate, target));
+    Bases { by_estimate, by_upper_limit }
+}
+
+/// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
+struct Search<'a> {
+    object: &'a Object,
+    models: &'a Models,
+    site: &'a Site,
+    both_sides: bool,
+    /// Logarithms of the widths between which is searched, and of the object's own.
+    least: f64,
+    most: f64,
+    own: f64,
+}
+
+impl Search<'_> {
+    fn new<'a>(
+        object: &'a Object,
+        models: &'a Models,
+        site: &'a Site,
+        both_sides: bool,
+    ) -> Option<Search<'a>> {
+        let shape = &object.shape;
+        let (width, height) = shape.width.zip(shape.height)?;
+        let centre_height = shape.centre_height.unwrap_or(0.5 * height);
+        let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
+        let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
+        let smaller = if both_sides { shape.depth.map_or(width, |depth| depth.min(width)) } else { width };
+        let own = smaller.ln().clamp(least, most);
+        Some(Search { object, models, site, both_sides, least, most, own })
+    }
+
+    /// The object with another base.
+    fn subject(&self, ln_width: f64) -> Option<Subject> {
+        let (shape, side) = (&self.object.shape, ln_width.exp());
+        let resized = match self.both_sides {
+            true => {
+                let [width, depth] = [shape.width, shape.depth].map(|own| own.map(|own| own.max(side)));
+                self.object.resized(width?, depth)
+            }
+            false => self.object.resized(side, shape.depth),
         };
-        if excess(most)? > 0.0 {
-            return None;
+        Some(self.models.subject(&resized).ok()?.0)
+    }
+
+    fn base(&self, ln_width: f64) -> Base {
+        if self.both_sides { Base::BothSides(ln_width.exp()) } else { Base::Width(ln_width.exp()) }
+    }
+
+    fn by_estimate(&mut self, target: f64) -> Option<Base> {
+        let found = self.solve(self.own, |_| target.ln())?;
+        Some(self.base(found))
+    }
+
+    /// Finds where the upper limit meets the target. By how much it is above the estimate changes little with width:
+    /// a line through two widths tells it.
+    fn by_upper_limit(&mut self, rate: AnnualRate, target: f64) -> Option<Base> {
+        let own = self.own;
+        let at_own = spread(rate).or_else(|| self.spread_at(own))?;
+        let first = self.solve(own, |_| target.ln() - at_own)?;
+        let at_first = self.spread_at(first)?;
+        let per_ln = if (first - own).abs() > ACCURACY { (at_first - at_own) / (first - own) } else { 0.0 };
+        let found = self.solve(first, |ln_width| target.ln() - at_first - per_ln * (ln_width - first))?;
+        Some(self.base(found))
+    }
+
+    /// ln of the upper limit over the estimate.
+    fn spread_at(&self, ln_width: f64) -> Option<f64> {
+        spread(self.site.rates(&self.subject(ln_width)?).overturning?)
+    }
+
+    /// Finds ln of the width at which ln rate is what is wanted of it, by secants. Where the hazard ends too early for
+    /// the rate of a wide object, the search ends there.
+    fn solve(&mut self, from: f64, wanted: impl Fn(f64) -> f64) -> Option<f64> {
+        let (mut at, mut fall, mut last): (f64, f64, Option<(f64, f64)>) = (from, USUAL_FALL, None);
+        let mut halvings = 0;
+        for _ in 0..MOST_STEPS {
+            let Some(rate) = self.site.overturning(&self.subject(at)?) else {
+                let (known, _) = last?;
+                halvings += 1;
+                self.most = 0.5 * (known + at);
+                if halvings > HALVINGS {
+                    return None;
+                }
+                at = self.most;
+                continue;
+            };
+            let excess = rate.max(LEAST).ln() - wanted(at);
+            if let Some((before, excess_before)) = last.filter(|(before, _)| *before != at) {
+                fall = ((excess_before - excess) / (at - before)).max(LEAST_FALL);
+            }
+            last = Some((at, excess));
+            let next = (at + excess / fall).clamp(self.least, self.most);
+            if (next - at).abs() < ACCURACY {
+                let is_met = excess <= ACCURACY * fall || at < self.most;
+                return is_met.then_some(next);
+            }
+            at = next;
         }
-        if excess(least)? <= 0.0 {
-            return Some(least);
-        }
-        let search = Executor::new(OfWidth(excess), BrentRoot::new(least, most, ACCURACY)).timer(false);
-        let search = search.configure(|state| state.param(0.5 * (least + most)).max_iters(MOST_STEPS));
-        search.run().ok()?.state.best_param
-    })
+        None
+    }
+}
+
+/// ln of the upper limit of a rate over the rate.
+fn spread(rate: AnnualRate) -> Option<f64> {
+    let AnnualRate::Estimate(rate) = rate else { return None };
+    Some((rate.high / rate.value).ln()).filter(|ln| ln.is_finite())
 }

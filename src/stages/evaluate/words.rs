@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::object::{Answer, ObjectRow};
-use crate::hazard::Part;
 use crate::number;
+use crate::object::Part;
+use crate::stages::shared::model_args::words_of_kind;
 use crate::warning::{UNNAMED, Warning};
 
 /// The answer for all objects, the worst of which is the first.
@@ -87,7 +88,8 @@ pub fn too_far(object: &ObjectRow) -> String {
 pub fn mostly_unknown<R>(answer: &Answer<R>, of_velocity: &str) -> Option<String> {
     let part = answer.doubts.error_largest?;
     let advice = match part {
-        Part::Fit => "Calibrate it (--fits).",
+        Part::Fit if answer.responses > 0 => "",
+        Part::Fit => "Calibrate it with records of the site (--fits).",
         Part::Magnitude => "Add --magnitude.",
         Part::Velocity => of_velocity,
         Part::Eta => "Measure it (--eta, --eta-sd).",
@@ -152,10 +154,13 @@ fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
 }
 
 /// What predicts for all objects, the worst of which is the first.
-pub fn model_of_all<R>(all: &[Answer<R>]) -> &str {
-    let model = model(&all[0].object);
-    match model.contains("surface") && is_fitted_each(all) {
-        true => "rockfrag's universal surface, calibrated where there are responses",
-        false => model,
+pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
+    let worst = &all[0].object;
+    match worst.motions.filter(|_| is_fitted_each(all)) {
+        Some(kind) if model(worst).contains("surface") => format!(
+            "rockfrag's universal surface for {}, calibrated where there are responses",
+            words_of_kind(kind)
+        ),
+        _ => model(worst).to_string(),
     }
 }

@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 
 use super::figures::common::{by, label_of_scaled};
 use super::tables::{Tables, name};
-use crate::fragility::{Cases, DemandModel, Measure, Parameter};
+use crate::fragility::{Cases, DemandModel, Measure, Parameter, ParameterRow};
 use crate::keyword::Keyword;
-use crate::number::{self, OF_HUNDRED, RATE, TWO_DIGITS};
+use crate::number::{self, Limited, OF_HUNDRED, RATE, TWO_DIGITS};
 use crate::pipeline::options::listed;
 use crate::report::text::minus;
 use crate::report::{Column, Figure, Page, Section, Table};
@@ -236,7 +236,8 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
             let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
             [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
                 let row = parameters.iter().find(|row| row.parameter == which);
-                row.map_or([None; 3], |row| [row.value, row.low, row.high].map(|value| Some(unit * value)))
+                let scaled = |row: &ParameterRow| Limited::from(row.estimate()).map(|value| unit * value);
+                row.map(scaled).unwrap_or_default()
             })
         };
         let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(|of| TWO_DIGITS.both(of, ""));

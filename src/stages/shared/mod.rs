@@ -6,4 +6,3 @@ pub mod motions;
 pub mod object_list;
 pub mod objects;
 pub mod responses;
-pub mod spec;

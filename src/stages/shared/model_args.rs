@@ -9,10 +9,12 @@ use clap::{Args, ValueHint};
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
 use crate::number::counted;
+use crate::object::{Object, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
+use crate::stages::shared::objects::named;
 use crate::stages::shared::responses::is_floor;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
@@ -81,6 +83,20 @@ impl ModelArgs {
 }
 
 impl Models {
+    /// Joins an object with the model of each of its directions, and returns the warnings about these models.
+    pub fn subject(&self, object: &Object) -> anyhow::Result<(Subject, Vec<Warning>)> {
+        let (mut models, mut warnings) = (Vec::new(), Vec::new());
+        for side in object.sides().map_err(|reason| named(object, &reason))? {
+            let (model, about) = self.model(&side.structure)?;
+            warnings.extend(about);
+            models.push(model);
+        }
+        if object.place.floor().is_ok_and(|floor| floor.is_some()) {
+            self.expect_ground()?;
+        }
+        Ok((Subject::new(object, models).map_err(|reason| named(object, &reason))?, warnings))
+    }
+
     /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one
     /// named; without one, the surface, with a warning if there are fits.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {

@@ -4,18 +4,20 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
-use clap::CommandFactory;
 
-use super::spec::{Reason, Spec};
 use crate::inputs::{Grid, Heading, Renames};
+use crate::keyword::Keyword;
+use crate::object::{Field, Object, Reason};
 use crate::units::{Quantity, Unit};
 use crate::warning::{Warning, Warnings};
 
 /// What a column is about.
 #[derive(Debug, Clone, PartialEq)]
 enum Column {
-    /// An option, and the quantity that it has a unit of.
-    Option(String, Option<Quantity>),
+    /// What is known of an object.
+    Known(Field),
+    /// The number of such objects.
+    Count,
     /// What holds an object.
     Held,
     Unused,
@@ -40,7 +42,7 @@ const HELD: [&str; 7] = ["anchor", "brac", "fix", "restrain", "castor", "caster"
 const FREE: [&str; 10] = ["", "no", "n", "none", "false", "0", "-", "free", "unanchored", "free-standing"];
 
 /// Reads a list: the objects of its rows, and warnings about columns that say nothing of them.
-pub fn read(path: &Path, renames: &mut Renames) -> anyhow::Result<(Vec<Spec>, Warnings)> {
+pub fn read(path: &Path, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
     let mut objects = || {
         let mut grid = Grid::read(path)?;
         renames.apply(&mut grid)?;
@@ -49,10 +51,10 @@ pub fn read(path: &Path, renames: &mut Renames) -> anyhow::Result<(Vec<Spec>, Wa
     objects().with_context(|| path.display().to_string())
 }
 
-fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Spec>, Warnings)> {
+fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Object>, Warnings)> {
     let columns: Vec<Column> = sheet.headings.iter().map(meaning).collect();
-    let has = |name: &str| columns.iter().any(|column| matches!(column, Column::Option(of, _) if of == name));
-    if !(has("height") || has("p")) {
+    let has = |field| columns.contains(&Column::Known(field));
+    if !(has(Field::Height) || has(Field::P)) {
         bail!("{}; expected name, width, depth and height, or p, alpha and eta", sheet.found());
     }
     if sheet.lines.is_empty() {
@@ -66,7 +68,7 @@ fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Spec>, Warnings)> {
         bail!("heading '{}': expected m, cm or mm in brackets, or no unit", heading.text);
     }
     for (at, column) in columns.iter().enumerate() {
-        if matches!(column, Column::Option(..)) && columns[..at].contains(column) {
+        if matches!(column, Column::Known(_) | Column::Count) && columns[..at].contains(column) {
             bail!("two columns '{}'; keep one", sheet.headings[at].text);
         }
     }
@@ -78,7 +80,7 @@ fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Spec>, Warnings)> {
     let names: Vec<String> = (0..sheet.lines.len()).map(name).collect();
     let mut uses = HashMap::new();
     names.iter().for_each(|name| *uses.entry(name.as_str()).or_insert(0) += 1);
-    let spec = |(row, name): (usize, &String)| {
+    let listed = |(row, name): (usize, &String)| {
         let is_total = TOTALS.contains(&name.to_lowercase().as_str());
         let name = match uses[name.as_str()] {
             1 => name.clone(),
@@ -86,24 +88,24 @@ fn objects(sheet: &Grid) -> anyhow::Result<(Vec<Spec>, Warnings)> {
         };
         let held = columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
         let held = held.filter_map(|(at, _)| held_by(&sheet.headings[at].text, sheet.cell(row, at))).next();
-        match spec(sheet, &columns, row) {
-            Ok(spec) if !is_total => Spec { name, refused: held, ..spec },
+        match object(sheet, &columns, row) {
+            Ok(object) if !is_total => Object { name, refused: held, ..object },
             given => {
                 let problem = given.err().unwrap_or("a row of totals, not an object".to_string());
-                Spec { name, refused: Some(Reason::Implausible(problem)), ..Spec::default() }
+                Object { name, refused: Some(Reason::Implausible(problem)), ..Object::default() }
             }
         }
     };
     let is_unused = |(at, column): &(usize, &Column)| **column == Column::Unused && Some(*at) != named;
     let unused = columns.iter().enumerate().filter(is_unused);
     let unused = unused.map(|(at, _)| (Warning::UnusedColumns, sheet.headings[at].text.clone())).collect();
-    Ok((names.iter().enumerate().map(spec).collect(), unused))
+    Ok((names.iter().enumerate().map(listed).collect(), unused))
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
 pub fn describes_object(heading: &Heading) -> bool {
-    let others = ["p", "alpha", "eta", "count"];
-    matches!(meaning(heading), Column::Option(name, _) if !others.contains(&name.as_str()))
+    let others = [Field::P, Field::Alpha, Field::Eta];
+    matches!(meaning(heading), Column::Known(field) if !others.contains(&field))
 }
 
 fn meaning(heading: &Heading) -> Column {
@@ -112,25 +114,31 @@ fn meaning(heading: &Heading) -> Column {
     let is_count = heading.unit.is_some_and(|unit| unit.quantity == Quantity::Counts);
     let synonym = SYNONYMS.iter().find(is_synonym).map(|(option, _)| *option);
     let name = if is_count { "count" } else { synonym.unwrap_or(&name) };
-    let command = Spec::command();
-    let option = command.get_arguments().find(|option| option.get_long() == Some(name) && name != "name");
-    match option.and_then(|option| option.get_value_names()) {
-        // An option with a unit has it as the name of its value.
-        Some(of) => Column::Option(name.to_string(), Unit::parse(&of[0]).map(|unit| unit.quantity)),
-        None if HELD.iter().any(|start| name.starts_with(start)) => Column::Held,
-        None => Column::Unused,
+    match name.parse() {
+        Ok(field) => Column::Known(field),
+        Err(_) if name == "count" => Column::Count,
+        Err(_) if HELD.iter().any(|start| name.starts_with(start)) => Column::Held,
+        Err(_) => Column::Unused,
     }
 }
 
-fn spec(sheet: &Grid, columns: &[Column], row: usize) -> Result<Spec, String> {
-    let mut pairs: Vec<(String, String)> = Vec::new();
+fn object(sheet: &Grid, columns: &[Column], row: usize) -> Result<Object, String> {
+    let mut object = Object::default();
+    // Of one side alone it is the width.
+    let width = columns.iter().position(|column| *column == Column::Known(Field::Width));
+    let has_width = width.is_some_and(|at| !sheet.cell(row, at).is_empty());
     for (at, column) in columns.iter().enumerate() {
         let (cell, unit) = (sheet.cell(row, at), sheet.headings[at].unit);
-        let Column::Option(name, quantity) = column else { continue };
+        let (name, quantity) = match column {
+            _ if cell.is_empty() => continue,
+            Column::Known(Field::Depth) if !has_width => ("width", Some(Quantity::Length)),
+            Column::Known(field) => (field.as_str(), field.quantity()),
+            Column::Count => ("count", None),
+            Column::Held | Column::Unused => continue,
+        };
         let refuse = |unit: Unit, expected| Err(format!("{name} is in {}; expected {expected}", unit.name));
         let size = match (quantity, unit) {
-            _ if cell.is_empty() => continue,
-            (Some(quantity), Some(unit)) if unit.quantity == *quantity => unit.si,
+            (Some(quantity), Some(unit)) if unit.quantity == quantity => unit.si,
             (Some(Quantity::Length), Some(unit)) => return refuse(unit, "m, cm or mm"),
             (_, Some(unit)) if unit.quantity != Quantity::Counts => {
                 return refuse(unit, "another unit, or none");
@@ -138,15 +146,9 @@ fn spec(sheet: &Grid, columns: &[Column], row: usize) -> Result<Spec, String> {
             _ => 1.0,
         };
         let number = sheet.number(row, at).map(|number| (size * number).to_string());
-        pairs.push((name.clone(), number.unwrap_or(cell.to_string())));
+        object.set(name, &number.unwrap_or(cell.to_string()))?;
     }
-    // Of one side alone it is the width.
-    if pairs.iter().all(|(name, _)| name != "width")
-        && let Some((depth, _)) = pairs.iter_mut().find(|(name, _)| name == "depth")
-    {
-        *depth = "width".to_string();
-    }
-    Spec::of_pairs(pairs.into_iter())
+    Ok(object)
 }
 
 /// Why an object with this cell under this heading of anchors is not free to rock.

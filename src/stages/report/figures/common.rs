@@ -4,8 +4,7 @@ use crate::fragility::{Cases, DemandFit, DemandModel, Event, Measure};
 use crate::report::Estimate;
 use crate::stages::ida::ScaledMeasure;
 use crate::stages::report::tables::Tables;
-use crate::statistics::Limits;
-use crate::studies::wilson_limits;
+use crate::studies::observed_share;
 
 /// Label of the demand (Eq. 7).
 pub const DEMAND: &str = "|*θ*|_{max} / *α*";
@@ -93,8 +92,8 @@ pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec
         (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
     }
     let share = |&(sum, n, events): &(f64, usize, usize)| {
-        let Limits { low, high } = wilson_limits(events, n);
-        Estimate { x: sum / n as f64, y: events as f64 / n as f64, low, high, n: n as f64 }
+        let share = observed_share(events, n);
+        Estimate { x: sum / n as f64, y: share.value, low: share.low, high: share.high, n: n as f64 }
     };
     bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
 }

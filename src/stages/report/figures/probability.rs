@@ -2,13 +2,12 @@
 
 use super::common::{by, compare, demand_fits, demands, ends, equal_ratios, label};
 use super::common::{observed_shares, ratios, rocked};
-use crate::fragility::{
-    Cases, CurveFit, DemandFit, DemandModel, Measure, Probability, hybrid_measure, lambda,
-};
+use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::stages::report::tables::Tables;
+use crate::statistics;
 use crate::statistics::scores::sample_quantile;
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
@@ -100,9 +99,13 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
 }
 
 /// A curve with its band, broken where it has no value.
-fn curve(label: &str, x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Probability>) -> Curve {
+fn curve(
+    label: &str,
+    x: impl Iterator<Item = f64>,
+    p: impl Fn(f64) -> Option<statistics::Estimate>,
+) -> Curve {
     let point = |x: f64| match p(x) {
-        Some(Probability { value, low, high }) => ([x, value], [low, high]),
+        Some(statistics::Estimate { value, low, high }) => ([x, value], [low, high]),
         None => ([f64::NAN; 2], [f64::NAN; 2]),
     };
     let (points, band) = x.map(point).unzip();

@@ -28,7 +28,7 @@ pub fn annual(objects: &[Answer<RatesRow>]) -> Figure {
         [] => return Figure::default(),
         [Answer { object, row, .. }] => {
             let rates: Vec<(String, Limited)> = vec![
-                ("rocks".to_string(), [row.rocking_per_year, None, None]),
+                ("rocks".to_string(), Limited::value(row.rocking_per_year)),
                 (format!("{}, or overturns", too_far(object)), row.failure_per_year),
                 ("overturns".to_string(), row.overturning_per_year),
             ];
@@ -47,7 +47,8 @@ pub fn annual(objects: &[Answer<RatesRow>]) -> Figure {
 /// Values with their limits, each in a row of its name.
 fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, Limited)>) -> Panel {
     let estimate = |(row, (_, limited)): (usize, &(String, Limited))| {
-        let [x, low, high] = limited.map(|number| number.unwrap_or(f64::NAN));
+        let [x, low, high] =
+            [limited.value, limited.low, limited.high].map(|number| number.unwrap_or(f64::NAN));
         Estimate { x, y: row as f64, low, high, n: f64::NAN }
     };
     let estimates = Layer::estimates("", ink, rows.iter().enumerate().map(estimate));
@@ -85,7 +86,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
         capacities.sort_unstable_by(f64::total_cmp);
         let share = |k: usize| k as f64 / fit.n.max(1) as f64;
         let steps = capacities.iter().enumerate().flat_map(|(k, &x)| [[x, share(k)], [x, share(k + 1)]]);
-        let curve = fit.theta[0].zip(fit.beta[0]).map(|(theta, beta)| {
+        let curve = fit.theta.value.zip(fit.beta.value).map(|(theta, beta)| {
             ratios(ends, STEPS).map(|x| [x, p_overturning(x, theta.ln(), beta)]).collect()
         });
         let layers = vec![
@@ -138,7 +139,7 @@ pub fn ranking(sets: &[RankedSet]) -> Figure {
         let planes = if set.form == Form::Biplanar { ", two planes" } else { "" };
         let name = format!("{}{planes}", set.measures.to_uppercase().replace(':', ", "));
         let [low, high] = [-Z_95, Z_95].map(|z| Some(set.loss? + z * set.loss_error?));
-        (name, [set.loss, low, high])
+        (name, Limited { value: set.loss, low, high })
     };
     let title = |set: &RankedSet| {
         let target = if set.target == Target::Demand { "demand" } else { "overturning" };

@@ -1,0 +1,105 @@
+//! The numbers that may be known of an object, by the names that options, lists and messages have for them.
+
+use std::f64::consts::FRAC_PI_4;
+
+use crate::keyword::keywords;
+use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
+use crate::units::Quantity;
+
+keywords! {
+    /// A number that may be known of an object. Lengths are in m.
+    pub enum Field {
+        /// Width of the base of a block, body or column.
+        Width = "width",
+        /// Depth of the base.
+        Depth = "depth",
+        /// Height of the block, body or column.
+        Height = "height",
+        /// Height of the centre of mass above the base.
+        CentreHeight = "centre-height",
+        /// Distance of the centre of mass from the middle of the width.
+        CentreOffset = "centre-offset",
+        /// Moment of inertia about the centre of mass, per unit mass, m2.
+        Inertia = "inertia",
+        /// Mass of the beam of a frame over that of all columns.
+        BeamMassRatio = "beam-mass-ratio",
+        /// Frequency parameter, rad/s.
+        P = "p",
+        /// Slenderness, rad.
+        Alpha = "alpha",
+        /// Coefficient of restitution.
+        Eta = "eta",
+        /// First period of the building, s.
+        Period = "period",
+        /// Height of the floor over that of the roof.
+        Level = "level",
+        /// Standard deviation of ln(period).
+        PeriodSd = "period-sd",
+        /// Coefficient of friction.
+        Friction = "friction",
+        /// Standard deviation of eta.
+        EtaSd = "eta-sd",
+        /// Standard deviation of the height of the centre of mass.
+        CentreHeightSd = "centre-height-sd",
+        /// Standard deviation of the offset of the centre of mass.
+        CentreOffsetSd = "centre-offset-sd",
+    }
+}
+
+const LENGTH: &str = "a length above 0 m, up to 200 m: is it in cm or mm?";
+const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
+
+impl Field {
+    /// Returns the least and the largest value that an object can have, and what is expected. No rocking structure is
+    /// taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than
+    /// tall (it slides).
+    #[rustfmt::skip]
+    pub fn range(self) -> ([f64; 2], &'static str) {
+        match self {
+            Field::Width | Field::Depth => ([1e-4, 200.0], LENGTH),
+            Field::Height => ([1e-3, 200.0], LENGTH),
+            Field::CentreHeight => ([1e-6, 200.0], LENGTH),
+            Field::CentreOffset => ([-100.0, 100.0], "a length up to 100 m: is it in cm or mm?"),
+            Field::Inertia => ([1e-9, 2e4], "m2, above 0: is it about an edge, or times mass?"),
+            Field::BeamMassRatio => ([0.0, 20.0], "a mass ratio from 0 to 20: is it in percent?"),
+            Field::P => ([*GIVEN_FREQUENCIES_RAD_S.start(), *GIVEN_FREQUENCIES_RAD_S.end()], "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"),
+            Field::Alpha => ([0.01, FRAC_PI_4],
+                "rad, from 0.01 to 0.7854 (45 degrees): is it in degrees, height over width, or p?"),
+            Field::Eta => ([f64::MIN_POSITIVE, 1.0], "a number above 0 and up to 1, or housner"),
+            Field::Period => ([0.02, 10.0], "a period from 0.02 to 10 s: is it in Hz?"),
+            Field::Level => ([0.0, 1.0], "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"),
+            Field::PeriodSd => ([0.0, 1.0],
+                "a standard deviation of ln(period), 0 to 1: is it in s or percent?"),
+            Field::Friction => ([0.01, 2.0], "a coefficient of friction from 0.01 to 2"),
+            Field::EtaSd => ([0.0, 0.5], "a standard deviation from 0 to 0.5"),
+            Field::CentreHeightSd | Field::CentreOffsetSd => ([0.0, 100.0], SD),
+        }
+    }
+
+    /// Returns the quantity that it has a unit of; none where it has no unit, or none that a list may change.
+    pub fn quantity(self) -> Option<Quantity> {
+        match self {
+            Field::P => Some(Quantity::AngularFrequency),
+            Field::Alpha => Some(Quantity::Angle),
+            Field::Period => Some(Quantity::Time),
+            Field::Width | Field::Depth | Field::Height | Field::CentreHeight | Field::CentreOffset => {
+                Some(Quantity::Length)
+            }
+            Field::CentreHeightSd | Field::CentreOffsetSd => Some(Quantity::Length),
+            _ => None,
+        }
+    }
+
+    /// Reads a number that an object can have.
+    ///
+    /// # Errors
+    /// With what is expected.
+    pub fn parse_value(self, text: &str) -> Result<f64, String> {
+        let ([least, most], expected) = self.range();
+        match text.parse::<f64>() {
+            Ok(value) if (least..=most).contains(&value) => Ok(value),
+            _ if text.contains(',') => Err(format!("expected {expected}, with a point before the decimals")),
+            _ => Err(format!("expected {expected}")),
+        }
+    }
+}

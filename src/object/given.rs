@@ -1,0 +1,232 @@
+//! An object as it is given: its shape, the place where it stands, and how well both are known.
+
+use std::str::FromStr;
+
+use super::field::Field;
+use crate::motion::Floor;
+use crate::rocking::{Structure, StructureError};
+
+/// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are those of
+/// [`Field`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[expect(missing_docs, reason = "Field says it")]
+pub struct Shape {
+    pub width: Option<f64>,
+    pub depth: Option<f64>,
+    pub height: Option<f64>,
+    pub centre_height: Option<f64>,
+    pub centre_offset: Option<f64>,
+    pub inertia: Option<f64>,
+    pub beam_mass_ratio: Option<f64>,
+    pub p: Option<f64>,
+    pub alpha: Option<f64>,
+    pub eta: Option<Restitution>,
+}
+
+/// Where an object stands, and how well it is known.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[expect(missing_docs, reason = "Field says it")]
+pub struct Place {
+    pub period: Option<f64>,
+    pub level: Option<f64>,
+    pub period_sd: Option<f64>,
+    pub friction: Option<f64>,
+    pub eta_sd: Option<f64>,
+    pub centre_height_sd: Option<f64>,
+    pub centre_offset_sd: Option<f64>,
+}
+
+/// A coefficient of restitution as it is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Restitution {
+    /// A number.
+    Number(f64),
+    /// Housner's, 1 - 1.5 sin^2(alpha).
+    Housner,
+    /// That of a fitted structure: its fits do not say how it was found.
+    Fitted(f64),
+}
+
+impl FromStr for Restitution {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Restitution, String> {
+        if text == "housner" {
+            Ok(Restitution::Housner)
+        } else {
+            Field::Eta.parse_value(text).map(Restitution::Number)
+        }
+    }
+}
+
+/// Why there is no answer for an object.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Reason {
+    /// What is given cannot be right.
+    #[error("{0}")]
+    Implausible(String),
+    /// It does not rock: it slides, rolls or is held.
+    #[error("{0}")]
+    NotRocking(String),
+}
+
+impl From<StructureError> for Reason {
+    fn from(StructureError { parameter, value, expected, .. }: StructureError) -> Reason {
+        Reason::Implausible(format!("{parameter} is {value}; expected {expected}"))
+    }
+}
+
+/// An object: what is known of it, or why there is no answer.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Object {
+    /// Name in tables.
+    pub name: String,
+    /// Number of such objects.
+    pub count: Option<u32>,
+    /// Its shape.
+    pub shape: Shape,
+    /// Where it stands.
+    pub place: Place,
+    /// Why there is no answer, whatever its shape.
+    pub refused: Option<Reason>,
+}
+
+/// The largest number of objects of one kind.
+pub const MOST_OBJECTS: u32 = 1_000_000;
+
+impl Object {
+    /// Makes a solid block of this width and height (m), on the ground.
+    pub fn block(name: &str, width_m: f64, height_m: f64) -> Object {
+        let shape = Shape { width: Some(width_m), height: Some(height_m), ..Shape::default() };
+        Object { name: name.to_string(), shape, ..Object::default() }
+    }
+
+    /// Makes an object of which the parameters are known.
+    pub fn with_parameters(structure: Structure, eta: fn(f64) -> Restitution) -> Object {
+        let Structure { name, p_rad_s, alpha_rad, eta: value } = structure;
+        let shape =
+            Shape { p: Some(p_rad_s), alpha: Some(alpha_rad), eta: Some(eta(value)), ..Shape::default() };
+        Object { name, shape, ..Object::default() }
+    }
+
+    /// Reads one of the [fields](Field), the number of such objects (`count`) or their `name`.
+    ///
+    /// # Errors
+    /// If there is no such field, or an object cannot have this value.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
+        let refuse = |expected: String| format!("{name} is {text}; {expected}");
+        match name {
+            "name" => self.name = text.to_string(),
+            "count" => {
+                let count = text.parse().ok().filter(|count| *count <= MOST_OBJECTS);
+                self.count =
+                    Some(count.ok_or_else(|| refuse("expected a whole number of objects".to_string()))?);
+            }
+            "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
+            _ => {
+                let field: Field = name.parse().map_err(|unknown| format!("{unknown}"))?;
+                let value = field.parse_value(text).map_err(refuse)?;
+                if let Some(number) = self.number_mut(field) {
+                    *number = Some(value);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the number of a field, to change it; none of eta, which may be a word.
+    fn number_mut(&mut self, field: Field) -> Option<&mut Option<f64>> {
+        let (shape, place) = (&mut self.shape, &mut self.place);
+        Some(match field {
+            Field::Width => &mut shape.width,
+            Field::Depth => &mut shape.depth,
+            Field::Height => &mut shape.height,
+            Field::CentreHeight => &mut shape.centre_height,
+            Field::CentreOffset => &mut shape.centre_offset,
+            Field::Inertia => &mut shape.inertia,
+            Field::BeamMassRatio => &mut shape.beam_mass_ratio,
+            Field::P => &mut shape.p,
+            Field::Alpha => &mut shape.alpha,
+            Field::Eta => return None,
+            Field::Period => &mut place.period,
+            Field::Level => &mut place.level,
+            Field::PeriodSd => &mut place.period_sd,
+            Field::Friction => &mut place.friction,
+            Field::EtaSd => &mut place.eta_sd,
+            Field::CentreHeightSd => &mut place.centre_height_sd,
+            Field::CentreOffsetSd => &mut place.centre_offset_sd,
+        })
+    }
+
+    /// Puts it in a place, where it does not say itself where it stands.
+    pub fn at(self, place: &Place) -> Object {
+        Object { place: self.place.or(place), ..self }
+    }
+
+    /// Gives it a base of another width and depth (m): the offset goes with the width, and the inertia as that of a
+    /// solid block.
+    pub fn resized(&self, width_m: f64, depth_m: Option<f64>) -> Object {
+        let shape = &self.shape;
+        let width = shape.width.unwrap_or(width_m);
+        let (factor, added) = (width_m / width, (width_m * width_m - width * width) / 12.0);
+        let shape = Shape {
+            width: Some(width_m),
+            depth: depth_m,
+            centre_offset: shape.centre_offset.map(|offset| factor * offset),
+            inertia: shape.inertia.map(|inertia| inertia + added),
+            ..*shape
+        };
+        Object { shape, ..self.clone() }
+    }
+}
+
+impl Shape {
+    /// Returns what it is, in words.
+    pub fn kind(&self) -> &'static str {
+        let is_solid = self.centre_height.is_none_or(|centre| Some(2.0 * centre) == self.height)
+            && self.centre_offset.is_none_or(|offset| offset == 0.0)
+            && self.inertia.is_none();
+        match (self.width, self.beam_mass_ratio) {
+            (None, _) => "Structure",
+            (_, Some(_)) => "Frame of columns",
+            _ if is_solid => "Block",
+            _ => "Body",
+        }
+    }
+
+    /// Returns the coefficient of restitution if it is given as a number.
+    pub(super) fn given_eta(&self) -> Option<f64> {
+        match self.eta {
+            Some(Restitution::Number(eta)) => Some(eta),
+            _ => None,
+        }
+    }
+}
+
+impl Place {
+    fn or(self, other: &Place) -> Place {
+        Place {
+            period: self.period.or(other.period),
+            level: self.level.or(other.level),
+            period_sd: self.period_sd.or(other.period_sd),
+            friction: self.friction.or(other.friction),
+            eta_sd: self.eta_sd.or(other.eta_sd),
+            centre_height_sd: self.centre_height_sd.or(other.centre_height_sd),
+            centre_offset_sd: self.centre_offset_sd.or(other.centre_offset_sd),
+        }
+    }
+
+    /// Returns the floor; none on the ground.
+    ///
+    /// # Errors
+    /// If only one of level and period is given.
+    pub fn floor(&self) -> Result<Option<Floor>, Reason> {
+        let missing = match (self.period, self.level) {
+            (Some(period_s), Some(level)) => return Ok((level > 0.0).then_some(Floor { period_s, level })),
+            (None, Some(level)) if level > 0.0 => "level needs period, the first of the building (s)",
+            (Some(_), None) => "period needs level, the height of the floor over that of the roof",
+            _ => return Ok(None),
+        };
+        Err(Reason::Implausible(missing.to_string()))
+    }
+}

@@ -1,0 +1,19 @@
+//! Objects: what is known of one and where it stands, the directions in which it falls, and what is not known
+//! of them.
+//!
+//! ```text
+//! field      the numbers that may be known, with the ranges in which they are possible
+//! given      an object as it is given: dimensions, or p, alpha and eta; ground or floor
+//! sides      the structures that it rocks like, and how well these are known
+//! subject    its directions with the models that predict for them, and its unknowns
+//! ```
+
+mod field;
+mod given;
+mod sides;
+mod subject;
+
+pub use field::Field;
+pub use given::{Object, Place, Reason, Restitution, Shape};
+pub use sides::Side;
+pub use subject::{Change, Part, Subject, Unknown, structure_warnings};

@@ -1,0 +1,196 @@
+//! The structures that an object rocks like: its parameters, a frame, or the sides of a body.
+
+use std::f64::consts::FRAC_PI_4;
+
+use super::given::{Object, Place, Reason, Restitution, Shape};
+use super::subject::Part;
+use crate::fragility::Z_95;
+use crate::rocking::{Body, Structure, StructureError, housner_eta};
+use crate::statistics::{normal, numerics};
+
+/// A direction in which an object rocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Side {
+    /// The structure that it rocks like.
+    pub structure: Structure,
+    /// What is not known of that: parts, each with the structures at the 2.5 and 97.5 % quantiles.
+    pub unknowns: Vec<(Part, [Structure; 2])>,
+}
+
+/// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
+/// 1.8 times as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al.
+/// 2016, Ther & Kollar 2017).
+const SD_OF_LOSS: f64 = 0.4;
+/// Least and largest coefficient of restitution at the ends of what is not known.
+const POSSIBLE_ETA: [f64; 2] = [0.01, 1.0];
+/// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
+/// base.
+const FARTHEST: f64 = 0.98;
+/// Depth of an object over its height that no object has.
+const LONGEST: f64 = 20.0;
+
+impl Object {
+    /// Finds the directions in which it rocks, the weaker first; of those in which it would slide none.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn sides(&self) -> Result<Vec<Side>, Reason> {
+        if let Some(reason) = &self.refused {
+            return Err(reason.clone());
+        }
+        self.place.floor()?;
+        let mut sides = self.all_sides()?;
+        sides.sort_by(|a, b| a.friction().total_cmp(&b.friction()));
+        let (least, friction) = (sides[0].friction(), self.place.friction.unwrap_or(f64::INFINITY));
+        sides.retain(|side| side.friction() <= friction);
+        match sides.is_empty() {
+            true => {
+                Err(Reason::NotRocking(format!("slides first: it rocks from a friction of {least:.2} on")))
+            }
+            false => Ok(sides),
+        }
+    }
+
+    /// Returns whether it cannot be right as it is given.
+    pub fn is_implausible(&self) -> bool {
+        matches!(self.sides(), Err(Reason::Implausible(_)))
+    }
+
+    fn all_sides(&self) -> Result<Vec<Side>, Reason> {
+        let Shape { p, alpha, eta, width, height, depth, centre_height, centre_offset, inertia, .. } =
+            self.shape;
+        let is_body = [depth, centre_height, centre_offset, inertia].iter().any(Option::is_some);
+        match (p, alpha, width, height, self.shape.beam_mass_ratio) {
+            (Some(p), Some(alpha), None, None, None) if !is_body => {
+                let eta = match eta {
+                    Some(Restitution::Number(eta) | Restitution::Fitted(eta)) => eta,
+                    Some(Restitution::Housner) => housner_eta(alpha),
+                    None => return Err(Reason::Implausible("p and alpha need eta".to_string())),
+                };
+                Ok(vec![self.side_like(Structure::new(&self.name, p, alpha, eta)?)])
+            }
+            (None, None, Some(width), Some(height), Some(ratio)) if !is_body => {
+                self.check_dimensions(width, height)?;
+                let eta = self.shape.given_eta();
+                Ok(vec![self.side_like(Structure::frame(&self.name, width, height, ratio, eta)?)])
+            }
+            (None, None, Some(width), Some(height), None) => {
+                self.check_dimensions(width, height)?;
+                self.sides_of_body(width, height)
+            }
+            (None, None, Some(_), Some(_), Some(_)) => Err(Reason::Implausible(
+                "beam-mass-ratio: expected width and height of a column alone".to_string(),
+            )),
+            _ => Err(Reason::Implausible("expected p, alpha and eta, or width and height".to_string())),
+        }
+    }
+
+    /// Checks that dimensions can be right beside each other.
+    fn check_dimensions(&self, width: f64, height: f64) -> Result<(), Reason> {
+        let (shape, place) = (&self.shape, &self.place);
+        let side = shape.depth.map_or(width, |depth| depth.min(width));
+        let (offset, inertia) =
+            (shape.centre_offset.map(f64::abs), 3.0 * Body::solid_inertia_m2(width, height));
+        let most = [
+            ("width", Some(side), height, "m, the height: were they exchanged?"),
+            ("depth", shape.depth, LONGEST * height, "m, 20 times the height: is it in cm or mm?"),
+            ("centre-height", shape.centre_height, height, "m, the height: were they exchanged?"),
+            ("centre-offset", offset, 0.5 * width, "m, half of the width: is it from an edge, or in cm?"),
+            ("inertia", shape.inertia, inertia, "m2: is it about an edge, or times mass?"),
+            ("centre-height-sd", place.centre_height_sd, height, "m, the height: is it in cm?"),
+            ("centre-offset-sd", place.centre_offset_sd, width, "m, the width: is it in cm?"),
+        ];
+        for (name, value, most, expected) in most {
+            if let Some(value) = value.filter(|value| *value > most) {
+                let problem = format!("{name} is {value}; expected up to {most} {expected}");
+                return Err(Reason::Implausible(problem));
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the side of a structure of which nothing but eta is unknown: by its standard deviation if that is given,
+    /// of a computed one by tests.
+    fn side_like(&self, structure: Structure) -> Side {
+        let limits = match (self.place.eta_sd, self.shape.given_eta()) {
+            (Some(sd), _) => Some([-Z_95, Z_95].map(|off| structure.eta + off * sd)),
+            (None, Some(_)) => None,
+            (None, None) => {
+                Some([Z_95, -Z_95].map(|off| 1.0 - (1.0 - structure.eta) * (off * SD_OF_LOSS).exp()))
+            }
+        };
+        let [least, most] = POSSIBLE_ETA;
+        let with = |eta: f64| Structure { eta: eta.clamp(least, most), ..structure.clone() };
+        let unknowns = limits.map(|limits| (Part::Eta, limits.map(with))).into_iter().collect();
+        Side { structure, unknowns }
+    }
+
+    /// Finds both directions of a body, or that of its width.
+    fn sides_of_body(&self, width: f64, height: f64) -> Result<Vec<Side>, Reason> {
+        let mut sides = vec![self.side_of_body(width, height, self.shape.centre_offset.unwrap_or(0.0))];
+        sides.extend(self.shape.depth.map(|depth| self.side_of_body(depth, height, 0.0)));
+        if sides.iter().any(Result::is_ok) {
+            // A direction that is squat is no danger beside one that is not.
+            sides.retain(Result::is_ok);
+        }
+        sides.into_iter().collect()
+    }
+
+    /// Finds the direction of a side of the base; the inertia about the other axis differs by that of a solid block.
+    fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, Reason> {
+        let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
+        let solid = Body::solid(side, height);
+        let across = Body::solid(self.shape.width.unwrap_or(side), height).inertia_m2;
+        let inertia_m2 =
+            self.shape.inertia.map_or(solid.inertia_m2, |inertia| inertia + solid.inertia_m2 - across);
+        let centre = self.shape.centre_height.unwrap_or(0.5 * height);
+        let [left, middle, right] = folded_quantiles(offset, centre_offset_sd.unwrap_or(0.0));
+        let at = |centre_height_m: f64, centre_offset_m: f64| Body {
+            width_m: side,
+            centre_height_m: centre_height_m.clamp((1.0 - FARTHEST) * height, FARTHEST * height),
+            centre_offset_m: centre_offset_m.min(FARTHEST * 0.5 * side),
+            inertia_m2,
+        };
+        let mut found = self.side_like(self.structure_of_body(at(centre, middle), height)?);
+        let alpha_rad = found.structure.alpha_rad;
+        if alpha_rad > FRAC_PI_4 {
+            let tan = alpha_rad.tan();
+            let text = format!("squat: it slides unless its friction is above {tan:.2}");
+            return Err(Reason::NotRocking(text));
+        }
+        let by_height = centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, middle)));
+        let by_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
+        for bodies in [by_height, by_offset].into_iter().flatten() {
+            // A body that is squat is no danger.
+            let structures = bodies
+                .map(|body| self.structure_of_body(body, height).unwrap_or_else(|_| found.structure.clone()));
+            found.unknowns.push((Part::Object, structures));
+        }
+        Ok(found)
+    }
+
+    /// Makes the structure of a body; of a solid one by the formulas of a block.
+    fn structure_of_body(&self, body: Body, height: f64) -> Result<Structure, StructureError> {
+        let eta = self.shape.given_eta();
+        match body == Body::solid(body.width_m, height) {
+            true => Structure::rectangular_block(&self.name, body.width_m, height, eta),
+            false => body.structure(&self.name, eta),
+        }
+    }
+}
+
+impl Side {
+    /// The friction below which it slides, tan(alpha).
+    fn friction(&self) -> f64 {
+        self.structure.alpha_rad.tan()
+    }
+}
+
+/// Finds the 2.5, 50 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as bad.
+fn folded_quantiles(mean: f64, sd: f64) -> [f64; 3] {
+    let within = |x: f64| normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd);
+    [0.025, 0.5, 0.975].map(|share| match sd > 0.0 {
+        true => numerics::first(0.0, mean.abs() + 5.0 * sd, |x| within(x) > share),
+        false => mean.abs(),
+    })
+}

@@ -1,0 +1,211 @@
+//! An object with the models that predict for it, and what is not known of it: changes that are made when they are
+//! asked for.
+
+use super::given::{Object, Reason};
+use crate::fragility::{Direction, Kind, Model, Z_95};
+use crate::keyword::keywords;
+use crate::motion::{Floor, IntensityMeasures};
+use crate::plausibility::LEAST_P_RAD_S;
+use crate::rocking::Structure;
+use crate::warning::Warning;
+
+keywords! {
+    /// What an error comes from.
+    pub enum Part {
+        /// Parameters of the fragility model.
+        Fit = "fit",
+        /// Magnitude of the earthquakes.
+        Magnitude = "magnitude",
+        /// Level of PGV / PGA.
+        Velocity = "velocity",
+        /// Coefficient of restitution.
+        Eta = "eta",
+        /// Centre of mass and inertia.
+        Object = "object",
+        /// Building under the object.
+        Floor = "floor",
+        /// The hazard itself, where its fractiles are given.
+        Hazard = "hazard",
+    }
+}
+
+impl Part {
+    /// What is unknown, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Part::Fit => "the fragility",
+            Part::Magnitude => "magnitude",
+            Part::Velocity => "PGV",
+            Part::Eta => "eta",
+            Part::Object => "the object's body",
+            Part::Floor => "the building",
+            Part::Hazard => "the hazard",
+        }
+    }
+}
+
+/// An object in its directions, and what is not known of it.
+///
+/// ```
+/// use rockfrag::fragility::Kind;
+/// use rockfrag::object::{Object, Part, Subject};
+///
+/// let mut rack = Object::block("rack", 0.6, 1.9);
+/// rack.shape.depth = Some(0.8);
+/// let subject = Subject::shipped(&rack, Kind::Recorded, 0.10)?;
+/// // It may fall over its width or over its depth; how much each impact takes is not known, and the model has errors.
+/// assert_eq!(subject.directions.len(), 2);
+/// assert_eq!(subject.unknowns[0].part, Part::Eta);
+/// let bouncier = subject.changed(&subject.unknowns[0].high);
+/// assert!(bouncier[0].structure.eta > subject.directions[0].structure.eta);
+/// # Ok::<(), rockfrag::object::Reason>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subject {
+    /// The directions in which it falls, the weaker first; one or more.
+    pub directions: Vec<Direction>,
+    /// What is not known of them.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// Something that is not known exactly: a number, a change of a subject, or what follows from either.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unknown<T = Change> {
+    /// What it is a part of.
+    pub part: Part,
+    /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
+    pub low: T,
+    /// At its 97.5 % quantile, or 84 % fractile.
+    pub high: T,
+}
+
+impl<T> Unknown<T> {
+    /// Finds what follows from either end.
+    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> Unknown<U> {
+        Unknown { part: self.part, low: result(&self.low), high: result(&self.high) }
+    }
+}
+
+/// A change of a subject.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// Other structures, one for each direction.
+    Structures(Vec<Structure>),
+    /// Another floor.
+    Floor(Floor),
+    /// One of the independent errors of the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
+    Model {
+        /// The number of the error.
+        error: usize,
+        /// Whether it is at its upper quantile.
+        is_high: bool,
+    },
+}
+
+/// Standard deviation of the logarithm of a building's period that is not given.
+const SD_OF_PERIOD: f64 = 0.25;
+/// Below this a coefficient of restitution is more likely a typing error.
+const LOW_ETA: f64 = 0.5;
+
+impl Subject {
+    /// Joins the [sides](Object::sides) of an object with the model of each on the ground, and puts it on its floor.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    pub fn new(object: &Object, models: Vec<Model>) -> Result<Subject, Reason> {
+        let (sides, floor) = (object.sides()?, object.place.floor()?);
+        let mut unknowns = Vec::new();
+        // The sides of an object have the same parts unknown.
+        for (number, &(part, _)) in sides[0].unknowns.iter().enumerate() {
+            let at = |end: usize| sides.iter().map(|side| side.unknowns[number].1[end].clone()).collect();
+            let [low, high] = [0, 1].map(|end| Change::Structures(at(end)));
+            unknowns.push(Unknown { part, low, high });
+        }
+        if let Some(floor) = floor {
+            let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
+            let [low, high] = [-Z_95, Z_95].map(|off| floor.period_s * (off * sd).exp());
+            let [low, high] = [low, high].map(|period_s| Change::Floor(Floor { period_s, ..floor }));
+            unknowns.push(Unknown { part: Part::Floor, low, high });
+        }
+        let mut directions = Vec::new();
+        for (side, model) in sides.into_iter().zip(models) {
+            let problem =
+                || Reason::Implausible("period: the paper's model is that of the ground".to_string());
+            directions
+                .push(Direction { structure: side.structure, model: model.on(floor).ok_or_else(problem)? });
+        }
+        Ok(Subject { directions, unknowns })
+    }
+
+    /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is a demand
+    /// |theta|max / alpha above `limit_state`, or overturning.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    pub fn shipped(object: &Object, kind: Kind, limit_state: f64) -> Result<Subject, Reason> {
+        let sides = object.sides()?;
+        let models = sides.iter().map(|side| Model::shipped(kind, &side.structure, limit_state));
+        Subject::new(object, models.collect())
+    }
+
+    /// Makes the directions with a change.
+    pub fn changed(&self, change: &Change) -> Vec<Direction> {
+        let mut directions = self.directions.clone();
+        match change {
+            Change::Structures(structures) => {
+                for (direction, structure) in directions.iter_mut().zip(structures) {
+                    direction.structure = structure.clone();
+                }
+            }
+            Change::Floor(floor) => {
+                for Direction { model, .. } in &mut directions {
+                    if let Some(moved) = model.on(Some(*floor)) {
+                        *model = moved;
+                    }
+                }
+            }
+            Change::Model { error, is_high } => {
+                for Direction { model, .. } in &mut directions {
+                    if let Some(ends) = model.ends().into_iter().nth(*error) {
+                        let [low, high] = ends;
+                        *model = if *is_high { high } else { low };
+                    }
+                }
+            }
+        }
+        directions
+    }
+
+    /// Lists what is not known of the models: the same error moves all directions.
+    pub fn model_errors(&self) -> Vec<Unknown> {
+        let fewest = self.directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
+        let unknown = |error: usize| {
+            let [low, high] = [false, true].map(|is_high| Change::Model { error, is_high });
+            Unknown { part: Part::Fit, low, high }
+        };
+        (0..fewest).map(unknown).collect()
+    }
+
+    /// Warns of structures that are hardly possible.
+    pub fn structure_warnings(&self) -> Vec<Warning> {
+        self.directions.iter().flat_map(|direction| structure_warnings(&direction.structure)).collect()
+    }
+
+    /// Warns of structures that are hardly possible, and of predictions at a PGA and PGV (m/s2 and m/s).
+    pub fn warnings(&self, [pga_m_s2, pgv_m_s]: [f64; 2]) -> Vec<Warning> {
+        let mut warnings = self.structure_warnings();
+        for Direction { structure, model } in self.directions.iter().filter(|_| pga_m_s2 > 0.0) {
+            let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
+            warnings.extend(model.warnings(structure, &measures));
+        }
+        warnings.sort();
+        warnings.dedup();
+        warnings
+    }
+}
+
+/// Warns of a structure that is hardly possible.
+pub fn structure_warnings(structure: &Structure) -> Vec<Warning> {
+    let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
+    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
+}

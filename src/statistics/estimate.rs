@@ -1,0 +1,42 @@
+//! A value with limits, wherever one is known with an error.
+
+/// A value with its limits of confidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Estimate {
+    pub value: f64,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Estimate {
+    /// Makes an estimate that is known for certain.
+    pub const fn exact(value: f64) -> Estimate {
+        Estimate { value, low: value, high: value }
+    }
+
+    /// Makes an estimate whose limits are this far away on either side.
+    pub fn around(value: f64, half_width: f64) -> Estimate {
+        Estimate { value, low: value - half_width, high: value + half_width }
+    }
+
+    /// Computes a function that rises with a shift of its argument, at 0 and at the limits of the shift.
+    pub fn shifted(half_width: f64, at: impl Fn(f64) -> f64) -> Estimate {
+        let [low, value, high] = [-half_width, 0.0, half_width].map(at);
+        Estimate { value, low, high }
+    }
+
+    /// Applies a rising function to the value and both limits.
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Estimate {
+        Estimate { value: f(self.value), low: f(self.low), high: f(self.high) }
+    }
+
+    /// Joins two estimates whose errors have the same causes: the values, the low and the high limits.
+    pub fn zip(self, other: Estimate, join: impl Fn(f64, f64) -> f64) -> Estimate {
+        Estimate {
+            value: join(self.value, other.value),
+            low: join(self.low, other.low),
+            high: join(self.high, other.high),
+        }
+    }
+}
