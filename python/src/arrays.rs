@@ -4,10 +4,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rockfrag::fragility::{beta, mu};
 use rockfrag::keyword::Keyword;
+use rockfrag::object::{Object, structure_warnings};
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::implausibility::implausibility;
 use rockfrag::rocking::{Ground, Outcome, Record, TracePoint, simulate, trace, with_tail};
-use rockfrag::stages::shared::objects::{Object, warnings_of};
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::units::G_M_S2;
@@ -42,11 +42,11 @@ pub fn simulate_motion<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let solve = || -> anyhow::Result<_> {
         let usage = |error: &dyn ToString| UsageError::because(error.to_string());
-        let object = Object::new(structure.parse().map_err(|error: String| usage(&error))?);
-        if object.spec.place.level.or(object.spec.place.period).is_some() {
+        let object: Object = structure.parse().map_err(|error: String| usage(&error))?;
+        if object.place.level.or(object.place.period).is_some() {
             return Err(usage(&"level, period: simulate_motion takes the motion of the floor itself"));
         }
-        let structure = object.expect_directions().map_err(|error| usage(&error))?[0].structure.clone();
+        let structure = object.sides().map_err(|reason| usage(&reason))?.swap_remove(0).structure;
         if !(0.0..=1000.0).contains(&tail_s) {
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
         }
@@ -85,7 +85,7 @@ pub fn simulate_motion<'py>(
     result.set_item("alpha", structure.alpha_rad)?;
     result.set_item("eta", structure.eta)?;
     let implausible = implausibility(&numbers(acceleration), dt_s).map(|of| of.to_string());
-    let warnings = warnings_of(&structure).into_iter().map(|warning| warning.text().to_string());
+    let warnings = structure_warnings(&structure).into_iter().map(|warning| warning.text().to_string());
     result.set_item("warnings", implausible.into_iter().chain(warnings).collect::<Vec<_>>())?;
     Ok(result)
 }

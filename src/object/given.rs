@@ -5,6 +5,7 @@ use std::str::FromStr;
 use super::field::Field;
 use crate::motion::Floor;
 use crate::rocking::{Structure, StructureError};
+use crate::warning::UNNAMED;
 
 /// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are those of
 /// [`Field`].
@@ -89,6 +90,20 @@ pub struct Object {
     pub place: Place,
     /// Why there is no answer, whatever its shape.
     pub refused: Option<Reason>,
+}
+
+impl FromStr for Object {
+    type Err = String;
+
+    /// Reads an object as NAME=VALUE,...
+    fn from_str(text: &str) -> Result<Object, String> {
+        let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
+        for pair in text.split(',') {
+            let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+            object.set(&name.trim().replace('_', "-"), value.trim())?;
+        }
+        Ok(object)
+    }
 }
 
 /// The largest number of objects of one kind.

@@ -67,8 +67,8 @@ fn capacities_beyond_the_scan_count_as_scipy_has_it() {
     let known = [0.4, 0.55, 0.62, 0.8, 0.81, 1.2, 1.7, 2.4].map(KnownCapacity::At);
     let censored = [KnownCapacity::Above(3.0); 3].into_iter().chain([KnownCapacity::Below(0.3); 2]);
     let fit = fit_capacities(&known.into_iter().chain(censored).collect::<Vec<_>>()).unwrap();
-    close(fit.theta, 1.069_841_029_011_907_4, 1e-8);
-    close(fit.beta, 1.281_314_815_684_608_6, 1e-8);
+    close(fit.theta.value, 1.069_841_029_011_907_4, 1e-8);
+    close(fit.beta.value, 1.281_314_815_684_608_6, 1e-8);
     assert_eq!(fit_capacities(&[KnownCapacity::At(1.0)]), Err(FitStatus::TooFewEvents));
     assert_eq!(fit_capacities(&[KnownCapacity::Above(1.0); 9]), Err(FitStatus::TooFewEvents));
     assert_eq!(fit_capacities(&[KnownCapacity::At(1.0); 3]), Err(FitStatus::Degenerate));

@@ -3,7 +3,7 @@
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
 use rockfrag::motion::IntensityMeasures;
-use rockfrag::number;
+use rockfrag::number::{self, Limited};
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
 use rockfrag::rocking::{Outcome, Response, Structure};
 use rockfrag::stages::evaluate::{Answer, ObjectRow, RatesRow};
@@ -83,12 +83,15 @@ fn figures(count: usize) -> Vec<Figure> {
     let motions = &motions[..1 + count.min(1)];
     let answer = || Answer {
         object: ObjectRow { structure: "rack ".repeat(30), ..Default::default() },
-        row: RatesRow { overturning_per_year: [Some(1e-3), None, Some(2e-3)], ..Default::default() },
+        row: RatesRow {
+            overturning_per_year: Limited { value: Some(1e-3), low: None, high: Some(2e-3) },
+            ..Default::default()
+        },
         ..Default::default()
     };
     let objects: Vec<Answer<RatesRow>> = (0..count).map(|_| answer()).collect();
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
-        "theta": [0.3, null, null], "beta": [0.5, null, null], "status": "ok" }]);
+        "theta": { "value": 0.3, "low": null, "high": null }, "beta": { "value": 0.5, "low": null, "high": null }, "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
         "capacity": "overturns", "overturning_intensity": 0.3 });
     let stripe =
@@ -215,9 +218,12 @@ fn numbers_are_as_short_as_a_reader_needs() {
     assert_eq!([999, 27_000, 1_234_567].map(number::count), ["999", "27,000", "1,234,567"]);
     assert_eq!([0.8, 0.905, 12.0].map(number::length), ["0.80", "0.905", "12.00"]);
     assert_eq!([9.66, 1449.0, 27_290.0].map(number::period), ["9.7", "1,400", "27,000"]);
-    let of = [Some(0.0069), Some(0.005), Some(0.00984)];
+    let of = Limited { value: Some(0.0069), low: Some(0.005), high: Some(0.00984) };
     assert_eq!(number::PERCENT.both(of, "95 % limits "), "0.69 % (95 % limits 0.50 to 0.98 %)");
-    assert_eq!(number::PERCENT.both([None, Some(0.0), Some(0.9999)], ""), "0 to >99.9 %");
+    assert_eq!(
+        number::PERCENT.both(Limited { value: None, low: Some(0.0), high: Some(0.9999) }, ""),
+        "0 to >99.9 %"
+    );
     assert_eq!([-1234.5, -123.0].map(|x| number::fixed(x, 1)), ["-1,234.5", "-123.0"]);
 }
 

@@ -1,7 +1,6 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, ValueHint};
 
@@ -114,23 +113,6 @@ impl PlaceArgs {
     }
 }
 
-/// An object as NAME=VALUE,...
-#[derive(Debug, Clone, PartialEq)]
-pub struct Listed(Object);
-
-impl FromStr for Listed {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Listed, String> {
-        let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
-        for pair in text.split(',') {
-            let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-            object.set(&name.trim().replace('_', "-"), value.trim())?;
-        }
-        Ok(Listed(object))
-    }
-}
-
 /// The structures of a call.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Structure")]
@@ -140,7 +122,7 @@ pub struct StructureArgs {
     /// A structure; may be repeated: name=frame,p=1.0,alpha=0.15,eta=0.92 or
     /// name=cabinet,width=0.8,height=2.2
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
-    structure: Vec<Listed>,
+    structure: Vec<Object>,
     /// CSV list with a name and these options as columns (m, cm or mm by the heading), or the word paper for
     /// the paper's two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
@@ -199,7 +181,7 @@ impl StructureArgs {
                 let (name, shape) = (UNNAMED.to_string(), self.one.shape());
                 objects.push(Object { name, shape, ..Object::default() });
             }
-            None => objects.extend(self.structure.iter().map(|Listed(object)| object.clone())),
+            None => objects.extend(self.structure.iter().cloned()),
         }
         if objects.is_empty() {
             return Err(UsageError::because(
