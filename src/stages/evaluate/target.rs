@@ -17,6 +17,9 @@ const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
 /// Relative accuracy of a width, and the most steps of a search.
 const ACCURACY: f64 = 2e-5;
 const MOST_STEPS: usize = 40;
+/// The most full rates of a search by the upper limit, and the change of ln width after which a line suffices.
+const MOST_SPREADS: usize = 3;
+const CLOSE: f64 = 0.01;
 /// By how much ln rate falls with ln width, about, where a search begins; and the least fall that it trusts.
 const USUAL_FALL: f64 = 5.0;
 const LEAST_FALL: f64 = 0.2;
@@ -114,14 +117,18 @@ impl Search<'_> {
     }
 
     /// Finds where the upper limit meets the target. By how much it is above the estimate changes little with width:
-    /// a line through two widths tells it.
+    /// a line through the last two widths tells it.
     fn by_upper_limit(&mut self, rate: AnnualRate, target: f64) -> Option<Base> {
-        let own = self.own;
-        let at_own = spread(rate).or_else(|| self.spread_at(own))?;
-        let first = self.solve(own, |_| target.ln() - at_own)?;
-        let at_first = self.spread_at(first)?;
-        let per_ln = if (first - own).abs() > ACCURACY { (at_first - at_own) / (first - own) } else { 0.0 };
-        let found = self.solve(first, |ln_width| target.ln() - at_first - per_ln * (ln_width - first))?;
+        let (mut at, mut above, mut per_ln) = (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
+        for _ in 0..MOST_SPREADS {
+            let next = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
+            if (next - at).abs() < CLOSE {
+                return Some(self.base(next));
+            }
+            let there = self.spread_at(next)?;
+            (at, above, per_ln) = (next, there, (there - above) / (next - at));
+        }
+        let found = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
         Some(self.base(found))
     }
 
