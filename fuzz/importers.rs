@@ -16,7 +16,6 @@ fuzz_target!(|bytes: &[u8]| {
         dt_s: (first & 64 != 0).then_some(0.01),
         unit: Unit::parse("g").filter(|_| first & 32 != 0),
         column: Some(column.to_string()).filter(|column| !column.is_empty()),
-        ..ReadOptions::default()
     };
     for motion in read_records(text, &options).into_iter().flatten() {
         assert!(motion.acceleration_m_s2.len() <= text.len(), "samples that the file does not have");

@@ -119,7 +119,8 @@ impl Search<'_> {
     /// Finds where the upper limit meets the target. By how much it is above the estimate changes little with width:
     /// a line through the last two widths tells it.
     fn by_upper_limit(&mut self, rate: AnnualRate, target: f64) -> Option<Base> {
-        let (mut at, mut above, mut per_ln) = (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
+        let (mut at, mut above, mut per_ln) =
+            (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
         for _ in 0..MOST_SPREADS {
             let next = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
             if (next - at).abs() < CLOSE {
