@@ -9,17 +9,23 @@
 //! numbers   which signs are decimal and which stand between thousands, settled for a whole table
 //! rename    headings that the user names
 //! hazard    the hazard of a site
+//! objects   lists of objects
+//! floors    floors as people write them: level and first period
+//! words     words of lists in several languages
 //! error     what is wrong with a file
 //! ```
 
 mod decode;
 mod error;
+mod floors;
 mod grid;
 pub mod hazard;
 mod heading;
 mod numbers;
+pub mod objects;
 mod rename;
 mod unpack;
+mod words;
 mod workbook;
 
 pub use decode::decode;

@@ -3,4 +3,5 @@
 mod bytes;
 mod grid;
 mod hazard;
+mod objects;
 mod packed;

@@ -1,0 +1,251 @@
+//! Lists of objects in the forms that people keep them in.
+
+use rockfrag::inputs::objects::{self, Common};
+use rockfrag::inputs::{InputError, Rename, Renames};
+use rockfrag::object::Object;
+
+use super::packed::{Cells, csv, ods, utf_16, xlsx};
+
+/// Fifteen objects of a building with five storeys: name, number, width, depth and height (cm), anchors, and the
+/// storey above the ground.
+const LIST: [[&str; 7]; 15] = [
+    ["Bookcase", "3", "30", "90", "200", "no", "0"],
+    ["Server rack", "2", "60", "100", "210", "no", "1"],
+    ["Shelf", "12", "40", "92.5", "180", "no", "2"],
+    ["Autoclave", "1", "80", "80", "170", "yes", "2"],
+    ["Drug cabinet", "4", "45", "60", "190", "no", "3"],
+    ["Vase", "1", "25", "25", "80", "no", "3"],
+    ["Statue", "1", "45", "40", "170", "no", "0"],
+    ["Display case", "2", "50", "50", "190", "no", "0"],
+    ["Locker", "6", "50", "40", "185", "no", "4"],
+    ["Freezer", "1", "70", "75", "195", "no", "1"],
+    ["Filing cabinet", "8", "41.5", "62", "132", "no", "4"],
+    ["#2 rack", "1", "60", "80", "200", "no", "5"],
+    ["Vending machine", "1", "90", "80", "183", "no", "0"],
+    ["Copier", "1", "62", "70", "120", "no", "2"],
+    ["Tower", "1", "0.5e2", "50", "1.05e2", "no", "3"],
+];
+
+fn with_heading<'a>(heading: &[&'a str], rows: Vec<Vec<&'a str>>) -> Vec<Vec<&'a str>> {
+    [vec![heading.to_vec()], rows].concat()
+}
+
+fn read(
+    name: &str,
+    bytes: &[u8],
+    columns: &str,
+    ground_floor: Option<u32>,
+) -> Result<Vec<Object>, InputError> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
+    let mut renames = Renames::new(&renames);
+    let common = Common { ground_floor, ..Common::default() };
+    let (objects, _) = objects::read(&path, &mut renames, &common)?;
+    renames.expect_used()?;
+    Ok(objects)
+}
+
+fn text(text: &str) -> Vec<Object> {
+    read("list.csv", text.as_bytes(), "", None).unwrap_or_else(|why| panic!("{why}"))
+}
+
+/// Why the only object of a list has no answer.
+fn reason(text: &str) -> String {
+    let objects = read("list.csv", text.as_bytes(), "", None).unwrap_or_else(|why| panic!("{why}: {text}"));
+    objects[0].refused.as_ref().map_or(String::new(), ToString::to_string)
+}
+
+#[test]
+fn fifteen_objects_are_the_same_in_every_form() {
+    let english = [
+        "Equipment",
+        "Qty",
+        "Width (cm)",
+        "Depth (cm)",
+        "Height (cm)",
+        "Anchored",
+        "Storey",
+        "Storeys",
+        "Building",
+    ];
+    let rows: Vec<Vec<&str>> = LIST.iter().map(|row| [&row[..], &["5", "concrete frame"]].concat()).collect();
+    let cells = with_heading(&english, rows.clone());
+    let plain = csv(&cells, ",");
+    let expected = text(&plain);
+    assert_eq!(expected.len(), 15);
+    // Storey 3 of 5: 17.5 m high, T1 = .0466 H^.9.
+    let place = expected[4].place;
+    assert!(
+        (place.level.unwrap() - 0.6).abs() < 1e-12
+            && (place.period.unwrap() - 0.0466 * 17.5_f64.powf(0.9)).abs() < 1e-12
+    );
+    assert!(
+        expected[3].refused.is_some()
+            && expected.iter().filter(|object| object.refused.is_none()).count() == 14
+    );
+
+    let german: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            row.iter()
+                .map(|cell| {
+                    let cell =
+                        if cell.parse::<f64>().is_ok() { cell.replace('.', ",") } else { cell.to_string() };
+                    match cell.as_str() {
+                        "no" => "nein".to_string(),
+                        "concrete frame" => "Stahlbeton".to_string(),
+                        _ => cell,
+                    }
+                })
+                .collect()
+        })
+        .collect();
+    let german: Vec<Vec<&str>> = german.iter().map(|row| row.iter().map(String::as_str).collect()).collect();
+    let headings = [
+        "Bezeichnung",
+        "Anzahl",
+        "Breite (cm)",
+        "Tiefe (cm)",
+        "Höhe (cm)",
+        "Verankert",
+        "Geschoss",
+        "Geschosse",
+        "Bauweise",
+    ];
+    let german = csv(&with_heading(&headings, german), ";");
+
+    let levels: Vec<String> =
+        LIST.iter().map(|row| (row[6].parse::<f64>().unwrap() / 5.0).to_string()).collect();
+    let period = (0.0466 * 17.5_f64.powf(0.9)).to_string();
+    let with_levels = LIST.iter().zip(&levels).map(|(row, level)| {
+        let period = if row[6] == "0" { "" } else { &period };
+        [&row[..6], &[level.as_str(), period]].concat()
+    });
+    let with_levels = with_heading(
+        &["Item", "Quantity", "W (cm)", "D (cm)", "H (cm)", "Anchors", "Level", "T1 (s)"],
+        with_levels.collect(),
+    );
+    let as_cells: Cells = &cells;
+    for (name, bytes) in [
+        ("german.csv", german.clone().into_bytes()),
+        ("latin.csv", german.chars().map(|sign| sign as u8).collect()),
+        ("list.xlsx", xlsx(&[("Inventory", as_cells)])),
+        ("list.ods", ods(as_cells)),
+        ("utf16.txt", utf_16(&csv(&cells, "\t"), true, false)),
+        ("cr.csv", plain.replace('\n', "\r").into_bytes()),
+        ("levels.csv", csv(&with_levels, ",").into_bytes()),
+    ] {
+        let found = read(name, &bytes, "", None).unwrap_or_else(|why| panic!("{name}: {why}"));
+        for (found, expected) in found.iter().zip(&expected) {
+            let mut found = found.clone();
+            // What is not free has a reason in the words of its list.
+            found.refused = found.refused.and(expected.refused.clone());
+            assert_eq!(&found, expected, "{name}");
+        }
+        assert_eq!(found.len(), expected.len(), "{name}");
+    }
+    let renamed = plain.replacen("Width (cm)", "Breadth (cm)", 1);
+    assert_eq!(read("l.csv", renamed.as_bytes(), "width=Breadth (cm)", None), Ok(expected));
+    assert!(matches!(
+        read("l.csv", plain.as_bytes(), "width=Breadth (cm)", None),
+        Err(InputError::Renamed { .. })
+    ));
+}
+
+#[test]
+fn floors_are_read_as_people_write_them() {
+    let level = |floor: &str| {
+        let list = format!("name,width,height,Floor,Storeys\na,0.5,2,{floor},5\nb,0.5,2,G,5\n");
+        let object = &text(&list)[0];
+        assert!(object.refused.is_none(), "{floor}: {:?}", object.refused);
+        object.place.level
+    };
+    for ground in ["G", "EG", "GF", "0", "B1", "-1", "UG", "Erdgeschoss", "ground floor", "RDC", "地下1階"]
+    {
+        assert_eq!(level(ground), Some(0.0), "{ground}");
+    }
+    for third in ["3", "3rd", "3rd floor", "3. OG", "3.OG", "3F", "3階", "Level 3", "piano 3", "3e étage"] {
+        assert_eq!(level(third), Some(0.6), "{third}");
+    }
+    assert_eq!(level("roof"), Some(1.0));
+    // Of an unknown type the period has more scatter, and is that of a concrete frame.
+    let unknown = text("name,width,height,Floor,Storeys\na,0.5,2,3,5\nb,0.5,2,G,5\n")[0].place;
+    let walls =
+        text("name,width,height,Floor,Storeys,Building\na,0.5,2,3,5,masonry\nb,0.5,2,G,5,\n")[0].place;
+    assert!(unknown.period_sd.unwrap() > 0.3 && walls.period_sd.is_none());
+    assert!((walls.period.unwrap() - 0.418).abs() < 1e-3 && (unknown.period.unwrap() - 0.612).abs() < 1e-3);
+    let steel = text("name,width,height,Floor,Storeys,Building\na,0.5,2,3,5,steel\nb,0.5,2,G,5,\n")[0].place;
+    let spread = 1.96 * unknown.period_sd.unwrap();
+    for known in [walls, steel] {
+        assert!((known.period.unwrap() / unknown.period.unwrap()).ln().abs() < spread);
+    }
+}
+
+#[test]
+fn the_ground_floor_is_asked_for_where_nothing_tells() {
+    let list = "name,width,height,Floor,Storeys\na,0.5,2,1,5\nb,0.5,2,3,5\n";
+    let asked = read("list.csv", list.as_bytes(), "", None).unwrap_err();
+    assert!(
+        matches!(asked, InputError::File { error, .. } if matches!(*error, InputError::GroundFloor { lowest: 1, .. }))
+    );
+    for (ground_floor, level) in [(1, 0.4), (0, 0.6)] {
+        let objects = read("list.csv", list.as_bytes(), "", Some(ground_floor)).unwrap();
+        assert!((objects[1].place.level.unwrap() - level).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
+    for (list, named) in [
+        ("name,width,height,Floor\na,0.5,2,3\nb,0.5,2,0\n", "Storeys"),
+        ("name,width,height,Floor,Storeys\na,0.5,2,7,5\nb,0.5,2,0,5\n", "5 storeys"),
+        ("name,width,height,Floor,Storeys\na,0.5,2,mezzanine,5\n", "mezzanine"),
+        ("name,width,height,Floor,Storeys,Building\na,0.5,2,3,5,jelly\nb,0.5,2,0,5,\n", "jelly"),
+        ("name,width,height,centre of mass (cm)\na,0.5,2,80\n", "centre of mass"),
+        ("name,width,height,friction class\na,0.5,2,C2\n", "friction class"),
+        ("name,width,height\nA,0.5 m,2\nB,0.5,2\n", "0.5 m"),
+        ("name,width,height\nrack,#N/A,2.0\nshelf,0.9,1.8\n", "#N/A"),
+        ("name,width,height\nA,1e400,2\nB,0.5,2\n", "1e400"),
+        ("name,width,height\nTotal,0.5,2\nB,0.5,2\n", "totals"),
+    ] {
+        assert!(reason(list).contains(named), "{named}: {}", reason(list));
+    }
+    assert_eq!(reason("name,width,height,Floor,Level,T1\na,0.5,2,3,0.6,0.5\n"), "");
+    assert_eq!(reason("name,width,height,depth,COG height (m)\na,0.5,2,n/a,0.8\n"), "");
+    let rooms =
+        text("name\twidth (mm)\tdepth (mm)\theight (mm)\nrack\t600\t1,000\t2,000\nshelf\t900\t400\t1,800\n");
+    assert_eq!(rooms[0].shape.depth, Some(1.0));
+}
+
+#[test]
+fn columns_that_are_not_used_are_all_named_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("list.csv");
+    std::fs::write(&path, "No.,name,Room,Mass (kg),width,height,Value,Remarks\n1,a,R1,80,0.5,2,100,old\n")
+        .unwrap();
+    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let lines = warnings.lines();
+    assert!(
+        lines.len() == 1
+            && ["No.", "Room", "Mass (kg)", "Value", "Remarks"].iter().all(|name| lines[0].contains(name))
+    );
+}
+
+#[test]
+fn a_hundred_thousand_rows_take_linear_time() {
+    let list = |rows: usize| {
+        let rows: String = (0..rows).map(|row| format!("rack {},0.5,2\n", row / 2)).collect();
+        format!("name,width,height\n{rows}")
+    };
+    let seconds = |rows: usize| {
+        let list = list(rows);
+        let start = std::time::Instant::now();
+        assert_eq!(text(&list).len(), rows);
+        start.elapsed().as_secs_f64()
+    };
+    // Quadratic time would be a hundred times as long.
+    let (few, many) = (seconds(10_000), seconds(100_000));
+    assert!(many < 40.0 * few.max(0.01), "{few} s, {many} s");
+}
