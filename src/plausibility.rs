@@ -121,14 +121,49 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
     Err(ImplausibleHazard(format!("{hazard} exceeds any known hazard: {guess}")))
 }
 
-/// Why a value cannot be a peak of ground motion: PGA in m/s2, PGV in m/s.
-pub fn judge_peak(is_velocity: bool, value: f64) -> Result<(), &'static str> {
-    let strongest = if is_velocity { STRONGEST_PGV_M_S } else { STRONGEST_PGA_G * crate::units::G_M_S2 };
-    match (is_velocity, (0.0..=strongest).contains(&value)) {
-        (_, true) => Ok(()),
-        (false, false) => Err("0 to 4.5 g (the strongest record): is the value in m/s2?"),
-        (true, false) => Err("0 to 5 m/s (above any record): is the value in cm/s?"),
+/// Peaks, g and m/s, that the typical motion of a table does not reach, and its PGV/PGA, s.
+const STRONGEST_MEDIAN: f64 = 3.0;
+const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
+
+/// Judges PGA (m/s2) and PGV (m/s) of the motions of a table by their medians, which show a wrong unit.
+pub fn judge_medians(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Result<(), ImplausibleHazard> {
+    let pga_g = median(pga_m_s2.iter().map(|pga| pga / crate::units::G_M_S2));
+    let pgv = median(pgv_m_s.iter().copied());
+    let ratio_s = median(pga_m_s2.iter().zip(pgv_m_s).map(|(pga, pgv)| pgv / pga));
+    let refuse = |name: &str, value: f64, expected: &str| {
+        let value = significant(value, 3);
+        Err(ImplausibleHazard(format!("half of the rows have {name} above {value}; {expected}")))
+    };
+    match (pga_g, pgv, ratio_s) {
+        (Some(pga), ..) if pga > STRONGEST_MEDIAN => {
+            refuse("PGA in g", pga, "expected up to 3 g: is it in m/s2?")
+        }
+        (_, Some(pgv), _) if pgv > STRONGEST_MEDIAN => {
+            refuse("PGV in m/s", pgv, "expected up to 3 m/s: is it in cm/s?")
+        }
+        (.., Some(ratio)) if !MEDIAN_PGV_PGA_S.contains(&ratio) => refuse(
+            "PGV/PGA in s",
+            ratio,
+            "expected 0.015 to 0.6 s, of PGA in m/s2 and PGV in m/s: a wrong unit?",
+        ),
+        _ => Ok(()),
     }
+}
+
+/// The median of values that are above 0 and finite.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// Moves PGA (m/s2) and PGV (m/s) beyond any record to the rim of what was recorded: tails of ground-motion
+/// models have such motions.
+pub fn at_rim(pga_m_s2: f64, pgv_m_s: f64) -> [f64; 2] {
+    let pga = pga_m_s2.min(STRONGEST_PGA_G * crate::units::G_M_S2);
+    let pgv = pgv_m_s.min(STRONGEST_PGV_M_S);
+    let is_possible = pga == 0.0 || PGV_PGA_S.contains(&(pgv / pga));
+    [pga, if is_possible { pgv } else { pgv.clamp(PGV_PGA_S.start() * pga, PGV_PGA_S.end() * pga) }]
 }
 
 /// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.

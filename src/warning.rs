@@ -15,6 +15,7 @@ keywords! {
         UnusualScenario = "unusual_scenario",
         ImplausibleRecord = "implausible_record",
         OtherPeak = "other_peak",
+        AtRim = "at_rim",
         LoweredPeak = "lowered_peak",
         ImplausibleSize = "implausible_size",
         LowRestitution = "low_restitution",
@@ -48,6 +49,7 @@ impl Warning {
         match self {
             UnusualScenario => "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km",
             ImplausibleRecord => "this is not a plausible earthquake record",
+            AtRim => "beyond 4.5 g, 5 m/s or PGV/PGA 0.005 to 3 s: answered at that rim",
             OtherPeak => "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?",
             LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
             ImplausibleSize => "implausibly tall: a wrong unit?",

@@ -13,7 +13,7 @@ use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
-use crate::plausibility::{MAGNITUDES, judge_hazard};
+use crate::plausibility::{MAGNITUDES, at_rim, judge_hazard, judge_medians};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
@@ -185,8 +185,8 @@ impl Found {
         let starts = |start: &str| grid.headings.iter().any(|heading| heading.text.starts_with(start));
         one_site(grid)?;
         if starts("gmv_") {
-            self.joint.push(openquake::fields(grid, effective_years)?);
-            return Ok(());
+            let bins = openquake::fields(grid, effective_years)?;
+            return self.add_joint(bins, file);
         }
         if effective_years.is_some() {
             return Err(InputError::Missing {
@@ -201,6 +201,23 @@ impl Found {
         self.add_columns(grid, file)
     }
 
+    /// Adds motions with both peaks; those beyond any record count at the rim.
+    fn add_joint(&mut self, mut bins: Vec<PairOfPeaks>, file: String) -> Result<(), InputError> {
+        let peak = |peak: fn(&PairOfPeaks) -> f64| bins.iter().map(peak).collect::<Vec<_>>();
+        judge_medians(&peak(|bin| bin.pga_m_s2), &peak(|bin| bin.pgv_m_s))?;
+        let mut beyond = 0;
+        for bin in &mut bins {
+            let [pga_m_s2, pgv_m_s] = at_rim(bin.pga_m_s2, bin.pgv_m_s);
+            beyond += usize::from([pga_m_s2, pgv_m_s] != [bin.pga_m_s2, bin.pgv_m_s]);
+            *bin = PairOfPeaks { pga_m_s2, pgv_m_s, ..*bin };
+        }
+        let rim =
+            (beyond > 0).then(|| (Warning::AtRim, format!("{beyond} of {} rows of {file}", bins.len())));
+        self.warnings.extend(rim.into_iter().collect());
+        self.joint.push(bins);
+        Ok(())
+    }
+
     /// Adds the curves of a table, or its joint hazard, by what its headings say.
     fn add_columns(&mut self, grid: &Grid, file: String) -> Result<(), InputError> {
         let mut columns = Columns::new(grid);
@@ -211,7 +228,7 @@ impl Found {
             |at: &usize| grid.number(0, *at).is_ok() && !PLACES.contains(&grid.headings[*at].name.as_str());
         let unused = columns.unknown.iter().copied().chain(magnitude);
         if let Some(rate) = occurrence.map(|column| column.at) {
-            self.joint.push(joint(grid, rate, &columns)?);
+            self.add_joint(joint(grid, rate, &columns)?, file)?;
         } else {
             columns.frequencies = without_repetition(grid, std::mem::take(&mut columns.frequencies))?;
             let before = self.curves.len();

@@ -70,7 +70,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
-    #[arg(long, value_name = "MW", conflicts_with = "in", value_parser = number(MAGNITUDES, "a moment magnitude"))]
+    #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
     #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
@@ -129,9 +129,15 @@ impl Stage for Evaluate {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         if let Some(path) = &self.input {
-            let (columns, structures) = (&self.columns, &self.structures);
-            let (rows, text) =
-                table::evaluate(path, columns, structures, &self.place.place(), &models, context)?;
+            let mut renames = Renames::new(&self.columns);
+            let call = table::Call {
+                structures: &self.structures,
+                place: &self.place.place(),
+                models: &models,
+                magnitude: self.magnitude,
+            };
+            let (rows, text) = table::evaluate(path, &mut renames, &call, context)?;
+            renames.expect_used()?;
             self.write(&rows, text, context)
         } else if self.hazard.is_empty() {
             self.under_motion(&self.motion()?, &models, context)

@@ -14,15 +14,15 @@ use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
 use crate::inputs::hazard::peak;
-use crate::inputs::{Grid, Heading, Rename, Renames};
+use crate::inputs::objects::describes_object;
+use crate::inputs::{Grid, Heading, Renames};
 use crate::number::counted;
 use crate::object::{Object, Place, Restitution, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::plausibility::{judge_peak, judge_peaks};
+use crate::plausibility::{at_rim, judge_medians};
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
-use crate::stages::shared::object_list::describes_object;
 use crate::stages::shared::objects::StructureArgs;
 use crate::table::TableError;
 use crate::table::columns::Batch;
@@ -30,22 +30,30 @@ use crate::table::file::Table;
 use crate::table::rows;
 use crate::warning::Warning;
 
+/// What a call says of all rows.
+#[derive(Clone, Copy)]
+pub struct Call<'a> {
+    pub structures: &'a StructureArgs,
+    pub place: &'a Place,
+    pub models: &'a Models,
+    /// Magnitude of rows without one.
+    pub magnitude: Option<f64>,
+}
+
 /// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
 /// is given each row has its own.
 pub fn evaluate(
     path: &Path,
-    renamed: &[Rename],
-    structures: &StructureArgs,
-    place: &Place,
-    models: &Models,
+    renames: &mut Renames,
+    call: &Call,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
-    let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
-        true => vec![Batch { path: path.into(), first_row: 0, rows: read_csv(path, renamed)? }],
-        false => Table::open(path)?.batches(&|_| true).collect::<Result<Vec<_>, TableError>>()?,
+    let Call { structures, place, models, magnitude } = *call;
+    let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
+        true => read_parquet(path, renames)?,
+        false => vec![Batch { path: path.into(), first_row: 0, rows: read_grid(path, renames)? }],
     };
-    let given =
-        if structures.is_given() { structures.objects(place, &mut Renames::new(&[]))?.0 } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(place, renames)?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -62,6 +70,7 @@ pub fn evaluate(
     }
     let given = given.first().map(|object| models.subject(object)).transpose()?;
     let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
+    expect_units(&batches)?;
     let mut of_rows = HashMap::new();
     let mut evaluated = Vec::new();
     for batch in &batches {
@@ -73,7 +82,7 @@ pub fn evaluate(
             }
         }
         let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
-        evaluated.push(with_probabilities(batch, of_row, context)?);
+        evaluated.push(with_probabilities(batch, of_row, magnitude, context)?);
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
@@ -85,20 +94,20 @@ pub fn evaluate(
 fn with_probabilities<'a>(
     batch: &Batch,
     of_row: impl Fn(usize) -> &'a (Subject, Vec<Warning>) + Sync,
+    magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
-    for (row, (&pga, &pgv)) in pga.iter().zip(&pgv).enumerate() {
-        judge_peaks(pga, pgv).map_err(|problem| batch.value_error(row, "pgv_m_s", problem))?;
-    }
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
-        let mut warnings = [of_structure.clone(), subject.warnings([pga[row], pgv[row]])].concat();
+        let peaks = at_rim(pga[row], pgv[row]);
+        let mut warnings = [of_structure.clone(), subject.warnings(peaks)].concat();
+        warnings.extend((peaks != [pga[row], pgv[row]]).then_some(Warning::AtRim));
         warnings.sort();
         warnings.dedup();
-        let [pga_m_s2, pgv_m_s] = [pga[row], pgv[row]].map(Some);
-        let motion = Motion { pga_m_s2, pgv_m_s, mw: mw[row], vs30_m_s: None };
+        let [pga_m_s2, pgv_m_s] = peaks.map(Some);
+        let motion = Motion { pga_m_s2, pgv_m_s, mw: mw[row].or(magnitude), vs30_m_s: None };
         let (tree, budget) = TreeRow::new(&motion, subject);
         (tree, DoubtsRow::new(&warnings, &budget), warnings)
     };
@@ -143,10 +152,8 @@ fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     };
     let judged = |(row, value): (usize, Option<f64>)| match value.map(|value| value * unit) {
         None => Err(batch.value_error(row, column, "no value").into()),
-        Some(value) => match judge_peak(wanted == Peak::Pgv, value) {
-            Ok(()) => Ok(value),
-            Err(possible) => Err(batch.value_error(row, column, format!("expected {possible}")).into()),
-        },
+        Some(value) if value >= 0.0 => Ok(value),
+        Some(_) => Err(batch.value_error(row, column, "expected 0 or more").into()),
     };
     batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
 }
@@ -159,15 +166,37 @@ fn structures_of_rows(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
     (0..batch.rows.num_rows()).map(structure).collect()
 }
 
-/// The columns of a CSV table: numbers where all cells are, else text. Peaks are kept under their headings.
-fn read_csv(path: &Path, renamed: &[Rename]) -> anyhow::Result<RecordBatch> {
+/// Refuses a table whose typical motion shows a wrong unit.
+fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
+    let (mut pga, mut pgv) = (Vec::new(), Vec::new());
+    for batch in batches {
+        pga.extend(peaks(batch, Peak::Pga)?);
+        pgv.extend(peaks(batch, Peak::Pgv)?);
+    }
+    let path = batches.first().map_or(Path::new(""), |batch| &*batch.path);
+    judge_medians(&pga, &pgv).map_err(|problem| TableError::table(path, problem.to_string()).into())
+}
+
+/// The columns of a Parquet table, without samples, under the names that the user gives.
+fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>> {
+    let table = Table::open(path)?;
+    let mut renamed = Vec::new();
+    for batch in table.batches(&|column| column != "acceleration_m_s2") {
+        let batch = batch?;
+        let schema = batch.rows.schema();
+        let names: Vec<String> = schema.fields().iter().map(|field| renames.name(field.name())).collect();
+        let columns = names.into_iter().zip(batch.rows.columns().iter().cloned());
+        let columns = columns.map(|(name, column)| (name, column, true));
+        renamed.push(Batch { rows: RecordBatch::try_from_iter_with_nullable(columns)?, ..batch });
+    }
+    Ok(renamed)
+}
+
+/// The columns of a table of people: numbers where all cells are, else text. Peaks are kept under their headings.
+fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> {
     let refuse = |problem: String| TableError::table(path, problem);
     let mut sheet = Grid::read(path).map_err(|error| refuse(error.to_string()))?;
-    let mut renames = Renames::new(renamed);
-    renames
-        .apply(&mut sheet)
-        .and_then(|()| renames.expect_used())
-        .map_err(|error| refuse(error.to_string()))?;
+    renames.apply(&mut sheet).map_err(|error| refuse(error.to_string()))?;
     if let Some(heading) = sheet.headings.iter().find(|heading| describes_object(heading)) {
         let problem = format!(
             "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \

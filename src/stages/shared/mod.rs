@@ -3,6 +3,5 @@
 pub mod fit_tables;
 pub mod model_args;
 pub mod motions;
-pub mod object_list;
 pub mod objects;
 pub mod responses;

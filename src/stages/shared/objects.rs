@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 
-use super::object_list;
 use crate::inputs::Renames;
+use crate::inputs::objects::{self, Common};
 use crate::object::{Field, Object, Place, Restitution, Shape, structure_warnings};
 use crate::paper;
 use crate::pipeline::UsageError;
+use crate::pipeline::options::number;
 use crate::rocking::Structure;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
@@ -123,10 +124,13 @@ pub struct StructureArgs {
     /// name=cabinet,width=0.8,height=2.2
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with = "one")]
     structure: Vec<Object>,
-    /// CSV list with a name and these options as columns (m, cm or mm by the heading), or the word paper for
-    /// the paper's two
+    /// List with a name and these options as columns (m, cm or mm by the heading): CSV or a workbook
+    /// (list.xlsx#SHEET), or the word paper for the paper's two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
     pub structures: Option<PathBuf>,
+    /// Number that the floors of --structures give the ground floor: 0 or 1
+    #[arg(long, value_name = "N", requires = "structures", value_parser = number(0..=1_u32, "0 or 1"))]
+    ground_floor: Option<u32>,
 }
 
 impl StructureArgs {
@@ -170,32 +174,35 @@ impl StructureArgs {
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
     /// them.
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
-        let (mut objects, mut unused): (Vec<Object>, _) = Default::default();
+        let (mut all, mut unused): (Vec<Object>, _) = Default::default();
         match &self.structures {
             Some(path) if path.as_os_str() == "paper" => {
                 let known = |structure| Object::with_parameters(structure, Restitution::Number);
-                objects.extend(paper::structures().into_iter().map(known));
+                all.extend(paper::structures().into_iter().map(known));
             }
-            Some(path) => (objects, unused) = object_list::read(path, renames)?,
+            Some(path) => {
+                let common = Common { ground_floor: self.ground_floor, place: *place };
+                (all, unused) = objects::read(path, renames, &common)?;
+            }
             None if self.one != ShapeArgs::default() => {
                 let (name, shape) = (UNNAMED.to_string(), self.one.shape());
-                objects.push(Object { name, shape, ..Object::default() });
+                all.push(Object { name, shape, ..Object::default() });
             }
-            None => objects.extend(self.structure.iter().cloned()),
+            None => all.extend(self.structure.iter().cloned()),
         }
-        if objects.is_empty() {
+        if all.is_empty() {
             return Err(UsageError::because(
                 "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
             ));
         }
-        let objects: Vec<Object> = objects.into_iter().map(|object| object.at(place)).collect();
-        let mut names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
+        let all: Vec<Object> = all.into_iter().map(|object| object.at(place)).collect();
+        let mut names: Vec<&str> = all.iter().map(|object| object.name.as_str()).collect();
         names.sort_unstable();
         if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
             let problem = format!("two structures are called '{}'; expected distinct names", pair[0]);
             return Err(UsageError::because(problem));
         }
-        Ok((objects, unused))
+        Ok((all, unused))
     }
 }
 
