@@ -9,4 +9,5 @@ mod references;
 #[path = "../shared/mod.rs"]
 mod shared;
 mod slips;
+mod traits;
 mod writers;
