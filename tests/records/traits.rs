@@ -1,6 +1,6 @@
 //! Traits of real files: each is read as the agency means it, or refused.
 
-use rockfrag::records::{ReadOptions, RecordedMotion, read_records};
+use rockfrag::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use rockfrag::units::Unit;
 
 use crate::writers::*;
@@ -37,8 +37,9 @@ fn numbers_that_touch_are_parted_before_their_sign() {
     }
     // Other formats of the same numbers.
     let cm: Vec<f64> = samples.iter().map(|a| (a * 1e4).round() / 1e4).collect();
-    let touching = |text: String| text.replace("\n-", "-");
-    expect_samples(&read(&touching(esm(&cm)))[0], &cm, 1e-6);
+    let text = esm(&cm);
+    let (head, body) = text.split_once("USER5:\n").unwrap();
+    expect_samples(&read(&format!("{head}USER5:\n{}", body.replace("\n-", "-")))[0], &cm, 1e-6);
     // Three signs in a row are damage.
     assert!(
         read_records(at2_of(&samples, |a| format!("{a:9.6}--")).as_bytes(), &ReadOptions::default()).is_err()
@@ -141,5 +142,141 @@ fn units_are_read_in_every_notation() {
     }
     for text in ["m\u{b7}s\u{207b}\u{b9}", "km/s", "Gal/s", "um"] {
         assert!(Unit::of_acceleration(text).is_err(), "{text}");
+    }
+}
+
+/// Reads a table with options such as `unit=g dt=0.01 column=all`.
+fn read_csv(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
+    let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
+    let options = ReadOptions {
+        dt_s: of("dt").map(|dt| dt.parse().unwrap()),
+        unit: of("unit").map(|unit| Unit::of_acceleration(unit).unwrap()),
+        column: of("column").map(str::to_string),
+        ..ReadOptions::default()
+    };
+    read_records(text.as_bytes(), &options)
+}
+
+/// A table of times and two or three columns, of the samples, half of them, and a third.
+fn table(heading: &str, unit: f64, columns: usize, time: impl Fn(usize) -> String) -> String {
+    let row = |(k, a): (usize, &f64)| {
+        let cells = [1.0, 0.5, 1.0 / 3.0].map(|share| format!(",{:.7}", share * a / unit));
+        time(k) + &cells[..columns].concat() + "\n"
+    };
+    heading.to_string() + "\n" + &motion(400).iter().enumerate().map(row).collect::<String>()
+}
+
+fn seconds(k: usize) -> String {
+    format!("{:.2}", k as f64 * DT)
+}
+
+#[test]
+fn columns_of_directions_are_motions_of_their_own() {
+    for (heading, unit, azimuths) in [
+        ("time (s),N-S (gal),E-W (gal),U-D (gal)", 0.01, [Some(0.0), Some(90.0)]),
+        ("t,acc_N (m/s2),acc_E (m/s2),acc_Z (m/s2)", 1.0, [Some(0.0), Some(90.0)]),
+        ("time,NS [g],EW [g],UD [g]", G, [Some(0.0), Some(90.0)]),
+        ("time (s),acc 30 deg (g),acc 120 deg (g),acc up (g)", G, [Some(30.0), Some(120.0)]),
+        ("time,ax (m/s2),ay (m/s2),Z (m/s2)", 1.0, [None, None]),
+    ] {
+        let read = read_csv(&table(heading, unit, 3, seconds), "").unwrap();
+        let (vertical, horizontal): (Vec<_>, Vec<_>) = read.iter().partition(|motion| motion.is_vertical());
+        assert_eq!((vertical.len(), horizontal.len()), (1, 2), "{heading}");
+        assert_eq!([0, 1].map(|index: usize| horizontal[index].azimuth_deg), azimuths, "{heading}");
+        expect_samples(horizontal[0], &motion(400), 2e-6 * G);
+        let half: Vec<f64> = motion(400).iter().map(|a| 0.5 * a).collect();
+        expect_samples(horizontal[1], &half, 2e-6 * G);
+    }
+    // Names that are no directions, and one motion in two units, are a question.
+    let unclear = [
+        (table("n,time,x", G, 1, |k| format!("{k},{}", seconds(k))), "unit=g"),
+        (table("time,first,second", G, 2, seconds), "unit=g"),
+        (
+            table("time,acc (g),acc (m/s2)", 1.0, 1, |k| format!("{},{:.7}", seconds(k), motion(400)[k] / G)),
+            "",
+        ),
+    ];
+    for (text, options) in unclear {
+        let refusal = read_csv(&text, options);
+        assert!(matches!(refusal, Err(RecordFileError::Column { .. })), "{}", &text[..40]);
+    }
+}
+
+#[test]
+fn clocks_are_times_and_no_samples() {
+    let second = |k: usize| format!("{:05.2}", k as f64 * DT);
+    let relative = |k: usize| format!("2020/01/20 20:13:{},{:.2}", second(k), k as f64 * DT);
+    for text in [
+        "#Station\n#TST001\n".to_string()
+            + &table("#Time,RelativeTime(s),N-S(gal),E-W(gal),U-D(gal)", 0.01, 3, relative),
+        table("Time,N-S (gal),E-W (gal),U-D (gal)", 0.01, 3, |k| format!("2020-01-20T20:13:{}", second(k))),
+        table("datetime,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("2020-01-20T20:13:{}Z", second(k))),
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("23:59:{}", second(k))),
+    ] {
+        let read = read_csv(&text, "").unwrap_or_else(|why| panic!("{why}: {}", &text[..80]));
+        assert!(read.iter().all(|motion| (motion.dt_s - DT).abs() < 1e-9));
+        assert_eq!(read.iter().filter(|motion| !motion.is_vertical()).count(), 2);
+        expect_samples(&read[0], &motion(400), 1e-6);
+    }
+    let gap = |k: usize| format!("00:00:{}", second(k + usize::from(k > 100)));
+    let gap = read_csv(&table("time,acc (g)", G, 1, gap), "");
+    assert!(matches!(gap, Err(RecordFileError::UnevenTime { line: 103, .. })), "{gap:?}");
+}
+
+#[test]
+fn a_short_line_before_the_last_shows_blocks() {
+    let block = |n: usize| {
+        let row = |row: &[f64]| row.iter().map(|a| format!("{a:9.5}")).collect::<String>() + "\n";
+        motion(n).chunks(10).map(row).collect::<String>()
+    };
+    let cut: Vec<String> = block(400).lines().map(|line| line.to_string() + "\n").collect();
+    let cut = cut[..20].concat() + &cut[20][..45] + "\n" + &cut[20][45..] + &cut[21..].concat();
+    let options = "unit=m/s2 dt=0.01 column=all";
+    expect_samples(&read_csv(&block(397), options).unwrap()[0], &motion(397), 1e-5);
+    expect_samples(&read_csv(&block(400), options).unwrap()[0], &motion(400), 1e-5);
+    for (text, line) in [
+        (block(397) + &block(397), 40),
+        (block(397) + "\n" + &block(400), 40),
+        ("velocity\n".to_string() + &block(394) + &block(397) + &block(397), 41),
+        (cut, 21),
+    ] {
+        let refusal = read_csv(&text, options);
+        assert!(
+            matches!(refusal, Err(RecordFileError::ShortLine { line: at, .. }) if at == line),
+            "{refusal:?}"
+        );
+    }
+}
+
+#[test]
+fn a_time_step_above_the_samples_is_none_of_them() {
+    let samples: String = motion(400).iter().map(|a| format!("{a:.6}\n")).collect();
+    for head in ["0.01\n", "400\n0.01\n", "0.01\n400\n", "400\n"] {
+        let read = read_csv(&(head.to_string() + &samples), "unit=m/s2 dt=0.01").unwrap();
+        expect_samples(&read[0], &motion(400), 1e-6);
+    }
+    expect_samples(&read_csv(&samples, "unit=m/s2 dt=0.01").unwrap()[0], &motion(400), 1e-6);
+}
+
+#[test]
+fn a_heading_that_explains_its_unit_has_that_unit() {
+    for (heading, unit) in [
+        ("time (s),\"acc (g = 9.81 m/s2)\"", G),
+        ("time (s),\"acc (gravity, 1g = 980.5 cm/s/s)\"", G),
+        ("time (s),acc in cm/s2", 0.01),
+        ("time (s),\"acc [unit: m/s2]\"", 1.0),
+    ] {
+        let read =
+            read_csv(&table(heading, unit, 1, seconds), "").unwrap_or_else(|why| panic!("{heading}: {why}"));
+        expect_samples(&read[0], &motion(400), 2e-6 * G);
+    }
+    for heading in ["time (s),acc (x10 m/s2)", "time (s),acc (0.1 g)", "time (s),acc (*1e-3 m/s2)"] {
+        let refusal = read_csv(&table(heading, 1.0, 1, seconds), "");
+        assert!(
+            matches!(refusal, Err(RecordFileError::Value { field: "unit", .. })),
+            "{heading}: {refusal:?}"
+        );
+        let given = read_csv(&table(heading, 1.0, 1, seconds), "unit=m/s2").unwrap();
+        expect_samples(&given[0], &motion(400), 2e-6);
     }
 }

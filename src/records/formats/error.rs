@@ -24,6 +24,11 @@ pub enum RecordFileError {
     Count { announced: u64, found: usize },
     #[error("PGA {header_m_s2:.5} m/s2 in the header, {found_m_s2:.5} m/s2 in the samples; check the unit")]
     Peak { header_m_s2: f64, found_m_s2: f64 },
+    #[error(
+        "line {line}: {found} cells among lines of {expected}; expected a short line at the end alone: several \
+         series, or damage?"
+    )]
+    ShortLine { line: usize, found: usize, expected: usize },
     #[error("line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap?")]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
     #[error("{columns}; expected one of acceleration")]

@@ -18,6 +18,8 @@ mod header;
 mod knet;
 mod peer_at2;
 
+use std::borrow::Cow;
+
 pub use error::RecordFileError;
 
 use super::{Format, HeaderPga, ReadOptions, RecordedMotion};
@@ -31,7 +33,8 @@ const SAME_PEAK: f64 = 0.05;
 
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
 pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    let text = decode(bytes)?;
+    // A workbook.
+    let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
     let recognises = |format: &&Format| match format {
         Format::Cosmos => cosmos::recognises(&lines),
@@ -47,7 +50,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         Format::Knet => vec![knet::parse(&lines, options)?],
         Format::Esm => vec![esm::parse(&lines, options)?],
         Format::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
-        Format::Csv => vec![csv::parse(bytes, options)?],
+        Format::Csv => csv::parse(bytes, options)?,
     };
     for motion in &mut motions {
         motion.format = format.as_str();

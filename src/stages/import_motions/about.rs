@@ -3,14 +3,23 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use crate::inputs::{Grid, InputError};
+use crate::inputs::{Grid, Heading, InputError, decode};
 use crate::pipeline::UsageError;
-use crate::plausibility::MAGNITUDES;
+use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::records::RecordedMotion;
+
+/// The line above the table of records in PEER's search results, which have others.
+const PEER: &str = "Summary of Metadata of Selected Records";
+/// Names of columns, the first of which counts: PEER's flatfile has several distances.
+const MAGNITUDE: [&str; 4] = ["magnitude", "mw", "earthquake_magnitude", "m"];
+const DISTANCE: [&str; 5] = ["distance", "re", "rrup", "clstd", "closest_distance"];
+const EARTHQUAKE: [&str; 4] = ["earthquake", "event", "earthquake_name", "event_name"];
+/// PEER's numbers below this stand for values that are not known.
+const UNKNOWN: f64 = -99.0;
 
 #[derive(Default)]
 pub struct About {
-    /// By the name of the file, with its ending or without.
+    /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
     known: HashMap<String, Known>,
     /// Headings of other columns.
     pub unused: Vec<String>,
@@ -23,48 +32,34 @@ struct Known {
     earthquake: Option<String>,
 }
 
+/// The columns of the table.
+struct Columns {
+    files: Vec<usize>,
+    /// PEER's number of the record.
+    number: Option<usize>,
+    magnitude: Option<usize>,
+    distance: Option<usize>,
+    earthquake: Option<usize>,
+}
+
 impl About {
-    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`.
+    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or PEER's
+    /// search results or flatfile.
     pub fn read(path: &Path) -> anyhow::Result<About> {
         let problem = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
-        let sheet = Grid::read(path).map_err(|error| problem(error.to_string()))?;
-        let Some(name) = sheet.column(&["file", "name", "motion_id"]) else {
-            return Err(problem("no column 'file' or 'name'".to_string()));
-        };
-        let magnitude = sheet.column(&["magnitude", "mw", "m"]);
-        let distance = sheet.column(&["distance", "re"]);
-        let earthquake = sheet.column(&["earthquake", "event"]);
-        if magnitude.or(distance).or(earthquake).is_none() {
-            return Err(problem("expected a column 'magnitude', 'distance' or 'earthquake'".to_string()));
-        }
-        let km = |at: usize| sheet.headings[at].unit.is_none_or(|unit| unit.name == "km");
-        if let Some(at) = distance.filter(|&at| !km(at)) {
-            return Err(problem(format!("column '{}'; expected km", sheet.headings[at].text)));
-        }
-        let number =
-            |row: usize, column: Option<usize>, is_possible: &dyn Fn(f64) -> bool, expected: &str| {
-                let Some(column) = column.filter(|&column| !sheet.cell(row, column).is_empty()) else {
-                    return Ok(None);
-                };
-                let value = sheet.number(row, column)?;
-                if is_possible(value) { Ok(Some(value)) } else { Err(sheet.refusal(row, column, expected)) }
-            };
-        let known = |row: usize| -> Result<(String, Known), InputError> {
-            let mw = number(row, magnitude, &|mw| MAGNITUDES.contains(&mw), "a moment magnitude")?;
-            let re_km = number(row, distance, &|km| km >= 0.0, "a distance of 0 km or more")?;
-            let cell = |column| sheet.cell(row, column).to_string();
-            let earthquake = earthquake.map(cell).filter(|name| !name.is_empty());
-            Ok((cell(name), Known { mw, re_km, earthquake }))
-        };
+        let grid = grid(path).map_err(|error| problem(error.to_string()))?;
+        let columns = Columns::find(&grid).map_err(problem)?;
         let mut all = HashMap::new();
-        for row in 0..sheet.lines.len() {
-            let (file, known) = known(row).map_err(|error| problem(error.to_string()))?;
-            if all.insert(file.clone(), known.clone()).is_some_and(|before| before != known) {
-                return Err(problem(format!("line {}: {file} again, with other values", sheet.lines[row])));
+        for row in 0..grid.lines.len() {
+            let known = columns.known(&grid, row).map_err(|error| problem(error.to_string()))?;
+            for file in columns.keys(&grid, row) {
+                if all.insert(file.clone(), known.clone()).is_some_and(|before| before != known) {
+                    let line = grid.lines[row];
+                    return Err(problem(format!("line {line}: {file} again, with other values")));
+                }
             }
         }
-        let is_used = |at: usize| [Some(name), magnitude, distance, earthquake].contains(&Some(at));
-        let unused = sheet.headings.iter().enumerate().filter(|(at, _)| !is_used(*at));
+        let unused = grid.headings.iter().enumerate().filter(|(at, _)| !columns.uses(*at));
         Ok(About { known: all, unused: unused.map(|(_, heading)| heading.text.clone()).collect() })
     }
 
@@ -78,8 +73,11 @@ impl About {
     }
 
     fn of(&self, file: &Path) -> Option<&Known> {
-        let names = [file.file_name(), file.file_stem()];
-        names.into_iter().flatten().find_map(|name| self.known.get(name.to_str()?))
+        let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
+        // RSN6_IMPVALL.I_I-ELC180.AT2
+        let number = stem.as_ref().and_then(|stem| stem.split('_').next()).filter(|word| word.starts_with("rsn"));
+        let number = number.map(str::to_string);
+        [name, stem, number].into_iter().flatten().find_map(|name| self.known.get(&name))
     }
 
     /// Adds to a record what the table says of its file.
@@ -89,4 +87,82 @@ impl About {
         motion.re_km = re_km.or(motion.re_km);
         motion.event = earthquake.or(motion.event.take());
     }
+}
+
+/// The table, of which other tables in a file of PEER are no part.
+fn grid(path: &Path) -> Result<Grid, InputError> {
+    let text = std::fs::read(path).ok().and_then(|bytes| Some(decode(&bytes).ok()?.into_owned()));
+    let Some((before, after)) = text.as_deref().and_then(|text| text.split_once(PEER)) else {
+        return Grid::read(path);
+    };
+    let table = after.split_once('\n').map_or("", |(_, table)| table);
+    let table = table.split("\n\n").next().unwrap_or_default();
+    // Lines keep their numbers.
+    Grid::parse(("\n".repeat(before.matches('\n').count() + 1) + table).as_bytes(), None)
+}
+
+impl Columns {
+    fn find(grid: &Grid) -> Result<Columns, String> {
+        let first = |names: &[&str]| names.iter().find_map(|name| grid.column(&[name]));
+        let is_file = |heading: &Heading| {
+            let name = heading.name.as_str();
+            matches!(name, "file" | "name" | "motion_id") || name.contains("filename") || name.contains("file_name")
+        };
+        let files = grid.headings.iter().enumerate().filter(|(_, heading)| is_file(heading));
+        let columns = Columns {
+            files: files.map(|(at, _)| at).collect(),
+            number: grid.column(&["record_sequence_number", "rsn"]),
+            magnitude: first(&MAGNITUDE),
+            distance: first(&DISTANCE),
+            earthquake: first(&EARTHQUAKE),
+        };
+        if columns.files.is_empty() && columns.number.is_none() {
+            return Err("no column 'file' or 'name'".to_string());
+        }
+        if columns.magnitude.or(columns.distance).or(columns.earthquake).is_none() {
+            return Err("expected a column 'magnitude', 'distance' or 'earthquake'".to_string());
+        }
+        let heading = columns.distance.map(|at| &grid.headings[at]);
+        match heading.filter(|heading| heading.unit.is_some_and(|unit| unit.name != "km")) {
+            Some(heading) => Err(format!("column '{}'; expected km", heading.text)),
+            None => Ok(columns),
+        }
+    }
+
+    fn uses(&self, column: usize) -> bool {
+        let others = [self.number, self.magnitude, self.distance, self.earthquake];
+        self.files.contains(&column) || others.contains(&Some(column))
+    }
+
+    fn known(&self, grid: &Grid, row: usize) -> Result<Known, InputError> {
+        let mw = number(grid, row, self.magnitude)?;
+        let re_km = number(grid, row, self.distance)?;
+        let (magnitude, distance) = (self.magnitude.unwrap_or_default(), self.distance.unwrap_or_default());
+        if mw.is_some_and(|mw| !MAGNITUDES.contains(&mw)) {
+            return Err(grid.refusal(row, magnitude, "a moment magnitude"));
+        }
+        if re_km.is_some_and(|re_km| !DISTANCES_KM.contains(&re_km)) {
+            return Err(grid.refusal(row, distance, "a distance from 0 to 1000 km"));
+        }
+        let earthquake = self.earthquake.map(|column| grid.cell(row, column)).filter(|name| !name.is_empty());
+        Ok(Known { mw, re_km, earthquake: earthquake.map(str::to_string) })
+    }
+
+    /// The names under which a file may be the one of a row.
+    fn keys(&self, grid: &Grid, row: usize) -> Vec<String> {
+        let file = |&column: &usize| grid.cell(row, column).rsplit(['/', '\\']).next().map(key);
+        let files = self.files.iter().filter_map(file).filter(|name| name.contains(char::is_alphanumeric));
+        let number = self.number.map(|column| format!("rsn{}", grid.cell(row, column)));
+        files.filter(|name| name != "-999").chain(number).collect()
+    }
+}
+
+/// The number in a cell, if it has one.
+fn number(grid: &Grid, row: usize, column: Option<usize>) -> Result<Option<f64>, InputError> {
+    let Some(column) = column.filter(|&column| !grid.cell(row, column).is_empty()) else { return Ok(None) };
+    Ok(Some(grid.number(row, column)?).filter(|number| *number > UNKNOWN))
+}
+
+fn key(name: &str) -> String {
+    name.trim().to_lowercase()
 }

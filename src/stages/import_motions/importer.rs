@@ -8,6 +8,7 @@ use anyhow::bail;
 use rayon::prelude::*;
 
 use super::about::About;
+use crate::inputs::{Member, unpack};
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
@@ -84,11 +85,9 @@ impl Importer {
         }
         let (mut components, mut refused) = (Vec::new(), Vec::new());
         for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
-            let records = read.unwrap_or_else(|refusal| {
-                refused.push(refusal);
-                Vec::new()
-            });
-            for (index, record) in records.into_iter().enumerate() {
+            let (records, others): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
+            refused.extend(others.into_iter().filter_map(Result::err));
+            for (index, record) in records.into_iter().flatten().enumerate() {
                 if self.leaves_out(&record.motion) {
                     continue;
                 }
@@ -130,18 +129,16 @@ impl Importer {
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
         match work {
             Work::File(file) => {
-                let mut records = match self.read(file) {
-                    Ok(records) => records,
-                    Err(refusal) => return vec![Err(refusal)],
+                let mut records = self.read(file);
+                records.retain(|read| read.as_ref().map_or(true, |record| !self.leaves_out(&record.motion)));
+                let import = |read: Result<NamedRecord, String>| {
+                    self.processing.import(read?).map_err(|error| unprocessed(file, &error))
                 };
-                records.retain(|record| !self.leaves_out(&record.motion));
-                let import =
-                    |record| self.processing.import(record).map_err(|error| unprocessed(file, &error));
                 records.into_iter().map(import).collect()
             }
             Work::Pair(pair) => {
                 let component = |(file, index): &(PathBuf, usize)| {
-                    let record = self.read(file)?.into_iter().nth(*index);
+                    let record = self.read(file).into_iter().flatten().nth(*index);
                     record.ok_or_else(|| refusal(file, &"changed while it was read; run again"))
                 };
                 let both = || Ok([component(&pair[0])?, component(&pair[1])?]);
@@ -152,24 +149,47 @@ impl Importer {
         }
     }
 
-    /// Reads the records of a file, in words what is wrong with it.
-    fn read(&self, file: &Path) -> Result<Vec<NamedRecord>, String> {
-        let bytes = std::fs::read(file).map_err(|error| refusal(file, &error))?;
+    /// Reads the records of a file, or of those in an archive; in words what is wrong with some.
+    fn read(&self, file: &Path) -> Vec<Result<NamedRecord, String>> {
+        let members = std::fs::read(file).map_err(|error| refusal(file, &error));
+        let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(file, &error)));
+        let members = match members {
+            Ok(members) => members,
+            Err(refusal) => return vec![Err(refusal)],
+        };
+        let names = member_names(&members);
+        let read = |(member, name): (Member, Option<String>)| {
+            let within = file.join(member.name.as_deref().unwrap_or_default());
+            let path = if member.name.is_some() { &within } else { file };
+            let name = name.map_or_else(|| self.name(file), |name| format!("{}/{name}", self.name(file)));
+            match self.read_one(path, &name, &member.bytes) {
+                Ok(records) => records.into_iter().map(Ok).collect(),
+                Err(refusal) => vec![Err(refusal)],
+            }
+        };
+        members.into_iter().zip(names).flat_map(read).collect()
+    }
+
+    /// Reads the records in the bytes of a file.
+    fn read_one(&self, file: &Path, name: &str, bytes: &[u8]) -> Result<Vec<NamedRecord>, String> {
         let source = SourceFile {
             path: file.display().to_string(),
-            blake3: blake3::hash(&bytes).to_hex().to_string(),
+            blake3: blake3::hash(bytes).to_hex().to_string(),
         };
-        let motions = read_records(&bytes, &self.reading).map_err(|error| unread(file, &error))?;
+        let motions = read_records(bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
         let named = |(index, mut motion): (usize, RecordedMotion)| {
             self.about.add(file, &mut motion);
+            if several && motion.event.is_none() && motion.station.is_none() {
+                // The columns of a table are of one instrument.
+                motion.station = Some(name.to_string());
+            }
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
                 return Err(refusal(file, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));
             }
             Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(file, &problem))?;
-            let name = self.name(file);
-            let motion_id = if several { format!("{name}:{}", index + 1) } else { name };
+            let motion_id = if several { format!("{name}:{}", index + 1) } else { name.to_string() };
             Ok(NamedRecord { motion_id, source: source.clone(), motion })
         };
         motions.into_iter().enumerate().map(named).collect()
@@ -182,6 +202,17 @@ impl Importer {
         let unique = names.into_iter().find(|name| self.names.get(name) == Some(&1));
         unique.unwrap_or_else(|| file.display().to_string())
     }
+}
+
+/// Names of the files in an archive, without their endings if they still differ; none of a file that is none.
+fn member_names(members: &[Member]) -> Vec<Option<String>> {
+    let names = |of: fn(&Path) -> Option<&std::ffi::OsStr>| {
+        let name = move |member: &Member| Some(text(of(Path::new(member.name.as_ref()?))));
+        members.iter().map(name).collect::<Vec<_>>()
+    };
+    let stems = names(Path::file_stem);
+    let differ = stems.iter().collect::<HashSet<_>>().len() == stems.len();
+    if differ { stems } else { names(Path::file_name) }
 }
 
 fn text(name: Option<&std::ffi::OsStr>) -> String {

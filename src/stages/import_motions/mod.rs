@@ -119,9 +119,11 @@ impl Stage for ImportMotions {
         context.warn(unused.collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
-        let importer = Importer::new(&self.files, &self.out, reading, processing, about, self.vertical)?;
+        let mut importer = Importer::new(&self.files, &self.out, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
+            let about = std::path::absolute(path)?;
+            importer.files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != about));
             importer.about.expect_any(path, &importer.files)?;
         }
         let (work, mut refused) = importer.work(context)?;
