@@ -11,4 +11,5 @@ mod interruption;
 mod objects;
 mod paper;
 mod pipeline;
+mod records;
 mod terminal;

@@ -84,8 +84,8 @@ pub struct ImportMotions {
     /// Also compute the Housner intensity (15 times as slow)
     #[arg(long)]
     housner: bool,
-    /// Table with the magnitude, distance (km) or earthquake of each file: columns file, magnitude,
-    /// distance, earthquake
+    /// Table with the magnitude, distance (km) or earthquake of each file (columns file, magnitude,
+    /// distance, earthquake), or PEER's search results or flatfile
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     about: Option<PathBuf>,
     /// Import vertical components too

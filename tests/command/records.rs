@@ -1,0 +1,132 @@
+//! Records as people bring them: in archives, with the tables that describe them.
+
+use std::io::Write;
+use std::path::Path;
+
+use rockfrag::table::file::Table;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+use crate::common::{fail, folder, near, succeed};
+
+/// AT2 of 4 s of a decaying sine whose peak is near `pga_g`.
+fn at2(component: &str, pga_g: f64) -> String {
+    let sample = |k: i32| {
+        let t = 0.01 * f64::from(k) - 2.0;
+        pga_g * (-t * t / 0.5).exp() * (9.0 * t).cos()
+    };
+    let rows: String = (0..400).map(|k| format!("{:15.7E}\n", sample(k))).collect();
+    let head = "PEER NGA STRONG MOTION DATABASE RECORD\nImperial Valley, 10/15/1979, El Centro #4";
+    format!("{head}, {component}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 400, DT= .0100 SEC\n{rows}")
+}
+
+fn archive(path: &Path, files: &[(&str, &str)]) {
+    let mut zip = ZipWriter::new(std::fs::File::create(path).unwrap());
+    for (name, text) in files {
+        zip.start_file(*name, SimpleFileOptions::default()).unwrap();
+        zip.write_all(text.as_bytes()).unwrap();
+    }
+    zip.finish().unwrap();
+}
+
+/// Text and numbers of columns of the motions, row by row.
+fn motions(folder: &Path) -> Vec<(String, f64, Option<f64>, Option<f64>, Option<String>)> {
+    let table = Table::open(&folder.join("motions.parquet")).unwrap();
+    let mut all = Vec::new();
+    for batch in table.batches(&|_| true) {
+        let batch = batch.unwrap();
+        let (mw, re) = (batch.numbers("mw").unwrap(), batch.numbers("re_km").unwrap());
+        let (ids, pga) =
+            (batch.required_texts("motion_id").unwrap(), batch.required_numbers("pga_m_s2").unwrap());
+        let earthquakes = batch.texts("earthquake").unwrap();
+        for row in 0..ids.len() {
+            let earthquake = earthquakes[row].as_deref().map(str::to_string);
+            all.push((ids[row].to_string(), pga[row], mw[row], re[row], earthquake));
+        }
+    }
+    all
+}
+
+#[test]
+fn records_in_an_archive_are_imported_each() {
+    let folder = folder(&[]);
+    let (first, second, up) = (at2("140", 0.3), at2("230", 0.2), at2("UP", 0.1));
+    let files = [("a/RSN1_140.AT2", &*first), ("a/RSN1_230.AT2", &second), ("a/RSN1-UP.AT2", &up)];
+    archive(&folder.path().join("r.zip"), &files);
+    let (text, _) = succeed(folder.path(), "import-motions r.zip");
+    assert!(text.contains("1 vertical component"), "{text}");
+    let found = motions(folder.path());
+    let ids: Vec<&str> = found.iter().map(|motion| motion.0.as_str()).collect();
+    assert_eq!(ids, ["r/RSN1_140", "r/RSN1_230"]);
+    assert!(near(found[0].1, 0.3 * 9.81, 0.01) && near(found[1].1, 0.2 * 9.81, 0.01));
+    // Pairs are found within an archive.
+    succeed(folder.path(), "import-motions r.zip --rotate 140 --force");
+    assert_eq!(motions(folder.path()).len(), 1);
+    // What is no record is named with its place, and left out if wanted.
+    archive(&folder.path().join("r.zip"), &[files[0], ("a/readme.txt", "Dear colleague,\n")]);
+    fail(folder.path(), "import-motions r.zip --force", 1, &["r.zip", "readme.txt"]);
+    succeed(folder.path(), "import-motions r.zip --force --keep-going");
+    assert_eq!(motions(folder.path()).len(), 1);
+    // A single packed file keeps its name.
+    let packed = std::fs::File::create(folder.path().join("one.AT2.gz")).unwrap();
+    let mut packed = flate2::write::GzEncoder::new(packed, flate2::Compression::default());
+    packed.write_all(first.as_bytes()).unwrap();
+    packed.finish().unwrap();
+    succeed(folder.path(), "import-motions one.AT2.gz --force");
+    assert!(near(motions(folder.path())[0].1, 0.3 * 9.81, 0.01));
+}
+
+const SEARCH: &str = "PEER Ground Motion Database,,
+Search criteria,,
+Magnitude Min,5
+ -- Summary of Metadata of Selected Records --
+Result ID,Spectral Ordinate, Record Sequence Number, MSE, Scale Factor, Earthquake Name, Year, Station Name, Magnitude, Rjb (km), Rrup (km), Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename
+1,SRSS,179,-,1,\"Imperial Valley-06\",1979,\"El Centro Array #4\",6.53,4.9,7.05,RSN179_IMPVALL.H_H-E04140.AT2,RSN179_IMPVALL.H_H-E04230.AT2,---
+2,SRSS,180,-,1,\"Imperial Valley-06\",1979,\"El Centro Array #5\",6.53,1.8,3.95,RSN180_IMPVALL.H_H-E05140.AT2,RSN180_IMPVALL.H_H-E05230.AT2,---
+
+ -- Scaled Spectra used in Search & Scaling --
+Period (sec),RSN-179 Horizontal-1 pSa (g)
+0.01,0.5
+";
+
+const FLATFILE: &str = "Record Sequence Number,EQID,Earthquake Name,Earthquake Magnitude,EpiD (km),ClstD (km),File Name (Horizontal 1),File Name (Horizontal 2)
+178,50,Imperial Valley-06,-999,28.65,-999,IMPVALL\\H-E03140.AT2,-999
+179,50,Imperial Valley-06,6.53,27.13,7.05,IMPVALL\\H-E04140.AT2,IMPVALL\\H-E04230.AT2
+";
+
+#[test]
+fn tables_of_peer_describe_records() {
+    let (first, second) = (at2("140", 0.3), at2("230", 0.2));
+    for (about, names) in [
+        (SEARCH, ["RSN179_IMPVALL.H_H-E04140.AT2", "RSN179_IMPVALL.H_H-E04230.AT2"]),
+        (FLATFILE, ["H-E04140.AT2", "H-E04230.AT2"]),
+        // By the number alone.
+        (FLATFILE, ["RSN179_IMPVALL.H_H-E04140.AT2", "rsn179_other.at2"]),
+        (SEARCH, ["rsn179_impvall.h_h-e04140.at2", "RSN179.AT2"]),
+    ] {
+        // The table lies among the records, as PEER packs it.
+        let folder = folder(&[(names[0], &*first), (names[1], &second), ("_SearchResults.csv", about)]);
+        succeed(folder.path(), "import-motions . --about _SearchResults.csv --out out/motions.parquet");
+        for (id, _, mw, re_km, earthquake) in motions(&folder.path().join("out")) {
+            assert_eq!((mw, re_km), (Some(6.53), Some(7.05)), "{id} of {names:?}");
+            assert_eq!(earthquake.as_deref(), Some("Imperial Valley-06"), "{id}");
+        }
+    }
+    let folder = folder(&[("other.AT2", &first), ("about.csv", SEARCH)]);
+    fail(folder.path(), "import-motions other.AT2 --about about.csv", 2, &["about.csv"]);
+}
+
+#[test]
+fn a_time_step_that_lowers_the_peak_is_told() {
+    let alternating: String = (0..400)
+        .map(|k| {
+            let t = 0.01 * f64::from(k) - 2.0;
+            format!("{:.6}\n", 3.0 * (-t * t / 0.1).exp() * (100.0 * t).cos())
+        })
+        .collect();
+    let folder = folder(&[("a.csv", &format!("acc (m/s2)\n{alternating}"))]);
+    let import = "import-motions a.csv --dt 0.01 --accept-implausible --force";
+    let (_, kept) = succeed(folder.path(), &format!("{import} --resample 0.005"));
+    let (_, lowered) = succeed(folder.path(), &format!("{import} --resample 0.04"));
+    assert!(!kept.contains("lower") && lowered.contains("% lower"), "{kept} {lowered}");
+}
