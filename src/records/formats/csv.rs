@@ -192,11 +192,12 @@ fn accelerations(
         .copied()
         .filter(|&column| grid.headings.get(column).is_some_and(|heading| direction(heading).is_some()));
     let directions: Vec<usize> = directions.collect();
-    match (named.is_empty(), directions.is_empty(), unknown.len()) {
+    match (named.is_empty(), directions.len(), unknown.len()) {
         (false, ..) => Ok(named),
-        (_, false, _) => Ok(directions),
         (.., 1) => Ok(unknown),
         (.., 0) => not(columns(grid)),
+        // One alone may be a number n, or s for a time.
+        (_, 2.., _) => Ok(directions),
         _ => Err(column_error(grid)),
     }
 }
