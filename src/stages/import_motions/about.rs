@@ -75,7 +75,8 @@ impl About {
     fn of(&self, file: &Path) -> Option<&Known> {
         let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
         // RSN6_IMPVALL.I_I-ELC180.AT2
-        let number = stem.as_ref().and_then(|stem| stem.split('_').next()).filter(|word| word.starts_with("rsn"));
+        let number =
+            stem.as_ref().and_then(|stem| stem.split('_').next()).filter(|word| word.starts_with("rsn"));
         let number = number.map(str::to_string);
         [name, stem, number].into_iter().flatten().find_map(|name| self.known.get(&name))
     }
@@ -106,7 +107,9 @@ impl Columns {
         let first = |names: &[&str]| names.iter().find_map(|name| grid.column(&[name]));
         let is_file = |heading: &Heading| {
             let name = heading.name.as_str();
-            matches!(name, "file" | "name" | "motion_id") || name.contains("filename") || name.contains("file_name")
+            matches!(name, "file" | "name" | "motion_id")
+                || name.contains("filename")
+                || name.contains("file_name")
         };
         let files = grid.headings.iter().enumerate().filter(|(_, heading)| is_file(heading));
         let columns = Columns {

@@ -172,10 +172,8 @@ impl Importer {
 
     /// Reads the records in the bytes of a file.
     fn read_one(&self, file: &Path, name: &str, bytes: &[u8]) -> Result<Vec<NamedRecord>, String> {
-        let source = SourceFile {
-            path: file.display().to_string(),
-            blake3: blake3::hash(bytes).to_hex().to_string(),
-        };
+        let source =
+            SourceFile { path: file.display().to_string(), blake3: blake3::hash(bytes).to_hex().to_string() };
         let motions = read_records(bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
         let named = |(index, mut motion): (usize, RecordedMotion)| {
