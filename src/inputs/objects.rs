@@ -8,6 +8,7 @@ use super::numbers::is_missing;
 use super::words::{joined, means, words};
 use super::{Grid, Heading, InputError, Renames};
 use crate::keyword::Keyword;
+use crate::number::rounded;
 use crate::object::{Field, Object, Place, Reason};
 use crate::units::{Quantity, Unit};
 use crate::warning::{Warning, Warnings};
@@ -254,7 +255,7 @@ impl List<'_> {
             }
             let size = in_si(name, quantity, heading.unit)?;
             match self.grid.number(row, at) {
-                Ok(number) => object.set(name, &(size * number).to_string())?,
+                Ok(number) => object.set(name, &rounded(size * number).to_string())?,
                 Err(error @ InputError::Thousands { .. }) => return Err(error.to_string()),
                 Err(_) => object.set(name, cell)?,
             }

@@ -10,7 +10,7 @@ use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
 
-use crate::common::{fail, folder, rockfrag, succeed, write, write_motions};
+use crate::common::{evaluated, fail, folder, number, rockfrag, succeed, write, write_motions};
 
 fn trace(folder: &Path) -> Vec<TraceRow> {
     rows::read(&folder.join("responses.trace.parquet")).unwrap()
@@ -256,4 +256,12 @@ fn more_threads_than_any_machine_has_are_refused() {
     let mut command = rockfrag(folder.path(), "evaluate --width 0.5 --height 2 --pga 0.5 --pgv 0.6");
     let refused = command.env("RAYON_NUM_THREADS", "100000").output().unwrap();
     assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
+fn a_change_of_unit_leaves_no_digits() {
+    let folder = folder(&[("list.csv", "name,width (mm),height (m)\nA,1.8,0.1\nB,400,2\n")]);
+    let rows = evaluated(folder.path(), "--structures list.csv --pga 0.5");
+    let widths: Vec<f64> = rows.iter().map(|row| number(row, "width_m")).collect();
+    assert!(widths.contains(&0.0018) && widths.contains(&0.4), "{widths:?}");
 }

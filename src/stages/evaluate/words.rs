@@ -158,7 +158,7 @@ pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
     let worst = &all[0].object;
     match worst.motions.filter(|_| is_fitted_each(all)) {
         Some(kind) if model(worst).contains("surface") => format!(
-            "rockfrag's universal surface for {}, calibrated where there are responses",
+            "rockfrag's universal surface, calibrated to the simulated responses ({})",
             words_of_kind(kind)
         ),
         _ => model(worst).to_string(),
