@@ -10,7 +10,7 @@ import cases as of
 import fit
 from calibration import WIDE, allowed, left_out, logistic, spread
 from surface import (
-    DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift,
+    CORRECTED, DOMAIN, KINDS, LIMIT, MOST_IM4, SYNTHETIC, TERMS, Surface, design, features, magnitude, uplift,
 )  # fmt: skip
 
 MW = {"recorded": (5.0, 7.6)}
@@ -30,7 +30,7 @@ HEAD = """\
 # P_ex only. IM4 is held below the end of its domain, ratio = PGA/PGV (1/s), p, eta and limit within theirs.
 # domain,NAME,LOW,HIGH: of IM4 and IM5 99.9 % (0.1 %) quantiles; ranges of the others.
 # term,pro|pex,FUNCTION,recorded,csgm,pulse,hfc: coefficients for each kind of motion. Those of recorded are
-# fitted to hfc without magnitude.
+# fitted to hfc without magnitude; limit and p of pex are then corrected by the records.
 # uplift,KIND,pro|pex,n,d,k
 # magnitude,KIND,intercept,slope,sd,low,high: M = intercept + slope ln(PGV/PGA), in s, where it is unknown; M is
 # held between low and high.
@@ -42,17 +42,20 @@ HEAD = """\
 
 
 def shift(event, logit_of, cases):
-    """c, ln s, m, h and ln n, d, k of recorded motions, together, of greatest likelihood."""
+    """c, ln s, m, h, ln n, d, k, and what the coefficients of CORRECTED gain, of recorded motions, together, of
+    greatest likelihood."""
     cases = fit.sample(event, cases)
     logit, m = logit_of(cases), magnitude(cases, (0, 0, 0, *MW["recorded"]))
     end = cases.select(features()["end"]).to_series().to_numpy() * (event == "pex")
-    happened = cases["happened"].to_numpy().astype(float)
+    happened, columns = cases["happened"].to_numpy().astype(float), design(CORRECTED[event], cases)
 
     def loss(b):
-        z = b[0] + np.exp(b[1]) * logit + b[2] * m + b[3] * end + uplift(cases, np.exp(b[4:]))
-        return fit.loss_of(z, happened) + fit.weak(b[4:])
+        added = b[2] * m + b[3] * end + uplift(cases, np.exp(b[4:7]))
+        z = b[0] + np.exp(b[1]) * (logit + columns @ b[7:]) + added
+        return fit.loss_of(z, happened) + fit.weak(b[4:7])
 
-    return minimize(loss, [0.0, 0.0, 0.0, 0.0, *fit.SOUGHT], method="BFGS", options={"gtol": 0.3}).x
+    start = [0.0, 0.0, 0.0, 0.0, *fit.SOUGHT, *np.zeros(len(CORRECTED[event]))]
+    return minimize(loss, start, method="BFGS", options={"gtol": 0.3}).x
 
 
 def fitted(event, kind, cases, recorded):
@@ -63,7 +66,8 @@ def fitted(event, kind, cases, recorded):
         return b, [0.0, 0.0, m, 0.0], numbers
     b, _, _ = fit.surface(event, TERMS[event], cases.filter(kind="hfc"), False)
     shifted = shift(event, lambda c: design(b, c) @ [*b.values()], recorded)
-    return b, shifted[:4], np.exp(shifted[4:])
+    corrected = {term: b[term] + gain for term, gain in zip(CORRECTED[event], shifted[7:])}
+    return b | corrected, shifted[:4], np.exp(shifted[4:7])
 
 
 def held(frame, taus):

@@ -64,6 +64,25 @@ pub struct Calibration {
     pub ratio_given_pgv: Vec<f64>,
 }
 
+/// What stood or fell in an earthquake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedOutcome {
+    /// The structure that it rocks like.
+    pub structure: Structure,
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+    /// Magnitude, where it is known.
+    pub mw: Option<f64>,
+    /// Number of the earthquake: its outcomes depend on each other.
+    pub earthquake: u32,
+    /// Whether it fell.
+    pub fell: bool,
+}
+
+/// The suite of calibrations to what stood and what fell.
+const OUTCOMES: &str = "outcomes";
 /// With fewer cases on a side the level is uncertain.
 const FEW_EVENTS: i64 = 10;
 /// A peak within this factor of those of the data is like them.
@@ -110,16 +129,51 @@ impl Calibration {
     /// of motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
         let kind = Kind::of_word(cases.suite.as_deref());
-        let prior = surface::prior(kind, limit_state);
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let sample = observed(cases, &shipped);
+        let peaks = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s).unwrap_or(surface::peaks(kind));
+        let suite = cases.suite.clone();
+        Calibration {
+            suite,
+            ratio_given_pga: peaks.given_pga.to_numbers(),
+            ratio_given_pgv: peaks.given_pgv.to_numbers(),
+            ..shipped.fitted(sample)
+        }
+    }
+
+    /// Fits c, ln s and m of P_ro to what stood and what fell in earthquakes. Objects that the motion does not
+    /// uplift do not count. The first object stands for all.
+    pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
+        let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
+        let mut sample =
+            Sample { ln_im: Vec::new(), y: Vec::new(), clusters: Vec::new(), ranges: Vec::new() };
+        for outcome in outcomes {
+            let ObservedOutcome { structure, pga_m_s2, pgv_m_s, mw, .. } = outcome;
+            let measures = IntensityMeasures::new(structure, *pga_m_s2, *pgv_m_s, None, None);
+            let Some(predictor) = shipped.predictor(structure, &measures, *mw) else { continue };
+            if predictor.added.is_finite() {
+                let peaks = [*pga_m_s2, *pgv_m_s, pgv_m_s / pga_m_s2];
+                sample.y.push(Observed { predictor, happened: outcome.fell, peaks });
+                sample.clusters.push(outcome.earthquake);
+            }
+        }
+        let name = OUTCOMES.to_string();
+        Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(sample) })
+    }
+
+    /// Whether it is fitted to what stood and what fell: it is for other objects, too.
+    pub fn is_of_outcomes(&self) -> bool {
+        self.suite.as_deref() == Some(OUTCOMES)
+    }
+
+    /// The same, fitted to cases of the same kind.
+    fn fitted(self, sample: Sample<Observed>) -> Calibration {
+        let prior = surface::prior(self.kind, self.limit_state);
+        let expected = sample.y.iter().map(|case| logistic(self.calibrated(&case.predictor))).sum();
         let (at, covariance, n_clusters) = maximum(&sample, &prior);
         let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] =
             [0, 1, 2].map(|k| ends(sample.y.iter().map(|case| case.peaks[k])));
-        let peaks = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s).unwrap_or(surface::peaks(kind));
-        let expected = sample.y.iter().map(|case| logistic(shipped.calibrated(&case.predictor))).sum();
         Calibration {
-            suite: cases.suite.clone(),
             c: at[0],
             ln_s: at[1],
             m: at[2],
@@ -134,9 +188,7 @@ impl Calibration {
             pgv_high,
             ratio_low,
             ratio_high,
-            ratio_given_pga: peaks.given_pga.to_numbers(),
-            ratio_given_pgv: peaks.given_pgv.to_numbers(),
-            ..shipped
+            ..self
         }
     }
 

@@ -14,7 +14,7 @@ use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::keyword::{Keyword, keywords};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
-use crate::statistics::{Estimate, FitStatus, LinearFit};
+use crate::statistics::{Estimate, FitStatus, LinearFit, least_squares};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
@@ -42,6 +42,14 @@ pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
 /// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
 pub fn fit_plane(cases: &Cases) -> DemandFit {
     DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE)
+}
+
+/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases above uplift,
+/// beside those of the paper's two: demand falls to 0 at IM4 = 1, which no power of IM4 does.
+pub fn sd_of_one_plane(cases: &Cases) -> Option<f64> {
+    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &(1.0 + f64::EPSILON..f64::INFINITY));
+    let ln_ln_im4: Vec<f64> = ln_im[0].iter().map(|ln_im4| ln_im4.ln()).collect();
+    least_squares(&[&ln_ln_im4, &ln_im[1]], &y).ok().map(|plane| plane.residual_sd())
 }
 
 /// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
@@ -255,6 +263,12 @@ impl DemandFit {
     fn squares(&self) -> Option<(f64, f64)> {
         let rss = self.beta?.powi(2) * self.residual_degrees();
         Some((rss, rss / (1.0 - self.r2?)))
+    }
+
+    /// Returns the residual standard deviation of two fits together.
+    pub fn sd_with(&self, other: &DemandFit) -> Option<f64> {
+        let degrees = self.residual_degrees() + other.residual_degrees();
+        Some(((self.squares()?.0 + other.squares()?.0) / degrees).sqrt())
     }
 
     /// Returns whether the fit holds at an IM4.

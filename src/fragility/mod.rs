@@ -27,13 +27,13 @@ mod peaks;
 mod surface;
 mod tree;
 
-pub use calibration::{Calibration, Scenarios};
+pub use calibration::{Calibration, ObservedOutcome, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{Cases, Cluster, Event, Group, Sample};
 pub(crate) use cases::{MOST_CASES, grouped};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
-pub use demand::{ln_median_demand, p_exceeding};
+pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
 pub use given_peak::GivenPeak;
 pub(crate) use given_peak::limit_states_at;
 pub use measure::{Measure, Pair};

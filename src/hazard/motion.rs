@@ -33,7 +33,7 @@ impl Motion {
     pub fn peaks(&self, model: &Model) -> [f64; 2] {
         let ratio = |peak: Peak, intensity: f64| {
             let velocity = PgvPgaRatio::of_model(model, peak, self.vs30_m_s);
-            velocity.at(magnitude(self.mw).0, 0.0).ratio(intensity, 0.0)
+            velocity.at(magnitude(self.mw, None).0, 0.0).ratio(intensity, 0.0)
         };
         match (self.pga_m_s2, self.pgv_m_s) {
             _ if self.is_still() => [0.0; 2],
@@ -56,7 +56,7 @@ impl Motion {
             return MotionProbabilities { states, errors: Budget::default() };
         }
         let (directions, model) = (&subject.directions[..], &subject.directions[0].model);
-        let (mw, magnitude) = magnitude(self.mw);
+        let (mw, magnitude) = magnitude(self.mw, None);
         let velocity = self.given().map(|(peak, _)| PgvPgaRatio::of_model(model, peak, self.vs30_m_s));
         let states = |directions: &[Direction], mw: f64, ln: f64| {
             self.states(directions, velocity.map(|velocity| (velocity, mw, ln)), Scenarios::Many)

@@ -46,6 +46,10 @@ const MIDDLE: f64 = 6.3;
 /// deviation about a mean that is given.
 const MAGNITUDE: [f64; 2] = [6.35, 0.6];
 const SD_OF_MEAN: f64 = 0.2;
+/// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at 2475
+/// years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s) lies half
+/// way, and needs no correction.
+const ABOVE_MEAN_OF_PGA: [f64; 2] = [0.45, 0.3];
 /// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4 m/s,
 /// its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the standard
 /// deviation of the level between sites of one magnitude.
@@ -93,10 +97,10 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Magnitude of the controlling earthquakes: its median, by the mean of the disaggregation if it is given, and what
-/// is not known of it.
-pub fn magnitude(mean: Option<f64>) -> (f64, Unknown<f64>) {
-    let [median, sd] = mean.map_or(MAGNITUDE, |mean| [mean, SD_OF_MEAN]);
+/// Magnitude of the controlling earthquakes: its median, by the one that is given, and what is not known of it;
+/// `sd` of a mean of the disaggregation.
+pub fn magnitude(given: Option<f64>, sd: Option<f64>) -> (f64, Unknown<f64>) {
+    let [median, sd] = given.map_or(MAGNITUDE, |mean| [mean, sd.unwrap_or(SD_OF_MEAN)]);
     let (low, high) = (median - Z_95 * sd, median + Z_95 * sd);
     (median, Unknown { part: Part::Magnitude, low, high })
 }
@@ -199,6 +203,12 @@ impl PgvPgaRatio {
             VelocitySource::Sites | VelocitySource::Given => Some(median),
             _ => given.map(|_| median),
         }
+    }
+
+    /// By how much the mean magnitude of the motions that overturn exceeds a mean of the disaggregation, and the
+    /// standard deviation about it: that of SA(1.0 s) where PGV / PGA is by this curve, else that of PGA.
+    pub fn above_mean(&self) -> [f64; 2] {
+        if self.source == VelocitySource::Spectrum { [0.0, SD_OF_MEAN] } else { ABOVE_MEAN_OF_PGA }
     }
 
     /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).

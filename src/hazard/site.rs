@@ -63,8 +63,8 @@ pub fn strongest(peak: Peak) -> f64 {
 pub struct Site {
     /// The hazard.
     pub hazard: Hazard,
-    /// Mean magnitude of the disaggregation; where it is not known, the median is 6.35 and its standard
-    /// deviation 0.6.
+    /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used with PGV
+    /// alone. Where it is not known, the median is 6.35 and its standard deviation 0.6.
     pub mw: Option<f64>,
     /// Vs30, m/s.
     pub vs30_m_s: Option<f64>,
@@ -143,8 +143,9 @@ impl Site {
     fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
         let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(of_model);
-        let (median, unknown) = magnitude(self.mw);
-        Motions { peak: hazard.peak, velocity, given: self.mw, median, unknown }
+        let given = self.mw.filter(|_| hazard.peak == Peak::Pga);
+        let (median, unknown) = magnitude(given, Some(velocity.above_mean()[1]));
+        Motions { peak: hazard.peak, velocity, given, median, unknown }
     }
 
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
@@ -234,7 +235,8 @@ impl Motions {
     /// The motions with this error of ln(PGV / PGA), of this magnitude or the median one.
     fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
         let mw = mw.unwrap_or(self.median);
-        let known = self.velocity.magnitude(self.given, mw);
+        let above = self.given.map_or(0.0, |_| self.velocity.above_mean()[0]);
+        let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + above);
         GivenPeak { directions, peak: self.peak, ratio: self.velocity.at(mw, ln), mw: known }
     }
 }

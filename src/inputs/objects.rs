@@ -82,6 +82,11 @@ pub fn read(
     objects().map_err(|error: InputError| error.of(path))
 }
 
+/// The objects of the rows of a grid.
+pub fn of_rows(grid: &Grid) -> Result<Vec<Object>, InputError> {
+    Ok(List::new(grid, &Common::default())?.objects())
+}
+
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
 pub fn describes_object(heading: &Heading) -> bool {
     const OF_STRUCTURES: [Field; 3] = [Field::P, Field::Alpha, Field::Eta];

@@ -123,7 +123,7 @@ impl Export {
     /// was ever recorded.
     fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
         let model = &subject.directions[0].model;
-        let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None).0);
+        let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None, None).0);
         let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
         let given_peak = GivenPeak { directions: &subject.directions, peak: self.im, ratio, mw };
         let reaching = |intensity: f64| {

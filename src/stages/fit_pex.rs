@@ -8,7 +8,7 @@ use clap::{Args, ValueHint};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
-use crate::fragility::{Calibration, DemandFit, DemandModel, fit_demand};
+use crate::fragility::{Calibration, DemandFit, DemandModel, fit_demand, sd_of_one_plane};
 use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
@@ -71,19 +71,20 @@ impl Stage for FitPex {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
         let bar = context.bar(groups.len());
-        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
+        let (mut fits, mut calibrations, mut sds) = (Vec::new(), Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
             fits.extend(fit_demand(cases, self.transition.0, self.confidence, self.all));
             let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
             calibrations.extend(self.limit_state.iter().map(of_limit));
+            sds.push(sd_of_one_plane(cases));
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let summary = format!(
             "{}\n{}",
             calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration")),
-            planes_text(&fits, &self.out)
+            planes_text(&fits, &sds, &self.out)
         );
         context.warn(warnings(&calibrations));
         context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
@@ -93,17 +94,22 @@ impl Stage for FitPex {
     }
 }
 
-fn planes_text(fits: &[DemandFit], out: &Path) -> String {
+/// The paper's planes, with the residual standard deviation of both and of one plane in their place (`sds`).
+fn planes_text(fits: &[DemandFit], sds: &[Option<f64>], out: &Path) -> String {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
-    let line = |pair: &[&DemandFit]| {
+    let line = |(pair, one): (&[&DemandFit], &Option<f64>)| {
         let (below, above) = (pair[0], pair[1]);
-        let [transition, r2_below, r2_above] = [below.range_high, below.r2, above.r2]
-            .map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
+        let [transition, r2_below, r2_above, sd, one] =
+            [below.range_high, below.r2, above.r2, below.sd_with(above), *one]
+                .map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
         let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
         let (suite, structure) = (suite_name(&below.suite), below.structure.clone());
-        vec![suite, structure, transition, r2_below, r2_above, verdict]
+        vec![suite, structure, transition, r2_below, r2_above, sd, one, verdict]
     };
-    let headings = ["suite", "structure", "transition", "R2 below", "R2 above", "verdict"];
-    let lines = text(&headings, planes.chunks_exact(2).map(line), 2..5, out);
-    format!("planes (paper), below and above the transition\n{lines}")
+    let headings =
+        ["suite", "structure", "transition", "R2 below", "R2 above", "sd", "sd of one plane", "verdict"];
+    let lines = text(&headings, planes.chunks_exact(2).zip(sds).map(line), 2..7, out);
+    format!(
+        "planes (paper), below and above the transition; sd of ln demand, also of one plane in ln(ln IM4) and ln IM3\n{lines}"
+    )
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueHint};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
-use super::shared::responses;
-use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, fit_curves};
+use super::shared::{observed, responses};
+use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, ParameterRow, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
@@ -16,7 +16,7 @@ use crate::pipeline::{Stage, UsageError};
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args)]
 pub struct FitPro {
-    /// Responses to read
+    /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
           default_value = "responses.parquet")]
     input: PathBuf,
@@ -51,6 +51,9 @@ impl Stage for FitPro {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
+        if observed::is_list(&self.input)? {
+            return self.fit_outcomes(context);
+        }
         let groups = responses::read(&self.input)?;
         let bar = context.bar(groups.len());
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
@@ -73,6 +76,21 @@ impl Stage for FitPro {
         context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
+        Ok(summary)
+    }
+}
+
+impl FitPro {
+    /// Fits the surface to what stood and what fell, which gives no curve.
+    fn fit_outcomes(&self, context: &Context) -> anyhow::Result<String> {
+        let calibration = Calibration::fit_outcomes(&observed::read(&self.input)?);
+        let rows: Vec<Calibration> = calibration.into_iter().collect();
+        let path = part(&self.out, "calibration");
+        let summary = calibrations_text(&rows, ["rocked", "fell"], &path);
+        context.warn(warnings(&rows));
+        context.write(&path, &rows, &summary)?;
+        context.write::<ParameterRow>(&part(&self.out, "parameters"), &[], &summary)?;
+        context.write::<CurveFit>(&self.out, &[], &summary)?;
         Ok(summary)
     }
 }

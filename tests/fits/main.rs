@@ -10,6 +10,7 @@ mod hazard;
 mod model;
 mod normal;
 mod on_floor;
+mod outcomes;
 mod overturning;
 mod paper;
 mod ranking;

@@ -1,6 +1,7 @@
 //! The rocking solver against closed forms, quadruple precision, the printed equations, and extreme input.
 
 mod body;
+mod closed_forms;
 mod company;
 mod incremental;
 mod noise;

@@ -4,4 +4,5 @@ pub mod fit_tables;
 pub mod model_args;
 pub mod motions;
 pub mod objects;
+pub mod observed;
 pub mod responses;

@@ -72,9 +72,12 @@ impl ModelArgs {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
         let (fits, of_paper) = (self.fits.as_ref(), self.fits.as_ref().filter(|_| is_paper));
+        let overturning: Vec<Calibration> = read(fits, "pro.calibration.parquet")?;
+        // What stood and what fell tells nothing of demands.
+        let with_demand = fits.filter(|_| !overturning.iter().all(Calibration::is_of_outcomes));
         Ok(Models {
-            overturning: read(fits, "pro.calibration.parquet")?,
-            exceeding: read(fits, "pex.calibration.parquet")?,
+            overturning,
+            exceeding: read(with_demand, "pex.calibration.parquet")?,
             curves: read(of_paper, "pro.parquet")?,
             demand: read(of_paper, "pex.parquet")?,
             args: self.clone(),
@@ -119,15 +122,13 @@ impl Models {
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         }
         let overturning = self.of_kind(&fitted)?;
-        let exceeding = self.exceeding(overturning)?;
+        let exceeding = self.exceeding(overturning, structure)?;
         let is_plane =
             |fit: &DemandFit| fit.model == DemandModel::Biplanar && fit.group() == overturning.group();
         let model = match model {
-            ModelName::Calibrated => Model::Calibrated {
-                overturning: overturning.clone(),
-                exceeding: exceeding.clone(),
-                floor: None,
-            },
+            ModelName::Calibrated => {
+                Model::Calibrated { overturning: overturning.clone(), exceeding, floor: None }
+            }
             ModelName::Paper => Model::Paper {
                 demand: self.demand.iter().filter(|fit| is_plane(fit)).cloned().collect(),
                 overturning: self.curve(overturning)?,
@@ -135,7 +136,9 @@ impl Models {
                 peaks: overturning.peaks(),
             },
         };
-        let is_other = self.args.name.is_some() && !structure.is_like(&structure_of(overturning));
+        let is_other = self.args.name.is_some()
+            && !overturning.is_of_outcomes()
+            && !structure.is_like(&structure_of(overturning));
         let warnings =
             [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
@@ -189,7 +192,8 @@ impl Models {
     fn of_structure(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
         let named = |name: &str| self.overturning.iter().filter(|row| row.structure == name).collect();
         let Some(name) = &self.args.name else {
-            let mut like = self.overturning.iter().filter(|row| structure.is_like(&structure_of(row)));
+            let is_like = |row: &&Calibration| row.is_of_outcomes() || structure.is_like(&structure_of(row));
+            let mut like = self.overturning.iter().filter(is_like);
             let row = like.clone().find(|row| row.structure == structure.name).or_else(|| like.next());
             return Ok(row.map_or(Vec::new(), |row| named(&row.structure)));
         };
@@ -231,9 +235,12 @@ impl Models {
         }
     }
 
-    /// The row of P_ex beside one of P_ro.
-    fn exceeding(&self, overturning: &Calibration) -> anyhow::Result<&Calibration> {
+    /// The row of P_ex beside one of P_ro; outcomes tell nothing of demands.
+    fn exceeding(&self, overturning: &Calibration, structure: &Structure) -> anyhow::Result<Calibration> {
         let limit_state = self.args.limit_state;
+        if overturning.is_of_outcomes() {
+            return Ok(Calibration::shipped(overturning.kind, structure, Some(limit_state)));
+        }
         let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
         if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
@@ -244,7 +251,7 @@ impl Models {
                     "{folder}: P_ex and P_ro of '{name}' are of different responses; run fit-pex and fit-pro on one file"
                 );
             }
-            return Ok(row);
+            return Ok(row.clone());
         }
         let mut fitted: Vec<f64> = rows().filter_map(|row| row.limit_state).collect();
         let found = if fitted.is_empty() { "none".to_string() } else { listed(&fitted, 8) };
@@ -285,11 +292,15 @@ fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &C
 /// What predicts, in words.
 pub fn words_of(model: &Model) -> String {
     match model {
-        Model::Calibrated { overturning: Calibration { n, structure, kind, suite, .. }, .. } => {
+        Model::Calibrated { overturning, .. } => {
+            let Calibration { n, structure, kind, suite, .. } = overturning;
             let of_floor = if is_floor(suite) { " of a floor" } else { "" };
             let (responses, motions) = (counted(*n as usize, "response"), words_of_kind(*kind));
             let calibrated = match n {
                 0 => " for".to_string(),
+                _ if overturning.is_of_outcomes() => {
+                    format!(", calibrated on {}, for", counted(*n as usize, "observed outcome"))
+                }
                 _ => format!(", calibrated on {responses} of {structure} to"),
             };
             format!("rockfrag's universal surface{calibrated} {motions}{of_floor}")

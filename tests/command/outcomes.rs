@@ -1,0 +1,97 @@
+//! What stood and what fell, from a list to probabilities; and blocks of FEMA P-58.
+
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use parquet::arrow::ArrowWriter;
+use std::sync::Arc;
+
+use crate::common::{evaluated, fail, folder, near, number, succeed};
+
+const TOWN: &str = "\
+name;width (cm);height (cm);PGA (g);PGV (m/s);magnitude;earthquake;fell
+a;20;80;0,4;0,5;6,5;Main;yes
+b;20;60;0,4;0,5;6,5;Main;stood
+c;30;90;0,5;0,3;6,5;Main;no
+d;15;90;0,3;0,4;6,5;Main;fell
+";
+
+#[test]
+fn a_list_of_what_fell_calibrates_other_objects() {
+    let folder = folder(&[("town.csv", TOWN), ("others.csv", "name,width,height\nx,0.2,0.7\ny,0.25,0.8\n")]);
+    let path = folder.path();
+    succeed(path, "fit-pro --in town.csv --out csv/pro.parquet");
+    // The same as Parquet.
+    let numbers = |values: [f64; 4]| Arc::new(Float64Array::from_iter_values(values)) as ArrayRef;
+    let fell: ArrayRef = Arc::new(StringArray::from(vec!["yes", "stood", "no", "fell"]));
+    let rows = RecordBatch::try_from_iter([
+        ("width_m", numbers([0.2, 0.2, 0.3, 0.15])),
+        ("height_m", numbers([0.8, 0.6, 0.9, 0.9])),
+        ("pga_g", numbers([0.4, 0.4, 0.5, 0.3])),
+        ("pgv_m_s", numbers([0.5, 0.5, 0.3, 0.4])),
+        ("mw", numbers([6.5; 4])),
+        ("fell", fell),
+    ]);
+    let rows = rows.unwrap();
+    let file = std::fs::File::create(path.join("town.parquet")).unwrap();
+    let mut writer = ArrowWriter::try_new(file, rows.schema(), None).unwrap();
+    writer.write(&rows).unwrap();
+    writer.close().unwrap();
+    succeed(path, "fit-pro --in town.parquet --out parquet/pro.parquet");
+    let motion = "--structures others.csv --pga 0.4 --pgv 0.5 --magnitude 6.5";
+    let of = |fits: &str| -> Vec<f64> {
+        evaluated(path, &format!("{motion} {fits}")).iter().map(|row| number(row, "p_overturning")).collect()
+    };
+    let [csv, parquet, shipped] = ["--fits csv", "--fits parquet", ""].map(of);
+    assert_eq!(csv, parquet);
+    assert!(csv.iter().zip(&shipped).all(|(one, other)| !near(*one, *other, 0.01)), "{csv:?} {shipped:?}");
+}
+
+#[test]
+fn impossible_lists_of_outcomes_are_refused() {
+    let changed = |from: &str, to: &str| TOWN.replacen(from, to, 1);
+    let (heading, rest) = TOWN.split_once('\n').unwrap();
+    let folder = folder(&[
+        ("empty.csv", heading),
+        ("none.csv", &changed("fell\n", "remarks\n")),
+        ("word.csv", &changed("stood", "perhaps")),
+        ("unit.csv", &TOWN.replace(";0,5;6", ";50;6").replace(";0,3;6", ";30;6")),
+        ("calm.csv", &format!("{heading}\n{}", rest.replacen("0,4;0,5", "0,1;0,1", 1))),
+    ]);
+    for (name, named) in [
+        ("empty.csv", "no rows"),
+        ("none.csv", "fell"),
+        ("word.csv", "perhaps"),
+        ("unit.csv", "cm/s"),
+        ("calm.csv", "line 2"),
+    ] {
+        fail(folder.path(), &format!("fit-pro --in {name}"), 1, &[name, named]);
+        assert!(!folder.path().join("pro.parquet").exists());
+    }
+}
+
+#[derive(serde::Deserialize)]
+struct Component {
+    depth_in: f64,
+    height_in: f64,
+    ours_m_s: f64,
+}
+
+#[test]
+fn blocks_of_fema_p58_overturn_at_these_velocities() {
+    // Unanchored components that fall over, E.20.22.102a to 125a; ours_m_s is by an independent run.
+    let components: Vec<Component> =
+        csv::Reader::from_path(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/p58.csv"))
+            .unwrap()
+            .into_deserialize()
+            .map(Result::unwrap)
+            .collect();
+    assert_eq!(components.len(), 9);
+    let folder = folder(&[]);
+    for Component { depth_in, height_in, ours_m_s } in components {
+        let [below, above] = [0.97, 1.03].map(|factor| {
+            let (width, height, pgv) = (0.0254 * depth_in, 0.0254 * height_in, factor * ours_m_s);
+            let asked = format!("--width {width} --height {height} --pgv {pgv}");
+            number(&evaluated(folder.path(), &asked)[0], "p_overturning")
+        });
+        assert!(below < 0.5 && above > 0.5, "{depth_in} x {height_in}: {below} {above}");
+    }
+}
