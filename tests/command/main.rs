@@ -9,6 +9,7 @@ mod foreign;
 mod hazard;
 mod interruption;
 mod objects;
+mod outcomes;
 mod paper;
 mod pipeline;
 mod records;
