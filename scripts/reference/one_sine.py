@@ -57,15 +57,20 @@ def overturns(r, w):
     return speed > 1, impacts + 1
 
 
-rows = ["w_p,r,overturns_above,impacts"]
-for w in FREQUENCIES:
+def edges():
+    """Rows of w/p, r, whether it overturns above r, and the impacts before."""
     grid = np.arange(1.1, MOST, STEP)
-    happens = [overturns(r, w)[0] for r in grid]
-    for k in np.flatnonzero(np.diff(happens)):
-        low, high = grid[k], grid[k + 1]
-        while high - low > 1e-10:
-            middle = (low + high) / 2
-            low, high = (middle, high) if overturns(middle, w)[0] == happens[k] else (low, middle)
-        over = high if happens[k + 1] else low
-        rows.append(f"{w:g},{low:.9f},{int(happens[k + 1])},{overturns(over, w)[1]}")
-(pathlib.Path(sys.argv[1]) / "one_sine.csv").write_text("\n".join(rows) + "\n")
+    for w in FREQUENCIES:
+        happens = [overturns(r, w)[0] for r in grid]
+        for k in np.flatnonzero(np.diff(happens)):
+            low, high = grid[k], grid[k + 1]
+            while high - low > 1e-10:
+                middle = (low + high) / 2
+                low, high = (middle, high) if overturns(middle, w)[0] == happens[k] else (low, middle)
+            over = high if happens[k + 1] else low
+            yield f"{w:g},{low:.9f},{int(happens[k + 1])},{overturns(over, w)[1]}"
+
+
+if __name__ == "__main__":
+    rows = ["w_p,r,overturns_above,impacts", *edges()]
+    (pathlib.Path(sys.argv[1]) / "one_sine.csv").write_text("\n".join(rows) + "\n")

