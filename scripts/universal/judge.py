@@ -10,8 +10,8 @@ from scipy.special import log_ndtr, ndtr
 import cases as of
 from calibration import apply, calibrate, logistic, tangent
 from fit import monotone_logistic
-from make import CLASSES, held, of_cells_left_out, of_records_left_out
-from surface import KINDS, LIMIT, NO_LIMIT, TERMS, Surface
+from make import CLASSES, held, of_cells_left_out, of_records_left_out, shift
+from surface import CORRECTED, KINDS, LIMIT, NO_LIMIT, TERMS, Surface, design, uplift
 
 _, path, FOLDER = sys.argv
 surface = Surface(open(path))
@@ -52,15 +52,35 @@ def happened(cases):
     return cases["happened"].to_numpy()
 
 
-def by_limit():
-    limits = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
-    frames = [predicted("pex", "recorded", of.counted("pex", RECORDS, limit)) for limit in limits]
-    show("Records, demand, by limit state", scored(pl.concat(frames), limit="limit"))
+LIMITS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
 
 
-def by_scale(event):
-    cases = predicted(event, "recorded", of.counted(event, of_records, LIMIT))
-    show(f"Records, {event}, as shipped, by scale", scored(cases, scale="scale"))
+def demand_left_out():
+    """A demand above each limit state: each earthquake of the table by all that the others tell (make.shift), the
+    corrections of the surface too. Intervals are by drawing earthquakes."""
+    logit = lambda cases: surface.parts("pex", "recorded", cases)[:, 0]
+    of_table, judged = RECORDS.filter(~pl.col("motion_id").str.contains("field")), []
+    for (earthquake,), mine in of_table.group_by("cluster", maintain_order=True):
+        b = shift("pex", logit, RECORDS.filter(pl.col("cluster") != earthquake))
+        for limit in LIMITS:
+            cases = of.counted("pex", mine, limit)
+            _, m, _ = surface.parts("pex", "recorded", cases).T
+            z = b[0] + np.exp(b[1]) * (logit(cases) + design(CORRECTED["pex"], cases) @ b[7:])
+            z += b[2] * m + b[3] * np.log(1.1 - limit) + uplift(cases, np.exp(b[4:7]))
+            judged.append(cases.with_columns(p=pl.Series(logistic(z)), z=pl.Series(z)))
+    judged = pl.concat(judged)
+    sums = judged.group_by("limit", "cluster").agg(pl.col("happened", "p").sum()).sort("limit", "cluster")
+    drawn = rng.integers(0, sums["cluster"].n_unique(), (2000, sums["cluster"].n_unique()))
+    for (limit,), of_limit in sums.group_by("limit", maintain_order=True):
+        ratios = np.divide(*(of_limit[name].to_numpy()[drawn].sum(axis=1) for name in ("happened", "p")))
+        print(limit, "observed/expected by drawn earthquakes:", np.quantile(ratios, [0.025, 0.975]).round(2))
+    show("Records, demand, earthquakes left out, by limit state", scored(judged, limit="limit"))
+    sizes = pl.col("p_rad_s").cut([1.5, 2.5])
+    show("The same by p", scored(judged, limit="limit", p_of=sizes).select("limit", "p_of", "observed", "ratio"))
+    at_one = judged.filter(limit=LIMIT)
+    for by in ({"M": pl.lit("all")}, {"M": OF_M}, {"p": BINS}):
+        show("Records, demand above 0.1, earthquakes left out", scored(at_one, **by))
+    coverage("pex", "recorded", at_one)
 
 
 def earthquakes_left_out(event):
@@ -88,16 +108,6 @@ def cells_left_out(event):
     for kind in KINDS[1:]:
         study = of.read([f"{FOLDER}/study_102.parquet"], 1.0, kind)
         coverage(event, kind, of_cells_left_out(surface, event, kind, study, surface.prior(event, kind)))
-
-
-def near_uplift(event):
-    files, near = [f"{FOLDER}/training_{part}.parquet" for part in range(5)], pl.col("im4") < 1.2
-    cases = pl.concat([of.read([file]).filter(near) for file in files] + [RECORDS.filter(near)])
-    cases = of.counted(event, cases, LIMIT)
-    cases = pl.concat([predicted(event, kind, cases.filter(kind=kind)) for kind in KINDS])
-    im5, im4 = pl.col("im5").cut([1.5, 3.0]), pl.col("im4").cut([1.05, 1.1, 1.15])
-    counts = scored(cases, kind="kind", im5=im5, im4=im4)
-    show(f"Near uplift, {event}", counts.drop("predicted_share", "observed_share", "score"))
 
 
 def of_draws(event, mine, n, prior):
@@ -183,8 +193,8 @@ def own_responses(event):
 
 of_records = of.read([f"{FOLDER}/records.parquet"])
 RECORDS = of_records.filter(pl.col("scale").is_in(of.FITTED))
-TABLES = by_scale, earthquakes_left_out, near_uplift, few_records, held_out, cells_left_out, own_responses
-by_limit()
+TABLES = earthquakes_left_out, few_records, held_out, cells_left_out, own_responses
+demand_left_out()
 for event in TERMS:
     for table in TABLES:
         table(event)
