@@ -42,7 +42,7 @@ fn sine(alpha: f64, r: f64, w: f64, half_cycles: f64) -> (Vec<f64>, f64) {
 #[test]
 fn rectangular_pulses_overturn_as_housner_says() {
     // Housner (1963): cosh(p t) = 1 + 1/(2 r (r - 1)), r = a/(g alpha), t the duration.
-    let alpha = 0.01;
+    let alpha = 0.01_f64;
     for r in [1.1, 1.3, 1.7, 2.5, 5.0] {
         let mut samples = vec![r * G_M_S2 * alpha.tan(); SAMPLES];
         samples.push(0.0);
@@ -58,7 +58,7 @@ fn rectangular_pulses_overturn_as_housner_says() {
 fn half_sines_overturn_without_an_impact_as_linear_theory_says() {
     // r p (w cos psi + p sin psi + w exp(-p t)) = p^2 + w^2, sin psi = 1/r, t from uplift to the end of the pulse.
     // Housner's sqrt(1 + (w/p)^2) takes the block to move from the beginning of the pulse on.
-    let alpha = 0.01;
+    let alpha = 0.01_f64;
     for w in [0.5, 1.0, 2.0, 4.0, 6.0] {
         let exceeds = |r: f64| {
             let psi = (1.0 / r).asin();
@@ -85,7 +85,7 @@ struct Edge {
 #[test]
 fn one_sines_overturn_after_an_impact_and_without_one_as_linear_theory_says() {
     // scripts/reference/one_sine.py. Differences are those of sin(alpha) from alpha.
-    let alpha = 1e-3;
+    let alpha = 1e-3_f64;
     let edges: Vec<Edge> = rows("rocking/one_sine.csv");
     assert!([0, 1].iter().all(|mode| edges.iter().any(|edge| edge.impacts == *mode)));
     for edge in &edges {
