@@ -73,7 +73,7 @@ def one_sines(folder):
         axes.plot(w[falls & mode], r[falls & mode], "s", color=colour, alpha=0.35, ms=7, mec="none", label=label)
     axes.plot(w[ours], r[ours], "k.", ms=3, label="rockfrag: overturns")
     axes.set(xlabel="frequency of the sine over p", ylabel="amplitude over g tan(alpha)")
-    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3)
     save(figure, "evidence_sines")
 
 
@@ -104,8 +104,9 @@ def left_out():
         axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3)
         axes.scatter(counts["mw"], counts["happened"] / expected, s=4 + np.sqrt(expected), color="C0", zorder=3)
         axes.axhline(1, color="k", lw=0.8)
-        axes.set(yscale="log", ylim=(0.15, 6), xlabel="magnitude", title=name)
-        axes.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
+        axes.set(yscale="log", ylim=(0.3, 3), xlabel="magnitude", title=name)
+        axes.set_yticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
+        axes.minorticks_off()
     both[0].set_ylabel("observed over expected")
     save(figure, "evidence_left_out")
 
@@ -156,7 +157,7 @@ def p58(folder):
     axes.text(len(at) - 0.6, 51, "FEMA P-58", ha="right", va="bottom")
     axes.set_xticks(at, table["size, in"], rotation=40, ha="right")
     axes.set(ylabel="records that overturn it, %", ylim=(0, 60))
-    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3)
     save(figure, "evidence_p58")
 
 
@@ -201,8 +202,11 @@ def shaking_table(folder):
         axes.scatter(pgv[~fell], pga[~fell], s=9, color="C0", label="stood")
         axes.scatter(pgv[fell], pga[fell], s=9, color="C3", label="fell")
         grid_v, grid_a = np.meshgrid(np.geomspace(0.003, 3, 60), np.geomspace(0.02, 2, 50))
-        grid = pl.DataFrame({"pga_g": grid_a.ravel(), "pgv_m_s": np.clip(grid_v, 0.06 * grid_a, 25 * grid_a).ravel()})
+        # Of PGV/PGA that motions have.
+        possible = np.clip(grid_v, 0.1 * grid_a, 5 * grid_a)
+        grid = pl.DataFrame({"pga_g": grid_a.ravel(), "pgv_m_s": possible.ravel()})
         on_grid = evaluated(folder, grid, p, best, eta).reshape(grid_v.shape)
+        on_grid[possible != grid_v] = np.nan
         axes.contour(grid_v, grid_a, on_grid, [0.1, 0.5, 0.9], colors="k", linewidths=[0.6, 1.2, 0.6])
         axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"azimuth {azimuth + 1}", ylim=(0.02, 2.2))
     both[0].set_ylabel("PGA, g")

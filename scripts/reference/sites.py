@@ -145,8 +145,16 @@ def site(model, vs30, sources, rho):
     for k, (name, levels) in enumerate([("pga", accelerations), ("pgv", velocities), ("sa", accelerations)]):
         rates = norm.sf((np.log(levels)[:, None] - mean[k]) / sd[k]) @ rate
         curves[name] = np.column_stack([levels, rates])
-    weight = norm.sf((np.log(inverse(*curves["pga"].T, 1 / 2475)) - mean[0]) / sd[0]) * rate
-    return curves | {"joint": bivariate(mean, sd, rho, rate, mw), "mw": (weight @ mw) / weight.sum()}
+    of_mw = {"mw": mean_magnitude(curves["pga"], mean[0], sd[0], ruptures)}
+    of_mw["mw_sa"] = mean_magnitude(curves["sa"], mean[2], sd[2], ruptures)
+    return curves | of_mw | {"joint": bivariate(mean, sd, rho, rate, mw)}
+
+
+def mean_magnitude(curve, mean, sd, ruptures):
+    """Of the disaggregation at 2475 years."""
+    mw, _, rate = ruptures.T
+    weight = norm.sf((np.log(inverse(*curve.T, 1 / 2475)) - mean) / sd) * rate
+    return (weight @ mw) / weight.sum()
 
 
 def line(joints, mean_mw, vs30, peak):

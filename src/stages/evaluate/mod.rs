@@ -69,7 +69,8 @@ pub struct Evaluate {
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
-    /// Moment magnitude of motions without one; at a site the mean of the disaggregation of PGA at 2475 years
+    /// Moment magnitude of motions without one; at a site the mean of the disaggregation at 2475 years, of SA(1.0 s)
+    /// with that curve, else of PGA (not used with PGV alone)
     #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
