@@ -91,7 +91,11 @@ fn peak_in(sheet: &Grid, row: usize, (column, unit): (usize, f64)) -> Result<f64
 
 fn magnitude_in(sheet: &Grid, row: usize, column: usize) -> Result<f64, InputError> {
     let mw = sheet.number(row, column)?;
-    if MAGNITUDES.contains(&mw) { Ok(mw) } else { Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9")) }
+    if MAGNITUDES.contains(&mw) {
+        Ok(mw)
+    } else {
+        Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9"))
+    }
 }
 
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
