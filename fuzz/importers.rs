@@ -1,7 +1,8 @@
-//! Bytes as the text file of a recorded motion, in the format that the first byte names.
+//! Bytes as a table of any kind, and as the file of a recorded motion, in the format that the first byte names.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use rockfrag::inputs::Grid;
 use rockfrag::keyword::Keyword;
 use rockfrag::records::{Format, ReadOptions, read_records};
 use rockfrag::rocking::Record;
@@ -9,6 +10,12 @@ use rockfrag::units::Unit;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&first, text)) = bytes.split_first() else { return };
+    if let Ok(grid) = Grid::parse(text, None) {
+        for (row, column) in (0..grid.lines.len()).flat_map(|row| (0..grid.columns).map(move |at| (row, at)))
+        {
+            assert!(grid.number(row, column).is_ok_and(f64::is_finite) || grid.number(row, column).is_err());
+        }
+    }
     let formats = Format::ALL.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];
     let options = ReadOptions {

@@ -259,3 +259,26 @@ fn nothing_rocks_where_nothing_moves() {
         assert!(!text.contains("NaN") && !text.contains(" - %"), "{text}");
     }
 }
+
+#[test]
+fn rows_beyond_any_record_are_answered_at_the_rim() {
+    let table = "PGA (g),PGV (m/s)\n0.4,0.5\n0.5,0.6\n6,0.9\n0.3,9\n0.5,0.001\n0.2,0.2\n";
+    let at_rim = "PGA (g),PGV (m/s)\n0.4,0.5\n0.5,0.6\n4.5,0.9\n0.3,5\n0.5,0.0245250\n0.2,0.2\n";
+    let units = "PGA (g),PGV (m/s)\n4,0.5\n5,0.6\n6,0.7\n";
+    let folder = folder(&[("table.csv", table), ("rim.csv", at_rim), ("units.csv", units)]);
+    let rows = |arguments: &str| evaluated(folder.path(), &format!("{BLOCK} --in {arguments} --force"));
+    let (found, expected) = (rows("table.csv"), rows("rim.csv"));
+    for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        assert!(near(number(found, "p_overturning"), number(expected, "p_overturning"), 1e-6), "row {row}");
+        assert_eq!(has(found, Warning::AtRim), (2..5).contains(&row), "row {row}");
+    }
+    fail(folder.path(), &format!("evaluate {BLOCK} --in units.csv"), 1, &["units.csv", "m/s2"]);
+    // A magnitude holds for rows without one.
+    let with = evaluated(folder.path(), &format!("{BLOCK} --pga 0.4 --pgv 0.5 --magnitude 7.5"));
+    let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_overturning");
+    assert!(
+        near(of_row, number(&with[0], "p_overturning"), 1e-9)
+            && !near(of_row, number(&found[0], "p_overturning"), 1e-3)
+    );
+    fail(folder.path(), &format!("evaluate {BLOCK} --pga 0.4 --columns pga_g=PGA"), 1, &["PGA"]);
+}
