@@ -27,7 +27,7 @@ pub enum InputError {
         "line {line}, column '{heading}': '{found}': decimal, or between thousands? Write 1029 or 1.0290"
     )]
     Thousands { line: usize, heading: String, found: String },
-    #[error("heading '{heading}' has a unit of another quantity than '{unit}'")]
+    #[error("'{heading}' and '{unit}' have different units")]
     Units { heading: String, unit: String },
     #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
     Heading { heading: String, expected: &'static str, found: String },
