@@ -6,6 +6,7 @@
 #     make check-exports   OpenQuake and pelicun read what export writes (1.5 GB for the time of the check)
 #     make spread          the numbers over twenty seeds that are shipped in data/
 #     make universal       the fragility surface that is shipped, of records: AT2=folder TABLE=list.csv
+#     make picture         the head of the report in docs/report.png (chromium, selenium)
 #     make peers           the table of speeds in docs/review/speed.md
 # `rockfrag run` does the same from pipeline.yaml alone. A stage that is up to date leaves its file as it is; touching it
 # tells make so.
@@ -16,7 +17,7 @@ OUT := out
 # Another ROCKFRAG, a path or a command of the PATH, is used as it is.
 BUILT := $(filter target/release/rockfrag,$(ROCKFRAG))
 
-.PHONY: all check check-docs check-exports spread universal peers clean
+.PHONY: all check check-docs check-exports spread universal picture peers clean
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
@@ -55,6 +56,9 @@ spread: | $(BUILT)
 
 universal: | $(BUILT)
 	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2) $(TABLE)
+
+picture: $(OUT)/report.html
+	python3 scripts/browser.py $(OUT)/report.html --into $(OUT) --head docs/report.png
 
 peers: | $(BUILT)
 	python3 scripts/peers/table.py $(ROCKFRAG)

@@ -7,15 +7,21 @@
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
+//! fragility  probabilities given one peak at a site
+//! ratio     the rate after a change over that before
+//! share     the shares of a rate by intensity
 //! site      the rates of a structure at a site, with limits and warnings
 //! ```
 
 mod budget;
 mod count;
 mod curve;
+mod fragility;
 mod motion;
 mod pgv_pga;
 mod rates;
+mod ratio;
+mod share;
 mod site;
 
 pub use budget::Budget;
@@ -24,6 +30,8 @@ pub use curve::{HazardCurve, HazardError};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
 pub use rates::{AnnualRate, PairOfPeaks, Rate, exceedance, mean_annual_rates, rates_over_curve};
+pub use ratio::{RateByParts, ratio_of_rates};
+pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate

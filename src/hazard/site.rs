@@ -140,7 +140,7 @@ impl Site {
     }
 
     /// The motions of a curve of one peak, with all that is not given of them at its median.
-    fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
+    pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
         let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(of_model);
         let given = self.mw.filter(|_| hazard.peak == Peak::Pga);
@@ -216,24 +216,24 @@ impl Site {
 }
 
 /// Whether a curve ends too early for a rate.
-fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
+pub(super) fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
     let [_, (last, _)] = hazard.curve.ends();
     last < strongest(hazard.peak) && rate.beyond > NEGLIGIBLE * rate.value
 }
 
 /// The motions of a curve of one peak.
-struct Motions {
+pub(super) struct Motions {
     peak: Peak,
-    velocity: PgvPgaRatio,
+    pub(super) velocity: PgvPgaRatio,
     /// The mean magnitude, if it is given; its median, and what is not known of it.
     given: Option<f64>,
     median: f64,
-    unknown: Unknown<f64>,
+    pub(super) unknown: Unknown<f64>,
 }
 
 impl Motions {
     /// The motions with this error of ln(PGV / PGA), of this magnitude or the median one.
-    fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
+    pub(super) fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
         let mw = mw.unwrap_or(self.median);
         let above = self.given.map_or(0.0, |_| self.velocity.above_mean()[0]);
         let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + above);

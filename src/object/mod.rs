@@ -2,17 +2,20 @@
 //! of them.
 //!
 //! ```text
+//! changes    what would change how likely an object is to overturn
 //! field      the numbers that may be known, with the ranges in which they are possible
 //! given      an object as it is given: dimensions, or p, alpha and eta; ground or floor
 //! sides      the structures that it rocks like, and how well these are known
 //! subject    its directions with the models that predict for them, and its unknowns
 //! ```
 
+mod changes;
 mod field;
 mod given;
 mod sides;
 mod subject;
 
+pub use changes::Changed;
 pub use field::Field;
 pub use given::{Object, Place, Reason, Restitution, Shape};
 pub use sides::Side;

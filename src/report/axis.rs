@@ -22,6 +22,10 @@ pub struct Tick {
 
 /// Margin beyond the data on either side, of the range.
 const MARGIN: f64 = 0.04;
+/// The least and the largest number that an axis reaches to, but for 0; and the least width of a range beside
+/// its ends, which is no accident of rounding.
+const SHOWN: [f64; 2] = [1e-30, 1e30];
+const NARROWEST: f64 = 1e-9;
 
 impl Panel {
     /// Names of the rows in which estimates lie, with limits along x; none where y has numbers.
@@ -46,22 +50,37 @@ impl<'a> Ruler<'a> {
     fn new(axis: &'a Axis, values: &[f64]) -> Ruler<'a> {
         let scale = &axis.scale;
         let is_log = *scale == Scale::Log;
-        let usable = values.iter().copied().filter(|value| value.is_finite() && (!is_log || *value > 0.0));
+        let is_usable = |value: &f64| value.abs() <= SHOWN[1] && (!is_log || *value >= SHOWN[0]);
+        let usable = values.iter().copied().filter(is_usable);
         let [low, high] = usable
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
         let [low, high] = match (axis.range, scale) {
-            (Some([first, last]), _) if first < last => [first, last],
+            (Some([first, last]), _) if first < last && last <= SHOWN[1] => [first, last],
             (_, Scale::Names(names)) => [names.len() as f64 - 0.5, -0.5],
             _ if low > high => [1.0, 10.0],
-            (_, Scale::Log) if low < high => {
+            (_, Scale::Log) if high / low > 1.0 + NARROWEST => {
                 let margin = (high / low).powf(MARGIN);
                 [low / margin, high * margin]
             }
             (_, Scale::Log) => [0.5 * low, 2.0 * low],
-            _ if low < high => [low - MARGIN * (high - low), high + MARGIN * (high - low)],
-            _ => [low - 1.0, low + 1.0],
+            _ if high - low > (NARROWEST * low.abs().max(high.abs())).max(SHOWN[0]) => {
+                let margin = MARGIN * (high - low);
+                [low - margin, high + margin]
+            }
+            _ => [low - 1.0 - 0.1 * low.abs(), low + 1.0 + 0.1 * low.abs()],
         };
         Ruler { scale, low, high }
+    }
+
+    /// The same axis over a range of this length about the same middle.
+    pub fn over_length(&self, length: f64) -> Ruler<'a> {
+        let middle = 0.5 * (self.low + self.high);
+        Ruler { scale: self.scale, low: middle - 0.5 * length, high: middle + 0.5 * length }
+    }
+
+    /// The length of its range.
+    pub fn length(&self) -> f64 {
+        self.high - self.low
     }
 
     pub fn fraction(&self, value: f64) -> f64 {
@@ -109,8 +128,8 @@ impl<'a> Ruler<'a> {
             values.filter(inside).collect()
         };
         // Powers of ten where plain numbers would be long.
-        let as_powers = self.low < 0.0099 || self.high > 10_010.0;
-        let choices: [(&[f64], i32); 8] = [
+        let as_powers = self.low < 0.00099 || self.high > 100_100.0;
+        let choices: [(&[f64], i32); 10] = [
             (&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], 1),
             (&[1.0, 2.0, 3.0, 5.0], 1),
             (&[1.0, 2.0, 5.0], 1),
@@ -119,6 +138,8 @@ impl<'a> Ruler<'a> {
             (&[1.0], 2),
             (&[1.0], 3),
             (&[1.0], 5),
+            (&[1.0], 10),
+            (&[1.0], 20),
         ];
         let mut fitting =
             choices[if as_powers { 2 } else { 0 }..].iter().map(|&(factors, every)| at(factors, every));

@@ -1,34 +1,47 @@
-//! Drawing of figures: as SVG in points of 1/72 inch, and as PNG of it.
+//! Drawing of figures: as SVG files in points of 1/72 inch and as PNG of them; as SVG in a page.
 
 use std::fmt::Write;
 
-use super::axis::Ruler;
-use super::figure::{Dash, Figure, Ink, Layer, Marks, Panel};
-use super::text::{Level, escape, runs, words};
+use super::axis::{Ruler, Tick};
+use super::figure::{Dash, Figure, Frame, Ink, Layer, Marks, Panel, Side, Words};
+use super::text::{Level, escape, html, runs, words};
 
-/// Width of a figure across two columns of a journal, 180 mm.
-const WIDTH: f64 = 510.2;
-/// Height of the letters of titles, labels and legends; and of ticks.
+/// How wide a picture is drawn, and the height of its letters over that of a file, which is 8 points.
+#[derive(Debug, Clone, Copy)]
+struct Look {
+    width: f64,
+    unit: f64,
+}
+
+/// A file: across two columns of a journal, 180 mm.
+const FILE: Look = Look { width: 510.2, unit: 1.0 };
+/// A panel on the page, in pixels of a small screen; and one that is wide where the screen is.
+const NARROW: Look = Look { width: 360.0, unit: 1.35 };
+const WIDE: Look = Look { width: 800.0, unit: 1.4 };
+/// Least height of the area of the data of a panel on the page, in the letters' unit.
+const LEAST_HEIGHT: f64 = 60.0;
+
+/// Height of the letters of titles and legends; and of ticks and words beside data.
 const LETTERS: f64 = 8.0;
-const SMALL_LETTERS: f64 = 7.0;
+const SMALL: f64 = 7.2;
 /// Mean width of a letter, of its height.
-const LETTER_WIDTH: f64 = 0.52;
-/// Room around the area of the data of a panel: for ticks and label, at the right, for the title, for ticks
-/// and label.
-const LEFT: f64 = 40.0;
+const LETTER_WIDTH: f64 = 0.54;
+/// Room around the area of the data of a panel: at the left for ticks, at the right, above for title and label
+/// of y, below for ticks and label of x.
+const LEFT: f64 = 30.0;
 const RIGHT: f64 = 12.0;
-const TITLE: f64 = 17.0;
-const BELOW: f64 = 28.0;
+const TITLE: f64 = 12.0;
+const LABEL: f64 = 10.0;
+const GAP: f64 = 6.0;
+const BELOW: f64 = 26.0;
 /// Height of a row with a name, and the most room for names.
-const ROW: f64 = 12.0;
+const ROW: f64 = 13.0;
 const NAMES: f64 = 190.0;
-/// Length of a tick with a label.
-const TICK: f64 = 3.0;
 /// Height of a line of the legend, length of its marks, and room between its entries.
 const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points below which they are drawn larger and darker.
+/// Number of points below which they are drawn larger and darker, and above which a line is thin.
 const FEW_POINTS: usize = 400;
 
 /// The fonts of a file: the first that its reader has.
@@ -36,17 +49,20 @@ const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation San
 
 impl Ink {
     /// The colours in a file and the names of those on the page. Data: Okabe & Ito's palette without its
-    /// yellow, too faint on white.
-    const COLOURS: [(&'static str, &'static str); 9] = [
-        ("#1a1a1a", "--ink"),
-        ("#5c5c5c", "--muted"),
-        ("#c4c4c4", "--rule"),
-        ("#0072b2", "--data0"),
-        ("#d55e00", "--data1"),
-        ("#009e73", "--data2"),
-        ("#cc79a7", "--data3"),
-        ("#e69f00", "--data4"),
-        ("#56b4e9", "--data5"),
+    /// yellow, too faint on white; then the bands of a probability, from rare to frequent.
+    const COLOURS: [(&'static str, &'static str); 12] = [
+        ("#1b1f24", "--ink"),
+        ("#5d646d", "--muted"),
+        ("#d8dce1", "--rule"),
+        ("#0069a8", "--data0"),
+        ("#cf5412", "--data1"),
+        ("#00916b", "--data2"),
+        ("#c06a97", "--data3"),
+        ("#d99400", "--data4"),
+        ("#4aa3d8", "--data5"),
+        ("#4f86a6", "--band0"),
+        ("#d98a00", "--band1"),
+        ("#b8321f", "--band2"),
     ];
 
     fn colour(self) -> &'static str {
@@ -55,34 +71,99 @@ impl Ink {
             Ink::Muted => Ink::COLOURS[1].0,
             Ink::Rule => Ink::COLOURS[2].0,
             Ink::Data(number) => Ink::COLOURS[3 + number % 6].0,
+            Ink::Band(number) => Ink::COLOURS[9 + number.min(2)].0,
         }
+    }
+
+    /// The drawing in the colours of the page.
+    fn of_page(drawing: String) -> String {
+        Ink::COLOURS
+            .iter()
+            .fold(drawing, |drawing, (hex, name)| drawing.replace(hex, &format!("var({name})")))
     }
 }
 
 /// Writes a figure as an SVG file on white, with the key of what made it.
 pub fn svg(figure: &Figure, key: &str) -> String {
-    let (body, height) = drawing(figure);
-    let (title, caption) = (escape(&words(&figure.title)), escape(&words(&figure.caption)));
-    let size = format!("width=\"{WIDTH}pt\" height=\"{height}pt\" viewBox=\"0 0 {WIDTH} {height}\"");
+    let (body, height) = whole(figure);
+    let width = FILE.width;
+    let captions = figure.panels.iter().map(|panel| words(&panel.caption));
+    let caption: Vec<String> =
+        std::iter::once(words(&figure.caption)).chain(captions).filter(|text| !text.is_empty()).collect();
+    let (title, caption) = (escape(&words(&figure.title)), escape(&caption.join(" ")));
+    let size = format!("width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\"");
     let meta = format!(
         "<meta xmlns=\"http://www.w3.org/1999/xhtml\" name=\"rockfrag\" content=\"{}\"/>",
         escape(key)
     );
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n<metadata>{meta}</metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n<rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n\
+         <metadata>{meta}</metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
     )
 }
 
-/// Writes a figure as SVG within a page that has the fonts and the colours.
-pub fn svg_in_page(figure: &Figure) -> String {
-    let (body, height) = drawing(figure);
-    let name = escape(&words(&figure.title));
-    let body = Ink::COLOURS.iter().fold(body, |body, (hex, name)| body.replace(hex, &format!("var({name})")));
-    format!("<svg viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n{body}</svg>\n")
+/// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own, below
+/// a legend, so that they stand beside each other where there is room.
+pub fn html_of_panels(figure: &Figure) -> String {
+    let entries = legend_entries(figure);
+    let entry = |layer: &&Layer| {
+        let mut pen = Pen { unit: 1.0, text: String::new() };
+        pen.legend_mark(layer, [0.0, 5.0]);
+        let (mark, label) = (pen.text, html(&layer.label));
+        format!("<span><svg viewBox=\"0 0 {MARK} 10\" aria-hidden=\"true\">{mark}</svg>{label}</span>\n")
+    };
+    let legend = match &entries[..] {
+        [] => String::new(),
+        _ => format!("<div class=\"legend\">\n{}</div>\n", entries.iter().map(entry).collect::<String>()),
+    };
+    // A legend that is of one panel alone stands below it.
+    let mut labelled = figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
+    let owner = labelled.next().filter(|_| labelled.next().is_none() && figure.panels.len() > 1);
+    let is_wide = figure.columns == 1 && figure.panels.iter().all(|panel| panel.names().is_empty());
+    let panel = |panel: &Panel| {
+        let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
+        let caption = match panel.caption.as_str() {
+            "" => String::new(),
+            words => format!("<figcaption>{}</figcaption>\n", html(words)),
+        };
+        let small = svg_of_panel(panel, name, figure, NARROW, if is_wide { "small" } else { "" });
+        let wide = is_wide.then(|| svg_of_panel(panel, name, figure, WIDE, "wide")).unwrap_or_default();
+        let legend = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
+        format!("<figure>\n{wide}{small}{legend}{caption}</figure>\n")
+    };
+    let above = if owner.is_some() { "" } else { legend.as_str() };
+    let class = if is_wide { "panels long" } else { "panels" };
+    let panels: String = figure.panels.iter().map(panel).collect();
+    Ink::of_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
 }
 
-/// Draws an SVG file as PNG with so many dots per inch.
-pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
+fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure, look: Look, class: &str) -> String {
+    let unit = look.unit;
+    let mut pen = Pen { text: String::new(), unit };
+    // As high over its width as in the file.
+    let across = look.width / unit * figure.columns.max(1) as f64 / FILE.width;
+    let height = match panel.names().len() {
+        0 => (figure.height * across.min(1.6)).max(LEAST_HEIGHT) * unit,
+        rows => ROW * unit * rows as f64,
+    };
+    let left = names_room(panel, look.width, unit);
+    let top = head(panel) * unit;
+    let area = [left, top, look.width - left - RIGHT * unit, height];
+    pen.panel(panel, area, top);
+    let bottom = round(top + height + foot(panel) * unit);
+    let (width, name) = (look.width, escape(&words(name)));
+    format!(
+        "<svg class=\"{class}\" viewBox=\"0 0 {width} {bottom}\" role=\"img\" aria-label=\"{name}\">\n{}</svg>\n",
+        pen.text
+    )
+}
+
+/// Dots per inch of PNG files.
+pub const DPI: f32 = 300.0;
+
+/// Draws an SVG file as PNG with so many dots per inch, with the key of what made it.
+pub fn png(svg: &str, dpi: f32, key: &str) -> Result<Vec<u8>, resvg::usvg::Error> {
     use resvg::{tiny_skia, usvg};
     let mut options = usvg::Options { dpi, font_family: "Fira Sans".to_string(), ..usvg::Options::default() };
     let faces: [&[u8]; 3] = [
@@ -95,40 +176,80 @@ pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
     let size = tree.size().to_int_size();
     let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or(usvg::Error::InvalidSize)?;
     resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|_| usvg::Error::InvalidSize)
+    let drawn = pixels.encode_png().map_err(|_| usvg::Error::InvalidSize)?;
+    Ok(with_text(&drawn, key))
+}
+
+/// A PNG with a text, called rockfrag, behind its head: a chunk of its length, its kind, its words and their sum.
+fn with_text(png: &[u8], text: &str) -> Vec<u8> {
+    const HEAD: usize = 33;
+    let content = [b"iTXtrockfrag\0\0\0\0\0", text.as_bytes()].concat();
+    let mut sum = flate2::Crc::new();
+    sum.update(&content);
+    let [length, sum] = [content.len() as u32 - 4, sum.sum()].map(u32::to_be_bytes);
+    [&png[..HEAD], &length, &content, &sum, &png[HEAD..]].concat()
 }
 
 /// The area of the data of a panel: left, top, width and height.
 type Area = [f64; 4];
 
-fn drawing(figure: &Figure) -> (String, f64) {
-    let mut text = String::new();
+/// Draws all panels in rows below one legend, as a file has them; returns the height too.
+fn whole(figure: &Figure) -> (String, f64) {
+    let mut pen = Pen { text: String::new(), unit: FILE.unit };
     let columns = figure.columns.max(1);
-    let across = WIDTH / columns as f64;
-    let names = figure.panels.iter().map(|panel| names_room(panel, across)).fold(LEFT, f64::max);
-    let mut top = legend(&mut text, figure, names);
+    let across = FILE.width / columns as f64;
+    let mut top = pen.legend(&legend_entries(figure), 4.0, FILE.width);
     for row in figure.panels.chunks(columns) {
         let height = |panel: &Panel| match panel.names().len() {
             0 => figure.height,
             rows => ROW * rows as f64,
         };
         let height = row.iter().map(height).fold(0.0, f64::max);
-        let title = if row.iter().all(|panel| panel.title.is_empty()) { 0.3 * TITLE } else { TITLE };
+        let above = row.iter().map(head).fold(0.0, f64::max);
+        // Panels below each other have the same room for names.
+        let names = |panel: &Panel| names_room(panel, across, 1.0);
         for (column, panel) in row.iter().enumerate() {
-            let left = column as f64 * across + names;
-            let width = across - names - RIGHT;
-            write_panel(&mut text, panel, [left, top + title, width, height]);
+            let column_of_panels = figure.panels.iter().skip(column).step_by(columns);
+            let left = column_of_panels.map(names).fold(0.0, f64::max);
+            let own = match panel.names().len() {
+                0 => height,
+                rows => ROW * rows as f64,
+            };
+            let area = [column as f64 * across + left, top + above, across - left - RIGHT, own];
+            pen.panel(panel, area, above);
         }
-        let has_labels = row.iter().any(|panel| !panel.x.label.is_empty());
-        top += title + height + if has_labels { BELOW } else { 0.25 * BELOW };
+        top += above + height + row.iter().map(foot).fold(0.0, f64::max);
     }
-    (text, round(top.max(1.0)))
+    (pen.text, round(top.max(1.0)))
 }
 
-/// Returns the room to the left of a panel, for its names if it has any.
-fn names_room(panel: &Panel, across: f64) -> f64 {
-    let widest = panel.names().iter().map(|name| width(name, SMALL_LETTERS)).fold(0.0, f64::max);
-    (widest + 12.0).clamp(LEFT, NAMES.min(0.5 * across))
+/// The room above the area of the data.
+fn head(panel: &Panel) -> f64 {
+    let line = |text: &str, height: f64| if text.is_empty() { 0.0 } else { height };
+    let is_above = |words: &Words| words.side == Side::Above;
+    let has_words = panel.layers.iter().any(|layer| match &layer.marks {
+        Marks::Words(words) => words.iter().any(is_above),
+        _ => false,
+    });
+    GAP + line(&panel.title, TITLE) + line(&panel.y.label, LABEL) + if has_words { LABEL } else { 0.0 }
+}
+
+/// The room below it.
+fn foot(panel: &Panel) -> f64 {
+    match panel.frame {
+        Frame::ToScale => GAP,
+        Frame::Axes if panel.x.label.is_empty() => GAP,
+        Frame::Axes => BELOW,
+    }
+}
+
+/// The room to the left of a panel, for its names if it has any.
+fn names_room(panel: &Panel, across: f64, unit: f64) -> f64 {
+    if panel.frame == Frame::ToScale {
+        return 4.0 * unit;
+    }
+    let widest = panel.names().iter().map(|name| width(name, SMALL * unit)).fold(0.0, f64::max);
+    (widest + 8.0 * unit).clamp(LEFT * unit, (NAMES * unit).min(0.46 * across).max(LEFT * unit))
 }
 
 /// Estimates the width of marked text: the letters of its reader are not known.
@@ -137,177 +258,279 @@ fn width(marked: &str, size: f64) -> f64 {
 }
 
 /// Cuts a name to the room for names.
-fn shortened(name: String) -> String {
-    let most = ((NAMES - 12.0) / (SMALL_LETTERS * LETTER_WIDTH)) as usize;
+fn shortened(name: &str, room: f64, size: f64) -> String {
+    let name = words(name);
+    let most = (room / (size * LETTER_WIDTH)) as usize;
     match name.char_indices().nth(most) {
-        Some((end, _)) => format!("{}\u{2026}", &name[..end]),
+        Some(_) => format!("{}\u{2026}", name.chars().take(most.saturating_sub(1)).collect::<String>()),
         None => name,
     }
 }
 
-/// Draws one legend for all panels, if anything has a name; returns where the first row of panels begins.
-fn legend(text: &mut String, figure: &Figure, left: f64) -> f64 {
+/// One layer of each name, in the order in which they come.
+fn legend_entries(figure: &Figure) -> Vec<&Layer> {
     let mut entries: Vec<&Layer> = Vec::new();
     for layer in figure.panels.iter().flat_map(|panel| &panel.layers) {
         if !layer.label.is_empty() && entries.iter().all(|entry| entry.label != layer.label) {
             entries.push(layer);
         }
     }
-    let (mut x, mut y) = (left, 10.0);
-    for layer in &entries {
-        let long = MARK + 3.0 + width(&layer.label, LETTERS);
-        if x > left && x + long > WIDTH {
-            (x, y) = (left, y + LEGEND);
+    entries
+}
+
+/// Writes the elements of a picture whose letters and lines are `unit` times as large as in a file.
+struct Pen {
+    text: String,
+    unit: f64,
+}
+
+impl Pen {
+    /// Draws the legend in lines; returns where the first row of panels begins.
+    fn legend(&mut self, entries: &[&Layer], left: f64, across: f64) -> f64 {
+        let (mut x, mut y) = (left, 11.0);
+        for layer in entries {
+            let long = MARK + 3.0 + width(&layer.label, LETTERS);
+            if x > left && x + long > across {
+                (x, y) = (left, y + LEGEND);
+            }
+            self.legend_mark(layer, [x, y - 2.6]);
+            self.label([x + MARK + 3.0, y], LETTERS, "", Ink::Text, &layer.label);
+            x += long + BETWEEN;
         }
+        if entries.is_empty() { 0.0 } else { y + 5.0 }
+    }
+
+    /// The mark of a layer in the legend, from this place to the right.
+    fn legend_mark(&mut self, layer: &Layer, [x, y]: [f64; 2]) {
         let colour = layer.ink.colour();
-        let middle = [x + 0.5 * MARK, y - 2.6];
+        let middle = [x + 0.5 * MARK, y];
         match &layer.marks {
-            Marks::Points(_) => dots(text, &[middle], 2.0, colour, 1.0),
-            Marks::Line { dash, .. } => {
-                path(text, &[[x, middle[1]], [x + MARK, middle[1]]], colour, 1.3, *dash)
+            Marks::Points(_) | Marks::Words(_) => self.dots(&[middle], 2.0, colour, 1.0),
+            Marks::Line { dash, .. } => self.path(&[[x, y], [x + MARK, y]], colour, 1.3, *dash),
+            Marks::Area(_) => {
+                let corners = [[x, y - 3.5], [x + MARK, y - 3.5], [x + MARK, y + 3.5], [x, y + 3.5]];
+                self.fill(&corners, colour, 0.3);
             }
             Marks::Estimates(_) => {
-                path(text, &[-4.5, 4.5].map(|up| [middle[0], middle[1] + up]), colour, 0.8, Dash::Solid);
-                dots(text, &[middle], 1.8, colour, 1.0);
+                self.interval([[x + 1.0, y], [x + MARK - 1.0, y]], colour);
+                self.dots(&[middle], 2.2, colour, 1.0);
             }
         }
-        label(text, [x + MARK + 3.0, y], LETTERS, "", Ink::Text, &layer.label);
-        x += long + BETWEEN;
     }
-    if entries.is_empty() { 0.0 } else { y + 5.0 }
-}
 
-fn write_panel(text: &mut String, panel: &Panel, area: Area) {
-    let [x, y] = panel.rulers();
-    let [left, top, width, height] = area;
-    // What lies beyond the axes is cut off by the inner picture.
-    let [x_at, y_at, wide, high] = area.map(round);
-    let _ = writeln!(text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
-    for row in 0..panel.names().len() {
-        let at = height * (1.0 - y.fraction(row as f64));
-        path(text, &[[0.0, at], [width, at]], Ink::Rule.colour(), 0.3, Dash::Solid);
-    }
-    for layer in &panel.layers {
-        marks(text, layer, !panel.names().is_empty(), |[x_value, y_value]| {
+    /// Draws a panel with its title and label of y in the room `above` the area of its data.
+    fn panel(&mut self, panel: &Panel, area: Area, above: f64) {
+        let [left, top, width, height] = area;
+        let mut rulers = panel.rulers();
+        if panel.frame == Frame::ToScale {
+            let [x, y] = &rulers;
+            let longest = (x.length() / width).max(y.length() / height);
+            rulers = [x.over_length(longest * width), y.over_length(longest * height)];
+        }
+        let [x, y] = &rulers;
+        if panel.frame == Frame::Axes {
+            self.guides(y, area);
+        }
+        // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
+        let [x_at, y_at, wide, high] = area.map(round);
+        let _ = writeln!(self.text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
+        let place = |[x_value, y_value]: [f64; 2]| {
             [width * x.fraction(x_value), height * (1.0 - y.fraction(y_value))]
-        });
-    }
-    text.push_str("</svg>\n");
-    axes(text, panel, [&x, &y], area);
-    label(text, [left, top - 6.0], LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
-}
-
-fn axes(text: &mut String, panel: &Panel, [x, y]: [&Ruler; 2], [left, top, width, height]: Area) {
-    let (right, bottom) = (left + width, top + height);
-    let mut lines = vec![vec![[left, top], [left, bottom], [right, bottom]]];
-    let middle = " text-anchor=\"middle\"";
-    for tick in x.ticks((width / 26.0) as usize) {
-        let at = left + width * x.fraction(tick.value);
-        let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
-        lines.push(vec![[at, bottom], [at, bottom + length]]);
-        if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
-            label(text, [at, bottom + TICK + 7.5], SMALL_LETTERS, middle, Ink::Text, &words);
-        }
-    }
-    for tick in y.ticks(((height / 16.0) as usize).max(4)) {
-        let at = top + height * (1.0 - y.fraction(tick.value));
-        let length = if tick.label.is_some() { TICK } else { 0.5 * TICK };
-        lines.push(vec![[left - length, at], [left, at]]);
-        if let Some(words) = tick.label {
-            let place = [left - TICK - 2.5, at + 0.35 * SMALL_LETTERS];
-            label(text, place, SMALL_LETTERS, " text-anchor=\"end\"", Ink::Text, &shortened(words));
-        }
-    }
-    let d: String = lines.iter().map(|line| course(line)).collect();
-    let ink = Ink::Text.colour();
-    let _ = writeln!(text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"0.6\"/>");
-    label(text, [left + 0.5 * width, bottom + 21.0], LETTERS, middle, Ink::Text, &panel.x.label);
-    let [at, along] = [left - LEFT + 11.0, top + 0.5 * height].map(round);
-    let turned = format!("{middle} transform=\"rotate(-90 {at} {along})\"");
-    label(text, [at, along], LETTERS, &turned, Ink::Text, &panel.y.label);
-}
-
-/// Draws the marks of a layer, each value at its place.
-fn marks(text: &mut String, layer: &Layer, has_rows: bool, place: impl Fn([f64; 2]) -> [f64; 2]) {
-    let colour = layer.ink.colour();
-    match &layer.marks {
-        Marks::Points(points) => {
-            let places: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
-            let (radius, opacity) = if points.len() < FEW_POINTS { (1.2, 0.9) } else { (0.7, 0.5) };
-            dots(text, &places, radius, colour, opacity);
-        }
-        Marks::Line { points, band, dash } => {
-            let limits: Vec<([f64; 2], [f64; 2])> =
-                points.iter().copied().zip(band.iter().copied()).collect();
-            for piece in limits.split(|([x, y], _)| !(x + y).is_finite()).filter(|piece| !piece.is_empty()) {
-                let edge = |end: usize| piece.iter().map(move |([x, _], limits)| [*x, limits[end]]);
-                let area = course(&edge(0).chain(edge(1).rev()).map(&place).collect::<Vec<_>>());
-                let _ = writeln!(text, "<path d=\"{area}Z\" fill=\"{colour}\" fill-opacity=\"0.2\"/>");
-            }
-            let line: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
-            // Series over time are long, and thin.
-            path(text, &line, colour, if points.len() > 500 { 0.6 } else { 1.3 }, *dash);
-        }
-        Marks::Estimates(estimates) => {
-            let most = estimates.iter().map(|e| e.n).fold(1.0, f64::max);
-            for e in estimates {
-                let ends =
-                    if has_rows { [[e.low, e.y], [e.high, e.y]] } else { [[e.x, e.low], [e.x, e.high]] };
-                path(text, &ends.map(&place), colour, 0.8, Dash::Solid);
-                let radius = if e.n.is_nan() { 1.8 } else { 0.9 + 2.3 * (e.n / most).sqrt() };
-                dots(text, &[place([e.x, e.y])], radius, colour, 1.0);
-            }
-        }
-    }
-}
-
-/// Writes marked text; `style` are further attributes.
-fn label(text: &mut String, [x, y]: [f64; 2], size: f64, style: &str, ink: Ink, marked: &str) {
-    if marked.is_empty() {
-        return;
-    }
-    let (x, y, colour) = (round(x), round(y), ink.colour());
-    let _ = write!(text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{colour}\"{style}>");
-    let mut drop = 0.0;
-    for run in runs(marked) {
-        let below = match run.level {
-            Level::Line => 0.0,
-            Level::Sub => 0.22 * size,
-            Level::Super => -0.36 * size,
         };
-        let small =
-            if below == 0.0 { String::new() } else { format!(" font-size=\"{}\"", round(0.72 * size)) };
-        let italic = if run.italic { " font-style=\"italic\" font-weight=\"400\"" } else { "" };
-        let moved = if below == drop { String::new() } else { format!(" dy=\"{}\"", round(below - drop)) };
-        drop = below;
-        let _ = write!(text, "<tspan{small}{italic}{moved}>{}</tspan>", escape(&run.words));
+        for layer in &panel.layers {
+            self.marks(layer, !panel.names().is_empty(), place);
+        }
+        self.text.push_str("</svg>\n");
+        for layer in &panel.layers {
+            let Marks::Words(words) = &layer.marks else { continue };
+            for one in words {
+                let [x_at, y_at] = place([one.x, one.y]);
+                self.beside([left + x_at, top + y_at], layer.ink, one);
+            }
+        }
+        if panel.frame == Frame::Axes {
+            self.axes(panel, [x, y], area);
+        }
+        let unit = self.unit;
+        // Titles stand over the ticks, not over the names of rows.
+        let room = if panel.names().is_empty() { LEFT } else { NAMES };
+        let edge = (left - room * unit).max(0.0) + 2.0 * unit;
+        let first = top - above + 9.0 * unit;
+        self.label([edge, first], LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
+        self.label([edge, top - GAP * unit], SMALL, "", Ink::Muted, &panel.y.label);
     }
-    text.push_str("</text>\n");
-}
 
-/// Draws small discs: strokes of no length with round ends, short to write.
-fn dots(text: &mut String, places: &[[f64; 2]], radius: f64, colour: &str, opacity: f64) {
-    let finite = places.iter().filter(|place| place.iter().all(|v| v.is_finite()));
-    let d: String = finite.map(|[x, y]| format!("M{} {}h0", round(*x), round(*y))).collect();
-    let _ = writeln!(
-        text,
-        "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{}\" stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"/>",
-        round(2.0 * radius)
-    );
-}
+    /// Faint lines behind the data: at labelled ticks of y, or along rows.
+    fn guides(&mut self, y: &Ruler, [left, top, width, height]: Area) {
+        let at = |tick: &Tick| top + height * (1.0 - y.fraction(tick.value));
+        let lines = y.ticks(self.y_ticks(height)).into_iter().filter(|tick| tick.label.is_some());
+        let places: Vec<f64> = lines.map(|tick| at(&tick)).collect();
+        let d: String = places.iter().map(|&at| course(&[[left, at], [left + width, at]])).collect();
+        let (rule, stroke) = (Ink::Rule.colour(), round(0.45 * self.unit));
+        let _ = writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{rule}\" stroke-width=\"{stroke}\"/>");
+    }
 
-fn path(text: &mut String, places: &[[f64; 2]], colour: &str, width: f64, dash: Dash) {
-    let dash = match dash {
-        Dash::Solid => "",
-        Dash::Long => " stroke-dasharray=\"5 2\"",
-        Dash::Short => " stroke-dasharray=\"1.6 1.6\"",
-        Dash::Mixed => " stroke-dasharray=\"5 1.6 1.2 1.6\"",
-    };
-    let d = course(places);
-    let _ = writeln!(
-        text,
-        "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linejoin=\"round\"{dash}/>"
-    );
+    fn y_ticks(&self, height: f64) -> usize {
+        ((height / (18.0 * self.unit)) as usize).max(3)
+    }
+
+    fn axes(&mut self, panel: &Panel, [x, y]: [&Ruler; 2], [left, top, width, height]: Area) {
+        let unit = self.unit;
+        let bottom = top + height;
+        let mut lines = vec![vec![[left, bottom], [left + width, bottom]]];
+        let middle = " text-anchor=\"middle\"";
+        for tick in x.ticks((width / (28.0 * unit)) as usize) {
+            let at = left + width * x.fraction(tick.value);
+            let length = if tick.label.is_some() { 3.0 } else { 1.6 };
+            lines.push(vec![[at, bottom], [at, bottom + length * unit]]);
+            if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
+                self.label([at, bottom + 10.5 * unit], SMALL, middle, Ink::Muted, &words);
+            }
+        }
+        for words in y.ticks(self.y_ticks(height)) {
+            let at = top + height * (1.0 - y.fraction(words.value));
+            let place = [left - 4.0 * unit, at + 0.35 * SMALL * unit];
+            let Some(words) = words.label else { continue };
+            let (ink, words) = match panel.names() {
+                [] => (Ink::Muted, words),
+                _ => (Ink::Text, super::text::literal(&shortened(&words, left - 4.0 * unit, SMALL * unit))),
+            };
+            self.label(place, SMALL, " text-anchor=\"end\"", ink, &words);
+        }
+        let d: String = lines.iter().map(|line| course(line)).collect();
+        let (ink, stroke) = (Ink::Muted.colour(), round(0.6 * unit));
+        let _ = writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"{stroke}\"/>");
+        let place = [left + 0.5 * width, bottom + 21.0 * unit];
+        self.label(place, SMALL, middle, Ink::Muted, &panel.x.label);
+    }
+
+    /// Draws the marks of a layer, each value at its place.
+    fn marks(&mut self, layer: &Layer, has_rows: bool, place: impl Fn([f64; 2]) -> [f64; 2]) {
+        let colour = layer.ink.colour();
+        match &layer.marks {
+            Marks::Words(_) => {}
+            Marks::Area(points) => {
+                self.fill(&points.iter().map(|&point| place(point)).collect::<Vec<_>>(), colour, 0.22);
+            }
+            Marks::Points(points) => {
+                let places: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
+                let (radius, opacity) = match points.len() {
+                    ..6 => (2.2, 1.0),
+                    ..FEW_POINTS => (1.3, 0.85),
+                    _ => (0.8, 0.5),
+                };
+                self.dots(&places, radius, colour, opacity);
+            }
+            Marks::Line { points, band, dash } => {
+                let limits: Vec<([f64; 2], [f64; 2])> =
+                    points.iter().copied().zip(band.iter().copied()).collect();
+                for piece in limits.split(|([x, y], _)| !(x + y).is_finite()).filter(|piece| !piece.is_empty()) {
+                    let edge = |end: usize| piece.iter().map(move |([x, _], limits)| [*x, limits[end]]);
+                    let outline: Vec<_> = edge(0).chain(edge(1).rev()).map(&place).collect();
+                    self.fill(&outline, colour, 0.16);
+                }
+                let line: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
+                let stroke = match points.len() {
+                    ..=FEW_POINTS if *dash == Dash::Short => 0.9,
+                    ..=FEW_POINTS => 1.4,
+                    _ => 0.65,
+                };
+                self.path(&line, colour, stroke, *dash);
+            }
+            Marks::Estimates(estimates) => {
+                let most = estimates.iter().map(|e| e.n).fold(1.0, f64::max);
+                for e in estimates {
+                    let ends =
+                        if has_rows { [[e.low, e.y], [e.high, e.y]] } else { [[e.x, e.low], [e.x, e.high]] };
+                    self.interval(ends.map(&place), colour);
+                    let radius = if e.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (e.n / most).sqrt() };
+                    self.dots(&[place([e.x, e.y])], radius, colour, 1.0);
+                }
+            }
+        }
+    }
+
+    /// Writes a text beside its place.
+    fn beside(&mut self, [x, y]: [f64; 2], ink: Ink, Words { text, side, .. }: &Words) {
+        let unit = self.unit;
+        let (off, style) = match side {
+            Side::Right => ([5.0, 0.35 * SMALL], String::new()),
+            Side::Left => ([-5.0, 0.35 * SMALL], " text-anchor=\"end\"".to_string()),
+            Side::Above => ([0.0, -5.0], " text-anchor=\"middle\"".to_string()),
+            Side::Below => ([0.0, 5.0 + SMALL], " text-anchor=\"middle\"".to_string()),
+            Side::Along => {
+                let at = [x - 3.0 * unit, y].map(round);
+                ([-3.0, 0.0], format!(" text-anchor=\"end\" transform=\"rotate(-90 {} {})\"", at[0], at[1]))
+            }
+        };
+        self.label([x + off[0] * unit, y + off[1] * unit], SMALL, &style, ink, text);
+    }
+
+    /// Writes marked text, its size as in a file; `style` are further attributes.
+    fn label(&mut self, [x, y]: [f64; 2], size: f64, style: &str, ink: Ink, marked: &str) {
+        if marked.is_empty() {
+            return;
+        }
+        let size = size * self.unit;
+        let (x, y, letters, colour) = (round(x), round(y), round(size), ink.colour());
+        let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
+        let mut drop = 0.0;
+        for run in runs(marked) {
+            let below = match run.level {
+                Level::Line => 0.0,
+                Level::Sub => 0.22 * size,
+                Level::Super => -0.36 * size,
+            };
+            let small =
+                if below == 0.0 { String::new() } else { format!(" font-size=\"{}\"", round(0.72 * size)) };
+            let italic = if run.italic { " font-style=\"italic\" font-weight=\"400\"" } else { "" };
+            let moved = if below == drop { String::new() } else { format!(" dy=\"{}\"", round(below - drop)) };
+            drop = below;
+            let _ = write!(self.text, "<tspan{small}{italic}{moved}>{}</tspan>", escape(&run.words));
+        }
+        self.text.push_str("</text>\n");
+    }
+
+    /// Draws small discs: strokes of no length with round ends, short to write.
+    fn dots(&mut self, places: &[[f64; 2]], radius: f64, colour: &str, opacity: f64) {
+        let finite = places.iter().filter(|place| place.iter().all(|v| v.is_finite()));
+        let d: String = finite.map(|[x, y]| format!("M{} {}h0", round(*x), round(*y))).collect();
+        let size = round(2.0 * radius * self.unit);
+        let _ = writeln!(
+            self.text,
+            "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{size}\" \
+             stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"/>"
+        );
+    }
+
+    /// The limits of a value: a broad, pale line.
+    fn interval(&mut self, ends: [[f64; 2]; 2], colour: &str) {
+        let (d, size) = (course(&ends), round(2.4 * self.unit));
+        let _ = writeln!(
+            self.text,
+            "<path d=\"{d}\" stroke=\"{colour}\" stroke-width=\"{size}\" stroke-opacity=\"0.38\"/>"
+        );
+    }
+
+    fn fill(&mut self, outline: &[[f64; 2]], colour: &str, opacity: f64) {
+        let d = course(outline);
+        let _ = writeln!(self.text, "<path d=\"{d}Z\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>");
+    }
+
+    fn path(&mut self, places: &[[f64; 2]], colour: &str, width: f64, dash: Dash) {
+        let dash = match dash {
+            Dash::Solid => "",
+            Dash::Long => " stroke-dasharray=\"5 2\"",
+            Dash::Short => " stroke-dasharray=\"2 2\"",
+            Dash::Mixed => " stroke-dasharray=\"5 1.6 1.2 1.6\"",
+        };
+        let (d, width) = (course(places), round(width * self.unit));
+        let _ = writeln!(
+            self.text,
+            "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" \
+             stroke-linejoin=\"round\"{dash}/>"
+        );
+    }
 }
 
 /// Writes the steps of a line, anew after each place that is not finite.

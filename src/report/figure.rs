@@ -26,6 +26,18 @@ pub struct Panel {
     pub y: Axis,
     /// Each over those before.
     pub layers: Vec<Layer>,
+    /// Marked text that is enough to read the panel alone; below it on the page.
+    pub caption: String,
+    pub frame: Frame,
+}
+
+/// What surrounds the data of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Frame {
+    #[default]
+    Axes,
+    /// Nothing: a drawing to scale, as long up as across.
+    ToScale,
 }
 
 /// An axis; its range is that of the layers unless it is given.
@@ -66,6 +78,31 @@ pub enum Marks {
     },
     /// Values with limits of y, or of x where y is an axis of names.
     Estimates(Vec<Estimate>),
+    /// A closed outline, filled.
+    Area(Vec<[f64; 2]>),
+    /// Marked texts at places.
+    Words(Vec<Words>),
+}
+
+/// A text at a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Words {
+    pub x: f64,
+    pub y: f64,
+    /// Marked text.
+    pub text: String,
+    pub side: Side,
+}
+
+/// Where a text stands, seen from its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    Right,
+    Left,
+    Above,
+    Below,
+    /// Upright, to the left.
+    Along,
 }
 
 /// A value with its limits.
@@ -89,6 +126,8 @@ pub enum Ink {
     Rule,
     /// Data, by number.
     Data(usize),
+    /// How much there is to worry about: 0, 1 or 2.
+    Band(usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -119,6 +158,20 @@ impl Layer {
 
     pub fn curve(label: &str, ink: Ink, dash: Dash, points: Vec<[f64; 2]>, band: Vec<[f64; 2]>) -> Layer {
         Layer { label: label.to_string(), ink, marks: Marks::Line { points, band, dash } }
+    }
+
+    /// A vertical line between two heights, with words at its upper end.
+    pub fn upright(x: f64, [low, high]: [f64; 2], text: &str, side: Side) -> [Layer; 2] {
+        let line = Layer::curve("", Ink::Muted, Dash::Short, vec![[x, low], [x, high]], Vec::new());
+        [line, Layer::words(Ink::Muted, [Words { x, y: high, text: text.to_string(), side }])]
+    }
+
+    pub fn area(label: &str, ink: Ink, outline: Vec<[f64; 2]>) -> Layer {
+        Layer { label: label.to_string(), ink, marks: Marks::Area(outline) }
+    }
+
+    pub fn words(ink: Ink, words: impl IntoIterator<Item = Words>) -> Layer {
+        Layer { label: String::new(), ink, marks: Marks::Words(words.into_iter().collect()) }
     }
 
     pub fn estimates(label: &str, ink: Ink, estimates: impl IntoIterator<Item = Estimate>) -> Layer {
@@ -165,16 +218,22 @@ impl Figure {
 
 impl Panel {
     pub fn new(title: &str, x: Axis, y: Axis, layers: Vec<Layer>) -> Panel {
-        Panel { title: title.to_string(), x, y, layers }
+        Panel { title: title.to_string(), x, y, layers, ..Panel::default() }
+    }
+
+    /// The same with a caption.
+    pub fn explained(self, caption: impl Into<String>) -> Panel {
+        Panel { caption: caption.into(), ..self }
     }
 }
 
 impl Marks {
-    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number.
+    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. Words have none.
     pub fn numbers(&self) -> Vec<[f64; 5]> {
         const NONE: f64 = f64::NAN;
         match self {
-            Marks::Points(points) => points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect(),
+            Marks::Words(_) => Vec::new(),
+            Marks::Points(points) | Marks::Area(points) => points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect(),
             Marks::Line { points, band, .. } => {
                 let limits = band.iter().copied().chain(std::iter::repeat([NONE; 2]));
                 points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()

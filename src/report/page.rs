@@ -1,30 +1,45 @@
 //! One static HTML page that needs nothing else: the result, a table and a figure first; then figures; then
 //! what is folded.
 
-use super::draw::svg_in_page;
+use super::draw::html_of_panels;
 use super::figure::Figure;
-use super::text::{escape, html};
+use super::text::{escape, html, words};
 
-/// A page from top to bottom. Title, byline and names are plain text; sentences, heads and cells are marked
+/// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are marked
 /// text, see [`super::text`].
 #[derive(Debug, Clone, Default)]
 pub struct Page {
     pub title: String,
     /// Author and date, as far as given.
     pub byline: String,
+    /// Where it stands and at which site.
+    pub place: String,
     /// The result, in a sentence.
     pub sentence: String,
+    /// The numbers that answer what is asked first.
+    pub tiles: Vec<Tile>,
     /// What was asked, and what the result rests on.
     pub facts: Vec<String>,
+    /// Beside the first figure if that is of one panel, else below it.
     pub table: Option<Table>,
     /// Warnings that change a decision, under the table.
     pub notes: Vec<String>,
-    /// The first one stands beside the table.
     pub figures: Vec<Figure>,
+    /// What moves: pictures of their own, as HTML.
+    pub moving: Vec<String>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
+    /// When and by what it was made.
+    pub made: String,
     /// Provenance of the page, which shows whether it is up to date.
     pub key: String,
+}
+
+/// A number in large letters, with what it is.
+#[derive(Debug, Clone, Default)]
+pub struct Tile {
+    pub number: String,
+    pub words: String,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -48,29 +63,56 @@ pub struct Column {
     pub is_number: bool,
 }
 
+/// When and by what a page is made.
+pub fn made_in_words() -> String {
+    let today = chrono::Local::now().format("%-d %B %Y");
+    format!("Made on {today} by rockfrag {}.", env!("CARGO_PKG_VERSION"))
+}
+
 impl Page {
     pub fn html(&self) -> String {
-        let mut numbers = 1..;
-        let mut numbered = |figures: &[Figure]| -> Vec<String> {
-            figures.iter().zip(&mut numbers).map(|(figure, number)| write_figure(figure, number)).collect()
-        };
-        let seen = numbered(&self.figures);
-        let (first, others) = seen.split_at(seen.len().min(1));
-        let sections = self.sections.iter().map(|section| write_section(section, numbered(&section.figures)));
+        let figures: Vec<String> = self.figures.iter().map(write_figure).collect();
+        let (first, others) = figures.split_at(figures.len().min(1));
+        let is_beside = self.figures.first().is_some_and(|figure| figure.panels.len() == 1);
+        let class = if is_beside && self.table.is_some() { "first" } else { "" };
+        let words = format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
+        let words = if words.is_empty() { words } else { format!("<div>\n{words}</div>\n") };
+        let [before, after] = if is_beside { [words, first.concat()] } else { [first.concat(), words] };
         format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
             title = escape(&self.title),
             key = escape(&self.key),
             byline = escape(&self.byline),
+            place = html(&self.place),
             sentence = html(&self.sentence),
+            tiles = tiles(&self.tiles),
             facts = paragraphs(&self.facts),
-            table = self.table.iter().map(write_table).collect::<String>(),
-            notes = paragraphs(&self.notes),
-            first = first.concat(),
+            class = class,
+            before = before,
+            after = after,
+            moving = self.moving.concat(),
             figures = others.concat(),
-            sections = sections.collect::<String>(),
+            sections = self.sections.iter().map(write_section).collect::<String>(),
+            made = escape(&self.made),
         )
+    }
+}
+
+fn tiles(tiles: &[Tile]) -> String {
+    let tile = |Tile { number, words }: &Tile| {
+        format!("<div><b>{}</b><span>{}</span></div>\n", html(number), html(words))
+    };
+    match tiles {
+        [] => String::new(),
+        _ => format!("<div class=\"tiles\">\n{}</div>\n", tiles.iter().map(tile).collect::<String>()),
+    }
+}
+
+fn notes(marked: &[String]) -> String {
+    match marked {
+        [] => String::new(),
+        _ => format!("<div class=\"notes\">\n{}</div>\n", paragraphs(marked)),
     }
 }
 
@@ -78,20 +120,21 @@ fn paragraphs(marked: &[String]) -> String {
     marked.iter().map(|words| format!("<p>{}</p>\n", html(words))).collect()
 }
 
-fn write_section(section: &Section, figures: Vec<String>) -> String {
+fn write_section(section: &Section) -> String {
     let (heading, words) = (escape(&section.heading), paragraphs(&section.paragraphs));
     let tables: String = section.tables.iter().map(write_table).collect();
-    let figures = match &figures[..] {
-        [] => String::new(),
-        _ => format!("<div class=\"figures\">\n{}</div>\n", figures.concat()),
-    };
+    let figures: String = section.figures.iter().map(write_figure).collect();
     format!("<details><summary>{heading}</summary>\n{words}{tables}{figures}</details>\n")
 }
 
-fn write_figure(figure: &Figure, number: usize) -> String {
-    let (title, caption) = (html(&figure.title), html(&figure.caption));
-    let picture = scrolled(&figure.title, &svg_in_page(figure));
-    format!("<figure>\n<h2>{number}. {title}</h2>\n{picture}<figcaption>{caption}</figcaption>\n</figure>\n")
+fn write_figure(figure: &Figure) -> String {
+    let (title, panels) = (html(&figure.title), html_of_panels(figure));
+    let caption = match figure.caption.as_str() {
+        "" => String::new(),
+        words => format!("<p class=\"caption\">{}</p>\n", html(words)),
+    };
+    let across = figure.panels.len().min(3);
+    format!("<section class=\"figure\" style=\"--across:{across}\">\n<h2>{title}</h2>\n{panels}{caption}</section>\n")
 }
 
 fn write_table(Table { caption, columns, rows }: &Table) -> String {
@@ -103,18 +146,21 @@ fn write_table(Table { caption, columns, rows }: &Table) -> String {
         let cells = columns
             .iter()
             .zip(cells)
-            .map(|(column, cell)| format!("<td{}>{}</td>", class(column), html(cell)));
+            .map(|(column, cell)| {
+                let head = escape(&words(&column.head));
+                format!("<td{} data-head=\"{head}\">{}</td>", class(column), html(cell))
+            });
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
     let (heads, body) = (heads.collect::<String>(), rows.iter().map(row).collect::<String>());
-    let words =
-        if caption.is_empty() { String::new() } else { format!("<p class=\"by\">{}</p>\n", html(caption)) };
+    let title =
+        if caption.is_empty() { String::new() } else { format!("<p class=\"caption\">{}</p>\n", html(caption)) };
     let table = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
-    words + &scrolled(caption, &table)
+    title + &scrolled(caption, &table)
 }
 
 /// Lets what is wider than a small screen be scrolled, by keys too.
 fn scrolled(name: &str, inner: &str) -> String {
-    let name = escape(&super::text::words(name));
+    let name = escape(&words(name));
     format!("<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">\n{inner}</div>\n")
 }

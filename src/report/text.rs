@@ -1,5 +1,5 @@
 //! Text of figures and of the page. Marked text has italics and small letters below or above the line:
-//! `*P*_{ro}`, `10^{-3}`.
+//! `*P*_{ro}`, `10^{-3}`; a backslash takes the next letter as it stands, as [`literal`] does for names.
 
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +23,10 @@ pub fn runs(marked: &str) -> Vec<Run> {
     let mut letters = marked.chars().peekable();
     while let Some(letter) = letters.next() {
         let (italic, level) = match letter {
+            '\\' => {
+                run.words.extend(letters.next());
+                continue;
+            }
             '*' => (!run.italic, run.level),
             '_' if letters.next_if_eq(&'{').is_some() => (run.italic, Level::Sub),
             '^' if letters.next_if_eq(&'{').is_some() => (run.italic, Level::Super),
@@ -37,6 +41,13 @@ pub fn runs(marked: &str) -> Vec<Run> {
     runs.push(run);
     runs.retain(|run| !run.words.is_empty());
     runs
+}
+
+/// Marks a text so that it reads as it stands: a name of the user's is no markup.
+pub fn literal(name: &str) -> String {
+    let marks = ['\\', '*', '_', '^', '}'];
+    let letter = |letter: char| [marks.contains(&letter).then_some('\\'), Some(letter)];
+    name.chars().flat_map(letter).flatten().collect()
 }
 
 /// Writes marked text as HTML.

@@ -11,10 +11,9 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, expect_distinct, warnings};
 use super::shared::objects::StructureArgs;
-use crate::fragility::{Cluster, KnownCapacity, fit_capacities, grouped};
-use crate::keyword::keywords;
+use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
 use crate::motion::{IntensityMeasures, MeasureScratch};
-use crate::number::{Limited, THREE_DIGITS, counted, fixed, name, significant};
+use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::files::part;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
@@ -26,6 +25,7 @@ use crate::rocking::{
 };
 use crate::statistics::FitStatus;
 use crate::table::TableError;
+use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
 use crate::table::motions::{self, ACCELERATION, Motion, Part};
 use crate::table::responses::{self, ResponseRow};
 use crate::table::{frame, rows};
@@ -63,41 +63,6 @@ pub struct Ida {
     structures: StructureArgs,
 }
 
-keywords! {
-    /// A measure that grows with a motion in proportion.
-    pub enum ScaledMeasure {
-        /// The factor itself.
-        Scale = "scale",
-        /// Peak ground acceleration, g.
-        Pga = "pga",
-        /// Peak ground velocity, m/s.
-        Pgv = "pgv",
-        /// PGA / (g tan alpha).
-        Im4 = "im4",
-        /// p PGV / (g tan alpha).
-        Im5 = "im5",
-        /// wm PGV / (g tan alpha).
-        Im6 = "im6",
-    }
-}
-
-/// The capacity of a structure under a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CapacityRow {
-    pub motion_id: String,
-    pub suite: Option<String>,
-    pub earthquake: Option<String>,
-    pub mw: Option<f64>,
-    pub re_km: Option<f64>,
-    pub structure: String,
-    pub measure: ScaledMeasure,
-    pub unscaled: f64,
-    pub capacity: CapacityStatus,
-    pub safe_below: Option<f64>,
-    pub overturning_intensity: Option<f64>,
-    pub safe_up_to: Option<f64>,
-}
-
 /// What a stripe has besides the response: the intensity, and the share of those up to the next that
 /// overturn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -107,24 +72,6 @@ struct StripeRow {
     scale: f64,
     overturning_above: Option<f64>,
 }
-
-/// The lognormal distribution of the capacities of a structure under the motions of a suite.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CapacityFitRow {
-    pub suite: Option<String>,
-    pub structure: String,
-    pub measure: ScaledMeasure,
-    pub n: i64,
-    pub n_safe: i64,
-    pub n_below: i64,
-    /// Lowest intensity at which half of the motions overturn the structure.
-    pub half_overturn_at: Option<f64>,
-    pub theta: Limited,
-    pub beta: Limited,
-    pub status: FitStatus,
-}
-
-grouped!(CapacityRow, CapacityFitRow);
 
 /// What came of some motions.
 struct Analysed {

@@ -267,7 +267,7 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
 }
 
 /// Returns the files and folders in a folder that are not hidden, in the order of their names.
-pub(super) fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
+pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     let entries = std::fs::read_dir(folder).map_err(|source| TableError::io(folder, source))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));

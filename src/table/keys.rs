@@ -15,10 +15,13 @@ const HEAD: u64 = 8192;
 impl Provenance {
     /// Reads the provenance of a table, page or figure; `None` if another program wrote it.
     pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
-        let is_text = path.extension().is_some_and(|ending| ending == "html" || ending == "svg");
-        match is_text {
-            true => Ok(Provenance::of_text(&head(path)?)),
-            false => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("html" | "svg") => Ok(Provenance::of_text(&head(path)?)),
+            Some("png" | "xlsx") => {
+                let bytes = std::fs::read(path).map_err(|source| TableError::io(path, source))?;
+                Ok(Provenance::of_picture(&bytes).or_else(|| Provenance::of_workbook(bytes)))
+            }
+            _ => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
         }
     }
 }

@@ -8,19 +8,23 @@
 //! pages       pages and their checksums
 //! lists       a column of lists of numbers, read without building lists
 //! writer      atomic writing
+//! marks       provenance in pictures and workbooks
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
+//! capacities  intensities that overturn, one row for each motion and structure
 //! frame       tables as polars frames, and their text, CSV and JSON
 //! ```
 
+pub mod capacities;
 pub mod columns;
 pub mod dictionary;
 pub mod file;
 pub mod frame;
 pub mod keys;
 pub mod lists;
+mod marks;
 pub mod motions;
 mod pages;
 pub mod provenance;

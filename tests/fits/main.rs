@@ -1,5 +1,6 @@
 //! The fits, their limits and what is made of them, against statsmodels, pyFragility, scipy and closed forms.
 
+mod at_site;
 mod capacity;
 mod cases;
 mod common;

@@ -2,14 +2,19 @@
 
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
+use rockfrag::object::Part;
 use rockfrag::motion::IntensityMeasures;
-use rockfrag::number::{self, Limited};
+use rockfrag::number;
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
-use rockfrag::rocking::{Outcome, Response, Structure};
-use rockfrag::stages::evaluate::{Answer, ObjectRow, RatesRow};
-use rockfrag::stages::report::figures::common::{equal_ratios, observed_shares};
-use rockfrag::stages::report::figures::*;
-use rockfrag::stages::report::tables::Tables;
+use rockfrag::rocking::{Outcome, Response, SolverEvent, Structure};
+use rockfrag::report::figures::common::{equal_ratios, observed_shares};
+use rockfrag::report::figures::*;
+use rockfrag::report::object;
+use rockfrag::report::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
+use rockfrag::report::rated::{Evaluation, Rated};
+use rockfrag::report::response::{self, TracedPoint, TracedResponse};
+use rockfrag::report::{compare, list};
+use rockfrag::statistics::Estimate;
 use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::motions::Motion;
 use serde_json::json;
@@ -36,9 +41,8 @@ fn cases(p_rad_s: f64, count: usize) -> Cases {
 }
 
 /// Two structures with their fits.
-fn tables(count: usize) -> Tables {
-    let mut tables = Tables::default();
-    tables.limit_state = 0.1;
+fn tables(count: usize) -> (Vec<Cases>, Fits) {
+    let (mut groups, mut tables) = (Vec::new(), Fits { limit_state: 0.1, ..Fits::default() });
     for p_rad_s in [1.0, 2.5] {
         let all = cases(p_rad_s, 100);
         let with = |fit: DemandFit, b: &[f64]| DemandFit { coefficients: b.to_vec(), ..fit };
@@ -54,15 +58,80 @@ fn tables(count: usize) -> Tables {
             fit.covariance = vec![0.01; fit.coefficients.len().pow(2)];
             tables.curves.push(fit);
         }
-        tables.groups.push(cases(p_rad_s, count));
+        groups.push(cases(p_rad_s, count));
     }
-    tables
+    (groups, tables)
 }
 
-/// All fifteen figures, of `count` data, which may be none.
+fn limited(value: f64) -> number::Limited {
+    Estimate { value, low: 0.3 * value, high: 3.0 * value }.into()
+}
+
+/// An evaluation of so many objects, one on a floor, with all that a page of one shows.
+fn evaluation(count: usize, rate: f64) -> Evaluation {
+    let rated = |row: usize| Rated {
+        name: Some(format!("fra*me*{row} {}", "rack ".repeat(20))),
+        floor: (row == 1).then(|| "level 0.6 of a 0.5 s building".to_string()),
+        rate: limited(rate),
+        overturning: limited(50.0 * rate / (1 + row) as f64),
+        sds: vec![(Part::Eta, 0.4), (Part::Velocity, 0.3)],
+        ..Rated::default()
+    };
+    let point = |k: usize| FragilityPoint {
+        intensity: 0.1 * (1 + k) as f64,
+        rocking: 1.0,
+        failure: 0.5,
+        overturning: Estimate::around(0.4, 0.1),
+    };
+    let outline = Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
+    Evaluation {
+        years: Some(50.0),
+        when: "in 50 years".to_string(),
+        target: Some(0.01),
+        rows: (0..count).map(rated).collect(),
+        portrait: Portrait {
+            outline: Some(outline),
+            fragility: Some(FragilityCurve {
+                label: "PGA (g)".to_string(),
+                points: (0..count).map(point).collect(),
+                half: None,
+            }),
+            hazard: Some(HazardCurve {
+                label: "PGA (g)".to_string(),
+                points: vec![[0.01, 0.1], [1.0, 1e-4]],
+                usual: vec![(0.2, 475.0)],
+                shares: vec![([0.1, 0.5], 0.4), ([0.5, 1.0], 0.5)],
+                beyond: 0.1,
+            }),
+            changes: vec![("as it is".to_string(), limited(0.02)), ("base of 0.60 m".to_string(), limited(0.01))],
+        },
+        ..Evaluation::default()
+    }
+}
+
+/// A block that rocks to one side, strikes, and overturns to the other.
+fn traced(count: usize) -> TracedResponse {
+    let event = |k: usize| match k {
+        100 => Some(SolverEvent::Uplift),
+        200 => Some(SolverEvent::Impact),
+        300 => Some(SolverEvent::Overturn),
+        _ => None,
+    };
+    let point = |k: usize| TracedPoint {
+        time_s: 0.01 * k as f64,
+        theta_over_alpha: if k < 100 { 0.0 } else { (0.0314 * (k - 100) as f64).sin() },
+        ground_m_s2: (0.05 * k as f64).sin(),
+        ground_m_s: 0.2,
+        event: event(k),
+    };
+    let (motion, structure) = ("m<1>".to_string(), "fra*me*2".to_string());
+    TracedResponse { motion, structure, alpha_rad: 0.2, width_m: 0.4, height_m: 2.0, points: (0..count * 4).map(point).collect() }
+}
+
+/// All figures, of `count` data, which may be none.
 fn figures(count: usize) -> Vec<Figure> {
-    let tables = tables(count);
-    let groups: Vec<&Cases> = tables.groups.iter().take(count).collect();
+    let (all, tables) = tables(count);
+    let groups: Vec<&Cases> = all.iter().take(count).collect();
     let suites = [groups.clone()];
     let wave: Vec<f64> = (0..50 * count).map(|k| 2.0 * (0.02 * k.min(157) as f64).sin()).collect();
     let record = |suite: &str| Motion {
@@ -81,15 +150,8 @@ fn figures(count: usize) -> Vec<Figure> {
     };
     let motions = [record("csgm"), record("pulse")];
     let motions = &motions[..1 + count.min(1)];
-    let answer = || Answer {
-        object: ObjectRow { structure: "rack ".repeat(30), ..Default::default() },
-        row: RatesRow {
-            overturning_per_year: Limited { value: Some(1e-3), low: None, high: Some(2e-3) },
-            ..Default::default()
-        },
-        ..Default::default()
-    };
-    let objects: Vec<Answer<RatesRow>> = (0..count).map(|_| answer()).collect();
+    let [before, after] = [1e-3, 4e-4].map(|rate| evaluation(count.min(20), rate));
+    let one = evaluation(1, 1e-3);
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
         "theta": { "value": 0.3, "low": null, "high": null }, "beta": { "value": 0.5, "low": null, "high": null }, "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
@@ -117,16 +179,18 @@ fn figures(count: usize) -> Vec<Figure> {
     vec![
         motion(motions),
         demand(&groups),
-        similarity(&tables.groups, motions).unwrap(),
-        regressions(&tables, &tables.groups[0]),
+        similarity(&all, motions).unwrap(),
+        regressions(&tables, &all[0]),
         quality(&tables, &groups),
         planes(&tables, &groups),
         exceedance(&tables, &suites),
         overturning(&tables, &suites),
         hybrids(&tables, &suites),
         maps(&tables, &suites),
-        annual(&objects[..count.min(1)]),
-        annual(&objects),
+        object::figure(&one, &one.rows[0]),
+        list::figure(&[before.clone()][..count.min(1)]),
+        compare::figure(&compare::pairs(&before, &after), "in 50 years", Some(0.01)),
+        response::figure(&traced(count)),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
         ranking(&sets),
@@ -141,7 +205,7 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
         let image =
-            Pixmap::decode_png(&png(&text, 192.0).expect("the SVG is drawn")).expect("the PNG is whole");
+            Pixmap::decode_png(&png(&text, 192.0, "{}").expect("the SVG is drawn")).expect("the PNG is whole");
         let ratio = |pixels: u32, at_96_dpi: f32| (f64::from(pixels) - 2.0 * f64::from(at_96_dpi)).abs();
         let off = [ratio(image.width(), tree.size().width()), ratio(image.height(), tree.size().height())];
         assert!(off.iter().all(|pixels| *pixels <= 1.0), "{}: {off:?}", figure.name);
@@ -170,8 +234,8 @@ fn values_stand_where_the_axes_say() {
 
 #[test]
 fn cases_on_the_planes_are_seen_on_two_lines() {
-    let tables = tables(100);
-    let figure = planes(&tables, &[&tables.groups[0]]);
+    let (groups, tables) = tables(100);
+    let figure = planes(&tables, &[&groups[0]]);
     let layers: Vec<Vec<[f64; 5]>> =
         figure.panels[0].layers.iter().map(|layer| layer.marks.numbers()).collect();
     for (points, line) in layers[..2].iter().zip(&layers[2..]) {

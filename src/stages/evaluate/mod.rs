@@ -5,6 +5,7 @@
 //! point        probabilities at a PGA, a PGV or both
 //! rates        annual rates at a site
 //! target       the width of a base that meets a target
+//! pages        what pages and figures show of the answers
 //! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
 //! explain      the model and the measures behind an answer
@@ -12,6 +13,7 @@
 
 mod explain;
 mod object;
+pub mod pages;
 mod point;
 mod rates;
 mod table;
@@ -34,6 +36,8 @@ use crate::pipeline::options::{listed, number};
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::implausibility::rarity;
+use crate::report::rated::Evaluation;
+use crate::report::{DPI, Page, made_in_words, png, svg, workbook};
 use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::table::writer::write_file;
@@ -102,7 +106,7 @@ pub struct Evaluate {
     /// text, csv or json
     #[arg(long, default_value = "text")]
     format: Format,
-    /// File to write: .parquet, .csv or .json [default: none; with --in, evaluated.parquet beside it]
+    /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default: none; with --in, evaluated.parquet beside it]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -120,7 +124,7 @@ impl Stage for Evaluate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.out.as_deref().map_or(Ok(None), file_format)?;
+        self.out.as_deref().map(file_format).transpose()?;
         if self.input.is_none() && self.hazard.is_empty() {
             self.motion()?;
         }
@@ -139,7 +143,10 @@ impl Stage for Evaluate {
             };
             let (rows, text) = table::evaluate(path, &mut renames, &call, context)?;
             renames.expect_used()?;
-            self.write(&rows, text, context)
+            self.write(&rows, text, context, || {
+                let problem = "out: a page or figure is of objects at a site or under a motion, not of a table";
+                Err(UsageError::because(problem))
+            })
         } else if self.hazard.is_empty() {
             self.under_motion(&self.motion()?, &models, context)
         } else {
@@ -179,7 +186,8 @@ impl Evaluate {
         renames.expect_used()?;
         let bar = context.bar(objects.len());
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
-        self.finish(&all, point::text(&all, self.out.as_deref()), context)
+        let text = point::text(&all, self.out.as_deref());
+        self.finish(&all, text, context, || Ok(pages::under_motion(&all)))
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
@@ -195,12 +203,22 @@ impl Evaluate {
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             (row, rates.errors, rates.motion, rates.warnings)
         };
+        let alone = if let [one] = &objects[..] { Some(one.clone()) } else { None };
         let bar = context.bar(objects.len());
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
         if let Some(path) = &self.responses {
             context.warn(expect_counted(&all, &site, path)?);
         }
-        self.finish(&all, rates::text(&all, &site, self.target, self.out.as_deref()), context)
+        let picture = || {
+            let mut evaluation = pages::over_hazard(&all, &context.made);
+            evaluation.target = self.target;
+            if let Some(object) = alone.as_ref().filter(|object| object.sides().is_ok()) {
+                evaluation.portrait = pages::portrait(object, models, &site, self.years)?;
+            }
+            Ok(evaluation)
+        };
+        let text = rates::text(&all, &site, self.target, self.out.as_deref());
+        self.finish(&all, text, context, picture)
     }
 
     /// Reads the hazard and what rates over it need.
@@ -263,6 +281,7 @@ impl Evaluate {
         all: &[Answer<R>],
         text: String,
         context: &Context,
+        picture: impl Fn() -> anyhow::Result<Evaluation>,
     ) -> anyhow::Result<String> {
         let is_stated = |of: &Warning| matches!(of, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
         for answer in all {
@@ -274,11 +293,17 @@ impl Evaluate {
             rows::batch(all.iter().map(|answer| &answer.row))?,
             rows::batch(all.iter().map(|answer| &answer.doubts))?,
         ])?;
-        self.write(&[rows], text, context)
+        self.write(&[rows], text, context, picture)
     }
 
-    /// Writes rows of one schema, if they go to a file, and returns what to print.
-    fn write(&self, rows: &[RecordBatch], text: String, context: &Context) -> anyhow::Result<String> {
+    /// Writes rows of one schema, or a picture of them, if they go to a file, and returns what to print.
+    fn write(
+        &self,
+        rows: &[RecordBatch],
+        text: String,
+        context: &Context,
+        picture: impl Fn() -> anyhow::Result<Evaluation>,
+    ) -> anyhow::Result<String> {
         let show = |format: Format| -> anyhow::Result<String> {
             let mut whole = frame::of_batch(&rows[0])?;
             for more in &rows[1..] {
@@ -288,9 +313,20 @@ impl Evaluate {
         };
         let printed = if self.format == Format::Text { text } else { show(self.format)? };
         for out in self.outputs() {
+            let key = || anyhow::Ok(context.provenance(&printed)?.json());
             match file_format(&out)? {
-                Some(format) => write_file(&out, show(format)?.as_bytes())?,
-                None => {
+                FileFormat::Text(format) => write_file(&out, show(format)?.as_bytes())?,
+                FileFormat::Workbook => write_file(&out, &workbook(rows, &key()?)?)?,
+                FileFormat::Page => {
+                    let page = Page { key: key()?, made: made_in_words(), ..pages::page(&picture()?) };
+                    write_file(&out, page.html().as_bytes())?;
+                }
+                FileFormat::Svg => write_file(&out, svg(&pages::figure(&picture()?), &key()?).as_bytes())?,
+                FileFormat::Png => {
+                    let drawing = svg(&pages::figure(&picture()?), "");
+                    write_file(&out, &png(&drawing, DPI, &key()?)?)?;
+                }
+                FileFormat::Parquet => {
                     let mut writer = context.create(&out, &rows[0].schema())?;
                     rows.iter().try_for_each(|rows| writer.append(rows))?;
                     context.finish(writer, &printed)?;
@@ -319,16 +355,32 @@ fn expect_counted(all: &[Answer<RatesRow>], site: &Site, responses: &Path) -> an
     )
 }
 
-/// How a file is written, by how its name ends; none as Parquet.
-fn file_format(out: &Path) -> anyhow::Result<Option<Format>> {
-    match out.extension().and_then(|ending| ending.to_str()) {
-        Some("parquet") => Ok(None),
-        Some("csv") => Ok(Some(Format::Csv)),
-        Some("json") => Ok(Some(Format::Json)),
+/// How answers are written to a file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum FileFormat {
+    Parquet,
+    Text(Format),
+    Page,
+    Svg,
+    Png,
+    Workbook,
+}
+
+/// How a file is written, by how its name ends.
+fn file_format(out: &Path) -> anyhow::Result<FileFormat> {
+    Ok(match out.extension().and_then(|ending| ending.to_str()) {
+        Some("parquet") => FileFormat::Parquet,
+        Some("csv") => FileFormat::Text(Format::Csv),
+        Some("json") => FileFormat::Text(Format::Json),
+        Some("html") => FileFormat::Page,
+        Some("svg") => FileFormat::Svg,
+        Some("png") => FileFormat::Png,
+        Some("xlsx") => FileFormat::Workbook,
         _ => {
             let out = out.display();
-            let expected = "expected a name that ends in .parquet, .csv or .json";
-            Err(UsageError::because(format!("out is {out}; {expected}")))
+            let expected =
+                "expected a name that ends in .parquet, .csv, .json, .xlsx, .html, .svg or .png";
+            return Err(UsageError::because(format!("out is {out}; {expected}")));
         }
-    }
+    })
 }

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::explain::explained;
 use crate::fragility::{Direction, Kind, Model};
 use crate::hazard::Budget;
-use crate::keyword::Keyword;
 use crate::number::Limited;
 use crate::object::{Object, Part, Subject};
 use crate::pipeline::context::Progress;
@@ -126,19 +125,17 @@ impl DoubtsRow {
         }
     }
 
-    /// The parts that are there, in words.
-    pub fn words(&self) -> Vec<&'static str> {
-        let parts = [
-            self.error_fit,
-            self.error_magnitude,
-            self.error_velocity,
-            self.error_eta,
-            self.error_object,
-            self.error_floor,
-            self.error_hazard,
-        ];
-        let known = Part::ALL.iter().zip(parts).filter(|(_, sd)| sd.is_some());
-        known.map(|(part, _)| part.words()).collect()
+    /// The standard deviation that a part causes; none where nothing of it is unknown.
+    pub fn part_sd(&self, part: Part) -> Option<f64> {
+        match part {
+            Part::Fit => self.error_fit,
+            Part::Magnitude => self.error_magnitude,
+            Part::Velocity => self.error_velocity,
+            Part::Eta => self.error_eta,
+            Part::Object => self.error_object,
+            Part::Floor => self.error_floor,
+            Part::Hazard => self.error_hazard,
+        }
     }
 }
 

@@ -129,7 +129,7 @@ fn of_several(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
     format!("{first}\n{table}{}", line([Some(by), about_buildings(all)]))
 }
 
-fn words_of_peaks(tree: &TreeRow) -> String {
+pub fn words_of_peaks(tree: &TreeRow) -> String {
     let pga = tree.pga_m_s2.map(|pga| format!("{} g", plain(pga / G_M_S2)));
     let pgv = tree.pgv_m_s.map(|pgv| format!("{} m/s", plain(pgv)));
     format!("at {}", [pga, pgv].into_iter().flatten().collect::<Vec<_>>().join(" and "))

@@ -1,6 +1,7 @@
 //! report: one page and its figures, of all tables in a folder.
 
-pub mod figures;
+pub mod evaluations;
+mod figures;
 mod page;
 pub mod tables;
 
@@ -14,25 +15,22 @@ use crate::number::counted;
 use crate::pipeline::cache::is_ours;
 use crate::pipeline::context::Context;
 use crate::pipeline::{Stage, UsageError};
-use crate::report::{Figure, Page, png, svg};
+use crate::report::{DPI, Figure, Page, made_in_words, png, svg};
 use crate::table::writer::write_file;
 use tables::Tables;
 
-/// Dots per inch of the PNG files.
-const DPI: f32 = 300.0;
-
-/// Write a page with tables and figures of everything in a folder
+/// Write a page with tables and figures of everything in a folder, or of files
 #[derive(Debug, Args)]
 pub struct Report {
-    /// Folder of the tables of other commands
-    #[arg(long = "in", id = "in", value_name = "DIR", value_hint = ValueHint::FilePath, default_value = ".")]
-    input: PathBuf,
-    /// Page to write; its figures go into a folder of its name [default: report.html in DIR]
+    /// Folder or files of other commands; two evaluations of the same objects are before and after
+    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',', default_value = ".")]
+    input: Vec<PathBuf>,
+    /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
     out: Option<PathBuf>,
-    /// Title of the page
-    #[arg(long, value_name = "TEXT", default_value = "Rocking fragility")]
-    title: String,
+    /// Title of the page [default: from what it shows]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
     /// Author, below the title
     #[arg(long, value_name = "TEXT")]
     author: Option<String>,
@@ -43,7 +41,12 @@ pub struct Report {
 
 impl Report {
     fn page(&self) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| self.input.join("report.html"))
+        let beside = |first: &PathBuf| match first.is_dir() {
+            true => first.join("report.html"),
+            false => first.with_file_name("report.html"),
+        };
+        let default = || self.input.first().map_or(PathBuf::from("report.html"), beside);
+        self.out.clone().unwrap_or_else(default)
     }
 }
 
@@ -64,13 +67,15 @@ impl Stage for Report {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        if !self.input.is_dir() {
-            bail!("{}: no such folder; expected that of the tables", self.input.display());
+        if let Some(missing) = self.input.iter().find(|path| !path.exists()) {
+            bail!("{}: no such file or folder; expected tables of other commands", missing.display());
         }
         let tables = Tables::read(&self.input)?;
-        let figures = figures::all(&tables)?;
+        let mut notes = Vec::new();
+        let figures = figures::all(&tables, &mut notes)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
-        let summary = format!("{}: {}\n", page.display(), counted(figures.len(), "figure"));
+        let left_out: String = tables.left_out.iter().chain(&notes).map(|note| format!("{note}\n")).collect();
+        let summary = format!("{}: {}\n{left_out}", page.display(), counted(figures.len(), "figure"));
         let key = context.provenance(&summary)?.json();
         let stems: Vec<PathBuf> = figures.iter().map(|figure| folder.join(&figure.name)).collect();
         if let Some(other) = stems.iter().find_map(|stem| foreign(stem)).filter(|_| !context.common.force) {
@@ -78,9 +83,10 @@ impl Stage for Report {
         }
         let paths = figures.par_iter().zip(&stems);
         paths.try_for_each(|(figure, stem)| write_figure(figure, stem, &key))?;
+        let whole = page::page(&tables, figures, notes)?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
-        let whole = page::page(&tables, figures, key)?;
-        let html = Page { title: self.title.clone(), byline, ..whole }.html();
+        let title = self.title.clone().unwrap_or(whole.title);
+        let html = Page { title, byline, key, made: made_in_words(), ..whole }.html();
         write_file(&page, html.as_bytes())?;
         Ok(summary)
     }
@@ -97,5 +103,5 @@ fn write_figure(figure: &Figure, stem: &Path, key: &str) -> anyhow::Result<()> {
     let svg = svg(figure, key);
     write_file(&stem.with_added_extension("svg"), svg.as_bytes())?;
     write_file(&stem.with_added_extension("csv"), figure.csv()?.as_bytes())?;
-    Ok(write_file(&stem.with_added_extension("png"), &png(&svg, DPI)?)?)
+    Ok(write_file(&stem.with_added_extension("png"), &png(&svg, DPI, key)?)?)
 }

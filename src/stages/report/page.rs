@@ -3,29 +3,28 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures::common::{by, label_of_scaled};
-use super::tables::{Tables, name};
+use super::tables::{Item, Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter, ParameterRow};
 use crate::keyword::Keyword;
-use crate::number::{self, Limited, OF_HUNDRED, RATE, TWO_DIGITS};
+use crate::number::{self, Limited, TWO_DIGITS};
 use crate::pipeline::options::listed;
-use crate::report::text::minus;
-use crate::report::{Column, Figure, Page, Section, Table};
+use crate::report::figures::common::{by, label_of_scaled, name};
+use crate::report::text::{literal, minus};
+use crate::report::{Column, Figure, Page, Section, Table, compare, list, object, response};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::{both, coefficient};
-use crate::stages::evaluate::{Answer, RatesRow, expected_number, model_of_all, size};
-use crate::stages::ida::CapacityFitRow;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
+use crate::table::capacities::CapacityFitRow;
 use crate::units::G_M_S2;
-use crate::warning::{UNNAMED, Warnings};
+use crate::warning::Warnings;
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
 /// of a list there are only these.
-const OF_RATES: &[&str] = &["list", "rates", "map", "ida", "validation"];
+const OF_RATES: &[&str] = &["list", "object", "compared", "map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
@@ -49,72 +48,88 @@ validate: Validation compares predicted probabilities with the outcomes of motio
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
 surface, calibrated where there are responses.";
 
-pub fn page(tables: &Tables, figures: Vec<Figure>, key: String) -> anyhow::Result<Page> {
-    let answer_of = |stage: &str| tables.answer_of(stage).unwrap_or_default().to_string();
-    let (sentence, first, shown) = match (&tables.objects[..], &tables.compared[..]) {
-        ([], []) => (overturned(&tables.groups), outcomes(tables)?, OF_RESPONSES),
-        ([], compared) => (answer_of("compare-paper"), planes(compared), OF_PAPER),
-        (objects, _) => (answer_of("evaluate"), rates(objects), OF_RATES),
+/// The page of all tables: its head is that of the evaluations, else of the paper, of responses over time or of
+/// responses.
+pub fn page(tables: &Tables, figures: Vec<Figure>, notes: Vec<String>) -> anyhow::Result<Page> {
+    let is_client = !tables.evaluations.is_empty();
+    let head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
+        ([], [], []) => of_responses(tables)?,
+        ([], [], traces) => response::page(traces),
+        ([], compared, _) => of_paper(tables, compared),
+        (evaluations, ..) => match (tables.comparison(), evaluations) {
+            (Some([before, after]), _) => compare::page(before, after),
+            (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
+            (_, several) => list::page(several),
+        },
     };
-    let (seen, more): (_, Vec<Figure>) =
-        figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
-    let more = if tables.objects.is_empty() { more } else { Vec::new() };
+    let shown: &[&str] = match (is_client, tables.compared.is_empty()) {
+        (true, _) => OF_RATES,
+        (_, true) => OF_RESPONSES,
+        _ => OF_PAPER,
+    };
+    let is_shown =
+        |figure: &Figure| shown.contains(&figure.name.as_str()) || figure.name.starts_with("response-");
+    let (mut seen, more): (Vec<Figure>, Vec<Figure>) = figures.into_iter().partition(is_shown);
+    if let [figure, ..] = &head.figures[..] {
+        // The head has its own, without a title that would say the same again.
+        seen.retain(|other| other.name != figure.name);
+    }
+    let more = if is_client { Vec::new() } else { more };
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
-    let (mut notes, mut others) = (tables.left_out.clone(), joined.lines());
-    match &tables.objects[..] {
-        [] => notes.extend(others.drain(..others.len().min(MOST_WARNINGS))),
-        objects => notes.extend(warnings_of(objects)),
+    let mut others = joined.lines();
+    let mut all_notes = [tables.left_out.clone(), notes, head.notes.clone()].concat();
+    if !is_client {
+        all_notes.extend(others.drain(..others.len().min(MOST_WARNINGS)));
     }
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let is_shown =
-        |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || tables.objects.is_empty());
+    let is_shown = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
     let section = |heading: &str| Section { heading: heading.to_string(), ..Section::default() };
-    let mut sections = vec![
+    let own = [
         Section { figures: more, ..section("More figures") },
         Section { paragraphs: method.collect(), ..section("Method") },
         Section { paragraphs: others, tables: tests(tables)?, ..section("Tests and fits") },
         Section { tables: vec![files(tables)], ..section("Files") },
     ];
+    let mut sections = head.sections.clone();
+    sections.extend(own);
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
+    let facts = [head.facts.clone(), facts(tables)].concat();
+    let figures = [head.figures.clone(), seen].concat();
+    Ok(Page { facts, notes: all_notes, figures, sections, ..head })
+}
+
+fn of_paper(tables: &Tables, compared: &[Comparison]) -> Page {
+    Page {
+        title: "The paper's fragilities, made again".to_string(),
+        place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
+        sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
+        table: Some(planes(compared)),
+        ..Page::default()
+    }
+}
+
+fn of_responses(tables: &Tables) -> anyhow::Result<Page> {
     Ok(Page {
-        sentence,
-        facts: facts(tables),
-        table: Some(first),
-        notes,
-        figures: seen,
-        sections,
-        key,
+        title: match tables.groups.is_empty() {
+            true => "Fits and motions".to_string(),
+            false => "What rocks and what overturns".to_string(),
+        },
+        sentence: overturned(&tables.groups),
+        table: Some(outcomes(tables)?).filter(|table| !table.rows.is_empty()),
         ..Page::default()
     })
 }
 
-/// What was asked, of which objects, by which motions and hazard, and what the limits leave out.
+/// By which motions, of which structures.
 fn facts(tables: &Tables) -> Vec<String> {
-    let mut facts = Vec::new();
-    if let Some(Answer { row: rates, doubts, .. }) = tables.objects.first() {
-        let made = tables.made_by("evaluate");
-        let hazard = made.and_then(|made| made.files.get("hazard")).map_or("a hazard", |name| name);
-        let years = number::plain(rates.years.unwrap_or(f64::NAN));
-        let objects = number::counted(tables.objects.len(), "object");
-        facts.push(format!(
-            "Asked: the annual rate of overturning of {objects}, and its probability in {years} years, over \
-             {hazard}."
-        ));
-        facts.push(format!("By {}.", model_of_all(&tables.objects)));
-        facts.extend(expected_number(&tables.objects));
-        let without = if doubts.error_hazard.is_none() { ", without those of the hazard" } else { "" };
-        let parts = doubts.words().join(", ");
-        facts.push(format!("The 95 % limits contain the errors of {parts}{without}."));
-        facts.extend(doubts.error_largest.map(|part| format!("Largest uncertainty: {}.", part.words())));
-        return facts;
-    }
     let motions = ["synthesize-motions", "import-motions"].map(|stage| tables.answer_of(stage));
-    facts.extend(motions.into_iter().flatten().map(|answer| format!("Motions: {answer}.")));
+    let mut facts: Vec<String> =
+        motions.into_iter().flatten().map(|answer| format!("Motions: {}.", literal(answer))).collect();
     let words = |Structure { name, p_rad_s, alpha_rad, eta }: &Structure| {
         let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
-        format!("{name} (*p* {p} rad/s, *α* {alpha}, *η* {eta})")
+        format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", literal(name))
     };
     let structures = by(&tables.groups, |cases| words(&cases.structure));
     let structures: Vec<String> = structures.iter().map(|same| words(&same[0].structure)).collect();
@@ -134,12 +149,12 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
         Value::String(text) => text.starts_with(|sign: char| "0123456789-\u{2212}".contains(sign)),
         other => other.is_number(),
     };
-    let is_name = |field: &str| ["structure", "object", "file"].contains(&field);
+    let is_name = |field: &str| ["structure", "file"].contains(&field);
     let is_measure = |text: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == text);
     let cell = |field: &str, value: &Value| match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
-        Value::String(text) if is_name(field) => text.clone(),
+        Value::String(text) if is_name(field) => literal(text),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if is_measure(text) => text.to_uppercase(),
         Value::String(text) => plain(text),
@@ -147,43 +162,11 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     };
     let column = |field: &&str| Column {
         head: plain(field),
-        is_number: *field != "size" && !is_name(field) && rows.iter().any(|row| is_number(&row[*field])),
+        is_number: !is_name(field) && rows.iter().any(|row| is_number(&row[*field])),
     };
     let cells = |row: &Value| fields.iter().map(|field| cell(field, &row[*field])).collect();
     let columns = fields.iter().map(column).collect();
     Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
-}
-
-/// The warnings of objects, or why they have no rate: a line for those of the same words.
-fn warnings_of(objects: &[Answer<RatesRow>]) -> Vec<String> {
-    let warned = objects.iter().filter(|answer| answer.doubts.warnings.is_some());
-    let line = |same: Vec<&Answer<RatesRow>>| {
-        let names: Vec<&str> = same.iter().map(|answer| answer.object.structure.as_str()).collect();
-        let words = same[0].doubts.warnings.as_deref().unwrap_or_default();
-        if names == [UNNAMED] {
-            words.to_string()
-        } else {
-            format!("{}: {words}", listed(&names, MOST_NAMED))
-        }
-    };
-    by(warned, |answer| &answer.doubts.warnings).into_iter().map(line).collect()
-}
-
-fn rates(objects: &[Answer<RatesRow>]) -> Table {
-    let years = objects.iter().find_map(|answer| answer.row.years).unwrap_or(f64::NAN);
-    let percent = format!("% in {} years (95 % limits)", number::plain(years));
-    let row = |Answer { object, row, .. }: &Answer<RatesRow>| {
-        json!({
-            "object": Some(&object.structure).filter(|name| *name != UNNAMED),
-            "size": object.p_rad_s.map(|_| size(object)),
-            "rocks a year": row.rocking_per_year.map(|rate| RATE.one(rate)),
-            "once in years": row.return_period_years.map(number::period),
-            (percent.as_str()): OF_HUNDRED.both(row.p_overturning, ""),
-            "friction needed": object.friction.map(|friction| number::fixed(friction, 2)),
-        })
-    };
-    let fields = format!("object|once in years|{percent}|rocks a year|size|friction needed");
-    table("", objects.iter().map(row), &fields)
 }
 
 /// Table II: published over ours.
@@ -220,18 +203,18 @@ fn overturned(groups: &[Cases]) -> String {
 /// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
 /// paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
-    let capacities: Vec<CapacityFitRow> = tables.rows("ida.fragility")?;
+    let capacities: Vec<CapacityFitRow> = tables.rows(Kind::CapacityFits)?;
     let median = match capacities.first() {
         Some(fit) => format!("median of the lowest overturning {}", label_of_scaled(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let row = |cases: &Cases| {
-        let often = tables.calibration(cases).map(|row| row.n_events as f64 / row.expected);
+        let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
         let of_capacity = capacity.map(|fit| [fit.theta, fit.beta]);
         let of_curve = || {
-            let curve = tables.curve(cases, Measure::Im5, None);
+            let curve = tables.fits.curve(cases, Measure::Im5, None);
             let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
             let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
             [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
@@ -263,8 +246,8 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let is_of_plane =
         |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
     let published = tables.compared.iter().filter(|number| !is_of_plane(number));
-    let planes = tables.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
-    let validations: Vec<Validation> = tables.rows("validation")?;
+    let planes = tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+    let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
     let validations = table(
         "Validation: events observed and expected",
         validations,
@@ -279,12 +262,12 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
         ),
         table(
             "Lognormal curves of overturning",
-            &tables.curves,
+            &tables.fits.curves,
             "structure|suite|im_x|im_y|auc|n|n_events|status",
         ),
         table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
     ];
-    let mut all = match (&tables.objects[..], &tables.compared[..]) {
+    let mut all = match (&tables.evaluations[..], &tables.compared[..]) {
         ([], []) => Vec::from(of_paper),
         ([], _) => [vec![outcomes(tables)?], Vec::from(of_paper)].concat(),
         // A client's page has no curves and planes of the paper.
@@ -296,11 +279,12 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
 }
 
 fn files(tables: &Tables) -> Table {
-    let rows = tables.files.iter().map(|(path, rows, made)| {
-        let by = made
-            .as_ref()
-            .map_or("another program".to_string(), |made| format!("{} {}", made.stage, made.version));
-        json!({ "file": path.file_name().map(|name| name.to_string_lossy()), "made by": by, "rows": rows })
-    });
-    table("", rows, "file|made by|rows")
+    let row = |item: &Item| {
+        let by = match &item.made {
+            Some(made) => format!("{} {}", made.stage, made.version),
+            None => "another program".to_string(),
+        };
+        json!({ "file": item.name(), "holds": item.words(), "made by": by, "rows": item.rows })
+    };
+    table("", tables.items.iter().map(row), "file|holds|made by|rows")
 }

@@ -1,13 +1,14 @@
-//! The tables of a folder, as far as they are there.
+//! The tables of a report, each known by its columns, whatever its name.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, Event, Measure};
-use crate::keyword::Keyword;
-use crate::motion::Suite;
+use super::evaluations;
+use crate::fragility::{Calibration, Cases, Event};
 use crate::paper;
-use crate::stages::evaluate::{Answer, DoubtsRow, ObjectRow, Predicted, RatesRow};
+use crate::report::compare;
+use crate::report::figures::Fits;
+use crate::report::rated::Evaluation;
+use crate::report::response::TracedResponse;
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -18,145 +19,245 @@ use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
 use crate::table::writer::MOTIONS_IN_GROUP;
 
+/// What a table holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Scenarios,
+    Motions,
+    Traces,
+    Stripes,
+    Responses,
+    Capacities,
+    CapacityFits,
+    Rates,
+    Probabilities,
+    Calibrations,
+    Curves,
+    Planes,
+    Parameters,
+    Paper,
+    Validation,
+    Reliability,
+    Ranking,
+    Other,
+}
+
+/// Columns by which each kind is known, and what it is called; the first that has all counts.
+const KINDS: [(Kind, &str, &str); 17] = [
+    (Kind::Motions, "acceleration_m_s2 dt_s", "motions"),
+    (Kind::Traces, "theta_over_alpha time_s", "responses over time"),
+    (Kind::Stripes, "outcome intensity scale", "stripes"),
+    (Kind::Responses, "outcome edp alpha_rad", "responses"),
+    (Kind::Capacities, "capacity overturning_intensity", "overturning intensities"),
+    (Kind::CapacityFits, "theta beta n_safe", "distributions of overturning intensities"),
+    (Kind::Rates, "overturning_per_year p_overturning", "annual rates"),
+    (Kind::Probabilities, "p_ro", "probabilities under motions"),
+    (Kind::Calibrations, "ln_s tau n_clusters", "calibrations"),
+    (Kind::Curves, "event coefficients aic", "curves of overturning"),
+    (Kind::Planes, "model coefficients range_low", "regressions of the demand"),
+    (Kind::Parameters, "parameter value standard_error", "parameters of fits"),
+    (Kind::Paper, "published ours", "numbers of the paper"),
+    (Kind::Reliability, "predicted share", "observed shares"),
+    (Kind::Validation, "observed expected log_score", "validation"),
+    (Kind::Ranking, "loss rank measures", "ranking of measures"),
+    (Kind::Scenarios, "scenario_id gamma", "scenarios"),
+];
+
+/// Tables of which the page shows nothing of their own: others are made of them, or stand beside them.
+const SILENT: [Kind; 4] = [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities];
+
+/// A table that is read.
+pub struct Item {
+    pub path: PathBuf,
+    pub kind: Kind,
+    pub rows: usize,
+    /// What made it, if it is ours.
+    pub made: Option<Provenance>,
+    key: String,
+}
+
+impl Item {
+    fn read(path: &Path) -> Result<Item, TableError> {
+        let table = Table::open(path)?;
+        let has = |columns: &str| columns.split(' ').all(|column| table.schema().index_of(column).is_ok());
+        let kind = KINDS.iter().find(|(_, columns, _)| has(columns)).map_or(Kind::Other, |(kind, ..)| *kind);
+        let made = if path.is_dir() { None } else { Provenance::of_file(path)? };
+        Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
+    }
+
+    /// The key of the first file that an option of its stage has read.
+    fn input(&self, flag: &str) -> Option<&str> {
+        self.made.as_ref()?.inputs.get(flag)?.split(' ').next()
+    }
+
+    pub fn name(&self) -> String {
+        self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// What it holds, in words.
+    pub fn words(&self) -> &'static str {
+        KINDS
+            .iter()
+            .find(|(kind, ..)| *kind == self.kind)
+            .map_or("another program's table", |(.., words)| words)
+    }
+}
+
 /// What most of the report needs; further tables are read where they are shown.
 #[derive(Default)]
 pub struct Tables {
-    folder: PathBuf,
-    /// Responses by suite and structure.
+    pub items: Vec<Item>,
+    /// Responses by suite and structure, those that overturn most first.
     pub groups: Vec<Cases>,
-    pub demand: Vec<DemandFit>,
-    /// Of overturning.
-    pub curves: Vec<CurveFit>,
-    /// Of overturning.
-    pub calibrations: Vec<Calibration>,
-    /// Demand whose exceedance was fitted.
-    pub limit_state: f64,
+    pub fits: Fits,
     pub compared: Vec<Comparison>,
-    /// Objects with annual rates, the worst first.
-    pub objects: Vec<Answer<RatesRow>>,
-    /// Each file with its number of rows and, if it is ours, what made it.
-    pub files: Vec<(PathBuf, usize, Option<Provenance>)>,
+    pub evaluations: Vec<Evaluation>,
+    pub traces: Vec<TracedResponse>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
-    strangers: Vec<&'static str>,
-}
-
-/// A column of annual rates, by which their table is known whatever it is called.
-const RATES: &str = "overturning_per_year";
-
-/// Structure and, of synthetic motions, suite.
-pub fn title(structure: &str, suite: Option<&str>) -> String {
-    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
-    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
-}
-
-/// The same of some cases.
-pub fn name(cases: &Cases) -> String {
-    title(&cases.structure.name, cases.suite.as_deref())
+    /// Whether files were given, in an order that means something, rather than a folder.
+    are_files: bool,
 }
 
 impl Tables {
-    pub fn read(folder: &Path) -> anyhow::Result<Tables> {
-        let mut tables = Tables { folder: folder.to_path_buf(), ..Tables::default() };
-        for path in file::tables(folder)? {
-            tables.files.push((path.clone(), Table::open(&path)?.rows(), Provenance::of_file(&path)?));
+    /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed over.
+    pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
+        let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
+        for path in paths {
+            if path.is_dir() && file::tables(path).is_ok_and(|files| files.is_empty()) {
+                anyhow::bail!(
+                    "{}: no tables; expected those of simulate, fit-pro, ida or evaluate",
+                    path.display()
+                );
+            }
+            for file in files_of(path)? {
+                tables.items.push(Item::read(&file)?);
+            }
         }
-        tables.leave_out_strangers()?;
-        if let Some(path) = tables.place("responses") {
-            tables.groups = responses::read(&path)?;
+        tables.leave_out_strangers();
+        let groups = tables.of(Kind::Responses).map(|item| responses::read(&item.path));
+        tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
+        let overturning = |cases: &Cases| {
+            let events =
+                cases.outcome.iter().filter(|outcome| **outcome == crate::rocking::Outcome::Overturning);
+            events.count() as f64 / cases.len().max(1) as f64
+        };
+        if tables.groups.len() > 2 {
+            tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
         }
-        if tables.files.is_empty() && tables.groups.is_empty() {
-            let folder = folder.display();
-            anyhow::bail!("{folder}: no tables; expected those of simulate, fit-pro, ida or evaluate");
+        let exceeding: Vec<Calibration> = tables.rows(Kind::Calibrations)?;
+        let limit_state = exceeding.iter().find_map(|row: &Calibration| row.limit_state);
+        tables.fits = Fits {
+            demand: tables.rows(Kind::Planes)?,
+            curves: tables.rows(Kind::Curves)?,
+            calibrations: exceeding.into_iter().filter(|row| row.limit_state.is_none()).collect(),
+            limit_state: limit_state.unwrap_or(paper::LIMIT_STATE),
+        };
+        tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
+        tables.compared = tables.rows(Kind::Paper)?;
+        let evaluations: Vec<Evaluation> =
+            tables
+            .of(Kind::Rates)
+            .map(|item| evaluations::read(&item.path, item.made.as_ref()))
+            .collect::<Result<_, _>>()?;
+        tables.keep_of_one_time(evaluations);
+        let traced = tables.of(Kind::Traces).map(|item| evaluations::read_traces(&item.path)).collect::<Result<Vec<_>, _>>()?;
+        tables.traces = traced.into_iter().flatten().collect();
+        for item in &tables.items {
+            if matches!(item.kind, Kind::Other | Kind::Probabilities) {
+                let (name, words) = (item.name(), item.words());
+                tables.left_out.push(format!("{name} is not shown: it holds {words}."));
+            }
         }
-        tables.demand = tables.rows("pex")?;
-        tables.curves = tables.rows("pro")?;
-        tables.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
-        tables.calibrations = tables.rows("pro.calibration")?;
-        let exceeding: Vec<Calibration> = tables.rows("pex.calibration")?;
-        tables.limit_state = exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE);
-        tables.compared = tables.rows("paper")?;
-        tables.read_objects()?;
         Ok(tables)
     }
 
-    /// Reads the objects with annual rates: all tables of them, if they are of one hazard and time.
-    fn read_objects(&mut self) -> anyhow::Result<()> {
-        let mut first = None;
-        for (path, _, made) in &self.files {
-            if Table::open(path)?.schema().index_of(RATES).is_err() {
-                continue;
+    /// Keeps the evaluations of the first one's exposure time: probabilities in other times do not compare.
+    fn keep_of_one_time(&mut self, evaluations: Vec<Evaluation>) {
+        let first = evaluations.first().map(|first| (first.years, first.when.clone()));
+        for evaluation in evaluations {
+            match first.as_ref().is_none_or(|(years, _)| *years == evaluation.years) {
+                true => self.evaluations.push(evaluation),
+                false => {
+                    let (file, when) = (&evaluation.file, &evaluation.when);
+                    let first = first.as_ref().map_or("", |(_, when)| when);
+                    self.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
+                }
             }
-            let made = made.as_ref();
-            let question = made.map(|made| (made.inputs.get("hazard"), made.arguments.get("years")));
-            let question = question.unwrap_or_default();
-            if *first.get_or_insert(question) != question {
-                let file = path.file_name().unwrap_or_default().to_string_lossy();
-                self.left_out.push(format!("{file} is not shown: it is of another hazard or time."));
-                continue;
-            }
-            let objects = rows::read::<ObjectRow>(path)?.into_iter().zip(rows::read::<RatesRow>(path)?);
-            let objects = objects.zip(rows::read::<DoubtsRow>(path)?);
-            let answer = |((object, row), doubts)| Answer { object, row, doubts, ..Answer::default() };
-            self.objects.extend(objects.map(answer));
         }
-        self.objects.sort_by(|a, b| b.row.severity().total_cmp(&a.row.severity()));
-        Ok(())
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those of the folder:
-    /// names of structures alone do not tell.
-    fn leave_out_strangers(&mut self) -> Result<(), TableError> {
-        let key = |name: &str| self.place(name).map(|path| key_of(&path)).transpose();
-        let input = |name: &str, flag: &str| {
-            let path = self.folder.join(format!("{name}.parquet"));
-            let (.., made) = self.files.iter().find(|(file, ..)| *file == path)?;
-            let keys = made.as_ref()?.inputs.get(flag)?;
-            keys.split(' ').next().map(str::to_string)
+    /// Leaves out the tables that were made of other responses, motions or fits than those that are there: names of
+    /// structures alone do not tell.
+    fn leave_out_strangers(&mut self) {
+        let keys = |kind: Kind| -> Vec<String> { self.of(kind).map(|item| item.key.clone()).collect() };
+        let of_flag = |kind: Kind, flag: &str| -> Vec<String> {
+            self.of(kind).filter_map(|item| item.input(flag)).map(str::to_string).collect()
         };
-        let responses = key("responses")?.or(input("pro", "in"));
-        let motions = input("responses", "in").or(key("motions")?);
-        // On a floor the responses are to its motions, which are made of these.
-        let ground = if key("floor")? == motions { None } else { key("motions")? };
-        let strangers = [
-            ("motions", ground, motions.clone(), "responses"),
-            ("ida", input("ida", "in"), motions, "motions"),
-            ("pex", input("pex", "in"), responses.clone(), "responses"),
-            ("pro", input("pro", "in"), responses.clone(), "responses"),
-            ("ranking", input("ranking", "in"), responses, "responses"),
-            ("paper", input("paper", "pro"), key("pro")?, "fits"),
-            ("validation", input("validation", "fits"), key("pro")?, "fits"),
-            ("evaluated", input("evaluated", "fits"), key("pro")?, "fits"),
+        let or = |first: Vec<String>, second: Vec<String>| if first.is_empty() { second } else { first };
+        let responses = or(keys(Kind::Responses), of_flag(Kind::Curves, "in").into_iter().take(1).collect());
+        let motions = or(of_flag(Kind::Responses, "in"), keys(Kind::Motions));
+        let fits = keys(Kind::Curves);
+        let rules: [(&[Kind], &str, &[String], &str); 5] = [
+            (
+                &[Kind::Planes, Kind::Curves, Kind::Calibrations, Kind::Parameters, Kind::Ranking],
+                "in",
+                &responses,
+                "responses",
+            ),
+            (&[Kind::Capacities, Kind::CapacityFits, Kind::Stripes], "in", &motions, "motions"),
+            (&[Kind::Paper], "pro", &fits, "fits"),
+            (&[Kind::Validation, Kind::Reliability, Kind::Rates], "fits", &fits, "fits"),
+            (&[Kind::Motions], "", &motions, "responses"),
         ];
-        for (name, has, expected, what) in strangers {
-            if has.is_some() && expected.is_some() && has != expected {
-                let its = format!("{name}.");
-                let is_its = |file: &OsStr| file.to_string_lossy().starts_with(&its);
-                self.files.retain(|(path, ..)| !path.file_name().is_some_and(is_its));
-                self.strangers.push(name);
-                self.left_out.push(format!("{name}.parquet is not shown: it belongs to other {what}."));
+        let mut left_out = Vec::new();
+        let stranger = |item: &Item| -> Option<&str> {
+            let (.., flag, expected, what) = rules.iter().find(|(kinds, ..)| kinds.contains(&item.kind))?;
+            let has = if flag.is_empty() { Some(item.key.as_str()) } else { item.input(flag) };
+            // The motions of the ground may stand beside those of a floor that were made of them.
+            let is_ground =
+                item.kind == Kind::Motions && keys(Kind::Motions).iter().any(|key| motions.contains(key));
+            let is_stranger =
+                !expected.is_empty() && has.is_some_and(|has| !expected.iter().any(|key| key == has));
+            (is_stranger && !is_ground).then_some(*what)
+        };
+        let mut kept = Vec::new();
+        let told: Vec<Option<String>> =
+            self.items.iter().map(|item| stranger(item).map(str::to_string)).collect();
+        for (item, what) in std::mem::take(&mut self.items).into_iter().zip(told) {
+            match what {
+                None => kept.push(item),
+                Some(what) => {
+                    if !SILENT.contains(&item.kind) && item.kind != Kind::Calibrations {
+                        left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
+                    }
+                }
             }
         }
-        Ok(())
+        self.items = kept;
+        self.left_out = left_out;
     }
 
-    /// The rows of a table; none where it is not there.
-    pub fn rows<R: Row>(&self, name: &str) -> Result<Vec<R>, TableError> {
-        self.place(name).map_or(Ok(Vec::new()), |path| rows::read(&path))
+    /// Two evaluations of objects of the same names: before and after, in the order of the files.
+    pub fn comparison(&self) -> Option<[&Evaluation; 2]> {
+        let [before, after] = &self.evaluations[..] else { return None };
+        (self.are_files && !compare::pairs(before, after).is_empty()).then_some([before, after])
     }
 
-    /// The file of a table, or the folder of its partitions.
-    fn place(&self, name: &str) -> Option<PathBuf> {
-        if self.strangers.iter().any(|stranger| name.split('.').next() == Some(stranger)) {
-            return None;
-        }
-        let (file, parts) = (self.folder.join(format!("{name}.parquet")), self.folder.join(name));
-        if file.exists() { Some(file) } else { Some(parts).filter(|parts| parts.is_dir()) }
+    /// The tables of a kind.
+    pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Item> {
+        self.items.iter().filter(move |item| item.kind == kind)
     }
 
-    /// What made each file that is ours.
+    /// The rows of all tables of a kind.
+    pub fn rows<R: Row>(&self, kind: Kind) -> Result<Vec<R>, TableError> {
+        let tables = self.of(kind).map(|item| rows::read(&item.path)).collect::<Result<Vec<_>, _>>()?;
+        Ok(tables.into_iter().flatten().collect())
+    }
+
+    /// What made each table that is ours.
     pub fn made(&self) -> impl Iterator<Item = &Provenance> {
-        self.files.iter().filter_map(|(.., made)| made.as_ref())
+        self.items.iter().filter_map(|item| item.made.as_ref())
     }
 
     pub fn made_by(&self, stage: &str) -> Option<&Provenance> {
@@ -168,24 +269,24 @@ impl Tables {
         self.made_by(stage)?.summary.lines().next()
     }
 
-    /// The calibration of overturning with some cases.
-    pub fn calibration(&self, cases: &Cases) -> Option<&Calibration> {
-        self.calibrations.iter().find(|row| row.group() == cases.group())
-    }
-
-    /// The curve of overturning of some cases over these measures.
-    pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
-        let mut its = self.curves.iter().filter(|fit| fit.group() == cases.group());
-        its.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
-    }
-
-    /// The motions of a row group in the middle of the file.
+    /// The motions of a row group in the middle of the first file of them.
     pub fn motions(&self) -> Result<Vec<Motion>, TableError> {
-        let Some(path) = self.place("motions") else { return Ok(Vec::new()) };
-        let table = motions::open(&path, None)?;
+        let Some(item) = self.of(Kind::Motions).next() else { return Ok(Vec::new()) };
+        let table = motions::open(&item.path, None)?;
         let middle = table.rows() / MOTIONS_IN_GROUP / 2;
         let part = motions::parts(&table).nth(middle).or_else(|| motions::parts(&table).next());
         let some = part.map(|part| motions::read_part(&table, part?, MOTIONS_IN_GROUP)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
     }
+}
+
+/// A file; of a folder its tables, and folders of partitions in it.
+fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let mut files = file::tables(path)?;
+    let folders = file::entries(path)?.into_iter().filter(|entry| entry.is_dir());
+    files.extend(folders.filter(|folder| Table::open(folder).is_ok()));
+    Ok(files)
 }

@@ -1,10 +1,49 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
-use crate::fragility::{Cases, DemandFit, DemandModel, Event, Measure};
+use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
+use crate::keyword::Keyword;
+use crate::motion::Suite;
 use crate::report::Estimate;
-use crate::stages::ida::ScaledMeasure;
-use crate::stages::report::tables::Tables;
+use crate::report::text::literal;
 use crate::studies::observed_share;
+use crate::table::capacities::ScaledMeasure;
+
+/// The fits that figures show.
+#[derive(Default)]
+pub struct Fits {
+    pub demand: Vec<DemandFit>,
+    /// Of overturning.
+    pub curves: Vec<CurveFit>,
+    /// Of overturning.
+    pub calibrations: Vec<Calibration>,
+    /// Demand whose exceedance was fitted.
+    pub limit_state: f64,
+}
+
+impl Fits {
+    /// The calibration of overturning with some cases.
+    pub fn calibration(&self, cases: &Cases) -> Option<&Calibration> {
+        self.calibrations.iter().find(|row| row.group() == cases.group())
+    }
+
+    /// The curve of overturning of some cases over these measures.
+    pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
+        let mut its = self.curves.iter().filter(|fit| fit.group() == cases.group());
+        its.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
+    }
+}
+
+/// Structure and, of synthetic motions, suite; marked text.
+pub fn title(structure: &str, suite: Option<&str>) -> String {
+    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    let structure = literal(structure);
+    synthetic.map_or(structure.clone(), |suite| format!("{structure}, {suite}"))
+}
+
+/// The same of some cases.
+pub fn name(cases: &Cases) -> String {
+    title(&cases.structure.name, cases.suite.as_deref())
+}
 
 /// Label of the demand (Eq. 7).
 pub const DEMAND: &str = "|*θ*|_{max} / *α*";
@@ -63,11 +102,11 @@ pub fn demands(cases: &Cases) -> impl Iterator<Item = (usize, f64)> {
 
 /// The regressions of the demand of some cases, of one form.
 pub fn demand_fits<'a>(
-    tables: &'a Tables,
+    fits: &'a Fits,
     cases: &Cases,
     model: DemandModel,
 ) -> impl Iterator<Item = &'a DemandFit> {
-    let its = tables.demand.iter().filter(|fit| fit.group() == cases.group());
+    let its = fits.demand.iter().filter(|fit| fit.group() == cases.group());
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 

@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{DEMAND, compare, demand_fits, demands, ends, label, rocked};
+use super::common::{DEMAND, Fits, compare, demand_fits, demands, ends, label, name, rocked};
 use crate::fragility::{Cases, DemandFit, DemandModel, Measure, ln_median_demand};
 use crate::keyword::Keyword;
 use crate::number;
 use crate::report::{Axis, Estimate, Figure, Ink, Layer, Panel};
-use crate::stages::report::tables::{Tables, name};
 
 type CaseValue = fn(&Cases, usize) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;
@@ -39,17 +38,17 @@ pub fn demand(groups: &[&Cases]) -> Figure {
         })
     });
     let caption = format!(
-        "Each point is a motion in which the structure rocks. Motions without a pulse period are not at the \
-         right; demands below {LEAST} are not drawn."
+        "Each point is a motion in which the structure rocks. The right-hand panels omit motions \
+         without a pulse period; demands below {LEAST} are not drawn."
     );
     let caption = compare(&caption, "Figures 3 and 4");
     Figure::new("demand", "Demand over peak velocity and pulse period", caption, 2, 105.0, panels.collect())
 }
 
 /// The regression of the demand on each measure, ln EDP = ln a + b ln IM (Eq. 16), if there is one.
-pub fn fits<'a>(tables: &'a Tables, cases: &Cases) -> [Option<&'a DemandFit>; Measure::SCALAR.len()] {
+pub fn power_laws<'a>(fits: &'a Fits, cases: &Cases) -> [Option<&'a DemandFit>; Measure::SCALAR.len()] {
     Measure::SCALAR.map(|measure| {
-        let fit = demand_fits(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure);
+        let fit = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure);
         fit.filter(|fit| fit.r2.is_some() && fit.beta.is_some())
     })
 }
@@ -65,7 +64,7 @@ fn name_of(measure: Measure) -> String {
 }
 
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
-pub fn regressions(tables: &Tables, cases: &Cases) -> Figure {
+pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let panel = |(measure, fit): (Measure, Option<&DemandFit>)| {
         let point = |(k, edp)| Some([measure.value_of(&cases.measures(k))?, edp]);
         let points: Vec<[f64; 2]> = demands(cases).filter_map(point).collect();
@@ -81,7 +80,7 @@ pub fn regressions(tables: &Tables, cases: &Cases) -> Figure {
         }
         Panel::new(&title, Axis::log(label(measure)), Axis::log(DEMAND), layers)
     };
-    let panels = Measure::SCALAR.into_iter().zip(fits(tables, cases)).map(panel).collect();
+    let panels = Measure::SCALAR.into_iter().zip(power_laws(fits, cases)).map(panel).collect();
     let group = name(cases);
     let caption = "Demand in safe rocking over each measure of Eq. 13, with ln EDP = ln *a* + *b* ln IM. *β* \
                    is the dispersion and *ζ* = *β*/*b*, which a falling regression does not have.";
@@ -92,14 +91,14 @@ pub fn regressions(tables: &Tables, cases: &Cases) -> Figure {
 }
 
 /// Figure 8: R2, beta and zeta of the regressions of each group.
-pub fn quality(tables: &Tables, groups: &[&Cases]) -> Figure {
+pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let qualities: [(&str, &str, FitValue); 3] = [
         ("More is better", "*R*^{2}", |fit| fit.r2),
         ("Less is better", "*β*", |fit| fit.beta),
         ("Less is better", "*ζ* = *β* / *b*", zeta),
     ];
     let panels = qualities.iter().filter(|_| !groups.is_empty()).map(|&(title, label, value)| {
-        let values = |cases: &Cases| fits(tables, cases).map(|fit| fit.and_then(value));
+        let values = |cases: &Cases| power_laws(fits, cases).map(|fit| fit.and_then(value));
         let [least, largest] = ends(groups.iter().flat_map(|cases| values(cases)).flatten());
         let layer = |(number, cases): (usize, &&Cases)| {
             let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;

@@ -1,10 +1,10 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use super::common::{ends, ratios, rocked};
+use super::common::{Fits, ends, name, ratios, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
 use crate::motion::IntensityMeasures;
+use crate::report::text::literal;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Panel};
-use crate::stages::report::tables::{Tables, name};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
@@ -15,15 +15,15 @@ const LEVELS: [(f64, Dash); 4] =
 const STEPS: usize = 120;
 
 /// Maps of overturning, one panel per suite: of its first structure, with a line for each of the others.
-pub fn maps(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
+pub fn maps(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
     let caption = "Each point is a motion in which the structure rocks. Lines join motions of equal \
                    probability of overturning by the model, calibrated with these responses; coloured lines \
                    are those of probability 0.5 of other structures.";
-    let panels = suites.iter().filter_map(|groups| Some(panel(tables, groups.split_first()?)));
+    let panels = suites.iter().filter_map(|groups| Some(panel(fits, groups.split_first()?)));
     Figure::new("map", "Overturning over PGA and PGV", caption, 2, 150.0, panels.collect())
 }
 
-fn panel(tables: &Tables, (cases, others): (&&Cases, &[&Cases])) -> Panel {
+fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
     let points = |label: &str, ink: Ink, event: bool| {
         let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
         Layer::points(label, ink, its.map(|(k, _)| [cases.pga_m_s2[k] / G_M_S2, cases.pgv_m_s[k]]))
@@ -32,13 +32,13 @@ fn panel(tables: &Tables, (cases, others): (&&Cases, &[&Cases])) -> Panel {
     let [low, high] = ends(cases.pga_m_s2.iter().copied());
     let pga = [low.max(cases.structure.uplift_acceleration_m_s2()), high];
     let [least, most] = ends(cases.pgv_m_s.iter().copied());
-    let line = |cases: &Cases, level: f64| line(tables, cases, level, pga, [least, 1.5 * most]);
+    let line = |cases: &Cases, level: f64| line(fits, cases, level, pga, [least, 1.5 * most]);
     for (level, dash) in LEVELS {
         let label = format!("probability {level}");
         layers.push(Layer::curve(&label, Ink::Text, dash, line(cases, level), Vec::new()));
     }
     for (number, other) in (2..).zip(others) {
-        let label = format!("{}, 0.5", other.structure.name);
+        let label = format!("{}, 0.5", literal(&other.structure.name));
         layers.push(Layer::line(&label, Ink::Data(number), line(other, 0.5)));
     }
     Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)
@@ -46,10 +46,10 @@ fn panel(tables: &Tables, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 
 /// The motions under which a structure overturns with this probability, between these PGA and PGV (m/s2 and
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
-fn line(tables: &Tables, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
+fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
     let structure = &cases.structure;
     let shipped = || Calibration::shipped(Kind::of_word(cases.suite.as_deref()), structure, None);
-    let calibration = tables.calibration(cases).cloned().unwrap_or_else(shipped);
+    let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
         let of = calibration.predictor(structure, &measures, None).filter(|_| measures.im4 >= 1.0);

@@ -101,8 +101,8 @@ pub fn similarity(groups: &[Cases], motions: &[Motion]) -> anyhow::Result<Figure
     let [faster, stronger] = [faster, stronger].map(|ratio| number::significant(ratio, 3));
     let caption = format!(
         "Rotation under a motion ({}), and of a structure of {faster} times the *p* under the same motion, \
-         {faster} times as fast and {stronger} times as strong. In dimensionless axes both are one, but for \
-         what *α* adds.",
+         {faster} times as fast and {stronger} times as strong. In dimensionless axes the two responses \
+         coincide, apart from a small effect of *α*.",
         words(motion)
     );
     let caption = compare(&caption, "Figure 5");
@@ -119,7 +119,7 @@ fn rotations(structure: &Structure, samples: &[f64], dt_s: f64) -> anyhow::Resul
 
 /// Cuts a series down to `most` values or fewer: to the least and the largest value of each of `most` / 2
 /// steps, in their order.
-fn envelope(values: &[f64], step: f64, most: usize) -> Vec<[f64; 2]> {
+pub fn envelope(values: &[f64], step: f64, most: usize) -> Vec<[f64; 2]> {
     let each = values.len().div_ceil(most).max(1);
     let ends = values.chunks(2 * each).enumerate().flat_map(|(k, bucket)| {
         let index = |is_better: fn(&f64, &f64) -> bool| {

@@ -1,48 +1,20 @@
-//! Annual rates, incremental dynamic analysis, validation and ranking.
+//! Incremental dynamic analysis, validation and ranking.
 
-use serde::{Deserialize, Serialize};
-
-use super::common::{by, label_of_scaled, observed_shares, ratios};
-use crate::fragility::{Z_95, grouped, p_overturning};
+use super::common::{by, label_of_scaled, observed_shares, ratios, title};
+use crate::fragility::{Z_95, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::rocking::{CapacityStatus, Outcome};
-use crate::stages::evaluate::{Answer, RatesRow, too_far};
-use crate::stages::ida::{CapacityFitRow, CapacityRow};
-use crate::stages::report::tables::title;
+use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
 
-/// The most objects, panels, levels of an analysis, and steps of its curve.
-const OBJECTS: usize = 60;
-const PANELS: usize = 6;
+/// The most panels, levels of an analysis, and steps of its curve.
+const PANELS: usize = 24;
 const LEVELS: usize = 15;
 const STEPS: usize = 100;
 /// The most sets of measures that are drawn, besides those of the paper.
 const SETS: i64 = 6;
 const PAPER: [&str; 2] = ["im3:im4", "im5"];
-
-/// Annual rates: of several objects those of overturning, one row an object in their order; of one object
-/// those of its limit states.
-pub fn annual(objects: &[Answer<RatesRow>]) -> Figure {
-    let (name, title, label, rates) = match objects {
-        [] => return Figure::default(),
-        [Answer { object, row, .. }] => {
-            let rates: Vec<(String, Limited)> = vec![
-                ("rocks".to_string(), Limited::value(row.rocking_per_year)),
-                (format!("{}, or overturns", too_far(object)), row.failure_per_year),
-                ("overturns".to_string(), row.overturning_per_year),
-            ];
-            ("rates", "How often it reaches each limit state", "annual rate", rates)
-        }
-        several => {
-            let rate = |of: &Answer<RatesRow>| (of.object.structure.clone(), of.row.overturning_per_year);
-            let rates = several.iter().take(OBJECTS).map(rate).collect();
-            ("list", "How often each object overturns", "annual rate of overturning", rates)
-        }
-    };
-    let panel = in_rows("", Axis::log(label), Ink::Data(1), rates);
-    Figure::new(name, title, "Annual rates with the 95 % limits of the model.", 1, 0.0, vec![panel])
-}
 
 /// Values with their limits, each in a row of its name.
 fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, Limited)>) -> Panel {
@@ -54,17 +26,6 @@ fn in_rows(title: &str, x: Axis, ink: Ink, rows: Vec<(String, Limited)>) -> Pane
     let estimates = Layer::estimates("", ink, rows.iter().enumerate().map(estimate));
     Panel::new(title, x, Axis::names(rows.into_iter().map(|(name, _)| name)), vec![estimates])
 }
-
-/// What is read of a stripe.
-#[derive(Serialize, Deserialize)]
-pub struct Stripe {
-    pub suite: Option<String>,
-    pub structure: String,
-    pub intensity: f64,
-    pub outcome: Outcome,
-}
-
-grouped!(Stripe);
 
 /// Incremental dynamic analyses: the distribution of the lowest overturning intensities, and the share that
 /// overturns at each level.

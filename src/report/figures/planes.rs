@@ -2,16 +2,15 @@
 
 use nalgebra::Vector3;
 
-use super::common::{compare, demand_fits, demands};
+use super::common::{Fits, compare, demand_fits, demands, name};
 use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
 use crate::report::{Axis, Figure, Ink, Layer, Panel};
-use crate::stages::report::tables::{Tables, name};
 
 /// Figure 9: the demand in safe rocking and both planes edge-on, one panel a group.
-pub fn planes(tables: &Tables, groups: &[&Cases]) -> Figure {
+pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
     let panel = |cases: &&Cases| {
-        let planes: Vec<&DemandFit> = demand_fits(tables, cases, DemandModel::Biplanar).collect();
+        let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
         let [low, high] = planes[..] else { return None };
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
         Some(panel(cases, high.range_low?, coefficients))

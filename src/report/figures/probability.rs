@@ -1,12 +1,12 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{by, compare, demand_fits, demands, ends, equal_ratios, label};
+use super::common::{Fits, by, compare, demand_fits, demands, ends, equal_ratios, label};
 use super::common::{observed_shares, ratios, rocked};
 use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
+use crate::report::text::literal;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
-use crate::stages::report::tables::Tables;
 use crate::statistics;
 use crate::statistics::scores::sample_quantile;
 
@@ -37,8 +37,8 @@ struct Drawn<'a> {
 type Curve = (String, Vec<[f64; 2]>, Vec<[f64; 2]>);
 
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
-pub fn exceedance(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
-    let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(tables, groups)).collect());
+pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
+    let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(fits, groups)).collect());
     let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
                    IM4 alone where it has a curve.";
     let caption = compare(caption, "Figure 10");
@@ -46,8 +46,8 @@ pub fn exceedance(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
 }
 
 /// Figure 11: probability of overturning over single measures.
-pub fn overturning(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
-    let over = |measure| suites.iter().map(move |groups| over(tables, groups, measure, None));
+pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
+    let over = |measure| suites.iter().map(move |groups| over(fits, groups, measure, None));
     let panels = panels("*P*_{ro}", over(Measure::Im4).chain(over(Measure::Im5)).collect());
     let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
     let caption = compare(caption, "Figure 11");
@@ -55,8 +55,8 @@ pub fn overturning(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
 }
 
 /// Figure 12: probability of overturning over hybrid measures (Eq. 23).
-pub fn hybrids(tables: &Tables, suites: &[Vec<&Cases>]) -> Figure {
-    let hybrid = |groups: &Vec<_>| over(tables, groups, Measure::Im4, Some(Measure::Im3Inverse));
+pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
+    let hybrid = |groups: &Vec<_>| over(fits, groups, Measure::Im4, Some(Measure::Im3Inverse));
     let panels = panels("*P*_{ro}", suites.iter().map(hybrid).collect());
     let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
                    observed fractions with 95 % limits.";
@@ -77,8 +77,8 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
         for Drawn { cases, curves, .. } in structures {
             for (place, ((_, points, band), dash)) in curves.iter().zip(DASHES).enumerate() {
                 // The legend names the structure by its first curve.
-                let label = if place == 0 { &cases.structure.name } else { "" };
-                layers.push(Layer::curve(label, ink(cases), dash, points.clone(), band.clone()));
+                let label = if place == 0 { literal(&cases.structure.name) } else { String::new() };
+                layers.push(Layer::curve(&label, ink(cases), dash, points.clone(), band.clone()));
             }
         }
         // Layers of nothing, for the legend: what the dashes and the dots mean.
@@ -118,14 +118,14 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
-fn exceeding<'a>(tables: &Tables, groups: &[&'a Cases]) -> Over<'a> {
+fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
     let all = |measure: Measure| -> Vec<f64> {
         groups.iter().flat_map(|cases| demands(cases).map(|(k, _)| cases.column(measure)[k])).collect()
     };
     let (im3, most) = (all(Measure::Im3), all(Measure::Im4).into_iter().fold(1.5, f64::max));
-    let limit_state = tables.limit_state;
+    let limit_state = fits.limit_state;
     let structure = |&cases: &&'a Cases| {
-        let planes: Vec<&DemandFit> = demand_fits(tables, cases, DemandModel::Biplanar).collect();
+        let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
         let at_share = |share: f64| {
             let (im3, transition) = (sample_quantile(im3.clone(), share)?, planes.last()?.range_low?);
             let below = ratios([1.0, transition * (1.0 - 1e-9)], STEPS).chain([f64::NAN]);
@@ -136,7 +136,7 @@ fn exceeding<'a>(tables: &Tables, groups: &[&'a Cases]) -> Over<'a> {
             let label = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
             Some(curve(&label, below.chain(ratios([transition, most], STEPS)), p))
         };
-        let alone = demand_fits(tables, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
+        let alone = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
         let p = |fit: &DemandFit, im4: f64| fit.p_exceeding(&measures(im4, 1.0), limit_state, CONFIDENCE);
         let alone = alone.map(|fit| curve("IM4 alone", ratios([1.0, most], STEPS), |im4| p(fit, im4)));
         let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
@@ -146,9 +146,9 @@ fn exceeding<'a>(tables: &Tables, groups: &[&'a Cases]) -> Over<'a> {
 }
 
 /// P_ro over a measure, or over a hybrid one at the median IM3.
-fn over<'a>(tables: &Tables, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
+fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
     let structure = |&cases: &&'a Cases| {
-        let fit = tables.curve(cases, im_x, im_y);
+        let fit = fits.curve(cases, im_x, im_y);
         let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
         let Some(fit) = rising else { return Drawn { cases, curves: Vec::new(), shares: Vec::new() } };
         let share = |(k, event)| Some((measure_of(fit, &cases.measures(k))?, event));

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Makes a page of each kind with the shipped data: pages.sh PROGRAM FOLDER. The paper's is made by `rockfrag run`.
+set -euo pipefail
+program=$(realpath "$1")
+data=$(realpath "$(dirname "$0")/../data")
+mkdir -p "$2" && cd "$2"
+hazard=$data/hazard.csv,$data/hazard_sa.csv
+evaluate() { "$program" evaluate --quiet --force --hazard "$hazard" "$@" > /dev/null; }
+
+evaluate --structure "name=Display case,width=0.5,height=1.9" --target 1% --out object.html
+cat > objects.csv <<'CSV'
+name,width (cm),depth (cm),height (cm),level,period (s),anchored
+Vase,22,22,70,0.6,0.5,no
+Statue,45,40,170,,,no
+Display case 1,50,50,190,,,no
+Display case 2,60,60,190,0.3,0.5,no
+Server rack,60,100,200,0.6,0.5,no
+Bookcase,35,90,210,1,0.5,no
+Filing cabinet,46,62,132,0.3,0.5,no
+Bust on a pedestal,40,40,165,,,no
+Autoclave,70,80,180,,,bolted
+Oxygen cylinder,24,24,150,,,no
+Switchgear,80,60,220,,,no
+Vending machine,90,80,183,,,no
+Fridge,60,65,185,0.6,0.5,no
+Pallet stack,80,120,240,,,no
+Low chest,120,60,60,,,no
+CSV
+evaluate --structures objects.csv --target 2% --out list.html
+sed -e 's/,35,90,210,/,50,90,210,/; s/^Vase,22,22,70,0.6/Vase,22,22,70,0/; s/,45,40,170,/,60,60,170,/' objects.csv > changed.csv
+evaluate --structures objects.csv --out before.parquet
+evaluate --structures changed.csv --out after.parquet
+"$program" report --quiet --force --in before.parquet,after.parquet --out compared.html > /dev/null
+evaluate --structure "name=Display case,width=0.5,height=1.9" --out object.png
+evaluate --structures objects.csv --out list.xlsx
+"$program" sample-scenarios --quiet --mw 7 --re 5 --samples 12 --out scenarios.parquet > /dev/null
+"$program" synthesize-motions --quiet --suite csgm --in scenarios.parquet --out motions.parquet > /dev/null
+"$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace all --out responses.parquet > /dev/null
+"$program" report --quiet --force --in responses.trace.parquet --out responses.html > /dev/null

@@ -1,0 +1,80 @@
+//! What would change how likely an object is to overturn, one thing at a time.
+
+use super::given::{Object, Restitution};
+use super::subject::Part;
+use crate::fragility::Z_95;
+use crate::motion::Floor;
+use crate::number;
+
+/// An object with one thing changed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Changed {
+    /// What is changed, in a few words.
+    pub words: String,
+    /// The object then.
+    pub object: Object,
+}
+
+/// How much a base is widened on each side, of its width.
+const WIDER: [f64; 2] = [0.1, 0.25];
+/// How much lower a centre of mass is, of its height.
+const LOWER: f64 = 0.25;
+/// The third of five storeys, with a tenth of a second for each.
+const UPSTAIRS: Floor = Floor { period_s: 0.5, level: 0.6 };
+
+impl Object {
+    /// Lists what would change an answer: a base that is wider on all sides, a lower centre of mass, the ground floor or
+    /// another one, a coefficient of restitution that is measured, at its 16 and 84 % quantiles.
+    pub fn changes(&self) -> Vec<Changed> {
+        let mut all = Vec::new();
+        if let (Some(width), Some(height), None) = (self.shape.width, self.shape.height, self.shape.beam_mass_ratio) {
+            all.extend(WIDER.map(|part| self.widened(width, 2.0 * part * width)));
+            let centre_height = (1.0 - LOWER) * self.shape.centre_height.unwrap_or(0.5 * height);
+            let mut object = self.clone();
+            object.shape.centre_height = Some(centre_height);
+            all.push(Changed { words: format!("centre of mass at {} m", number::length(centre_height)), object });
+        }
+        all.push(self.moved());
+        all.extend(self.measured());
+        all
+    }
+
+    fn widened(&self, width: f64, added: f64) -> Changed {
+        let wide = self.resized(width + added, self.shape.depth.map(|depth| depth + added));
+        let depth = wide.shape.depth.map_or(String::new(), |depth| format!(" × {}", number::length(depth)));
+        Changed { words: format!("base of {}{depth} m", number::length(width + added)), object: wide }
+    }
+
+    fn moved(&self) -> Changed {
+        let mut object = self.clone();
+        let is_upstairs = matches!(self.place.floor(), Ok(Some(_)));
+        let (period, level) =
+            if is_upstairs { (None, None) } else { (Some(UPSTAIRS.period_s), Some(UPSTAIRS.level)) };
+        (object.place.period, object.place.level) = (period, level);
+        if is_upstairs {
+            object.place.period_sd = None;
+        }
+        let words = if is_upstairs { "on the ground floor" } else { "on the third of five floors" };
+        Changed { words: words.to_string(), object }
+    }
+
+    /// With eta known: a standard deviation below and above its median, where it is not.
+    fn measured(&self) -> Vec<Changed> {
+        let Ok(sides) = self.sides() else { return Vec::new() };
+        let Some((_, ends)) = sides[0].unknowns.iter().find(|(part, _)| *part == Part::Eta) else {
+            return Vec::new();
+        };
+        let median = sides[0].structure.eta;
+        let at = |end: f64| match self.place.eta_sd {
+            Some(_) => median + (end - median) / Z_95,
+            None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
+        };
+        let changed = |eta: f64| {
+            let mut object = self.clone();
+            object.shape.eta = Some(Restitution::Number(eta));
+            object.place.eta_sd = None;
+            Changed { words: format!("restitution measured: {}", number::fixed(eta, 2)), object }
+        };
+        ends.iter().map(|end| changed(at(end.eta))).collect()
+    }
+}

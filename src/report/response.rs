@@ -1,0 +1,249 @@
+//! One response: rotation and ground motion over time, with its events; and the block as it moves.
+
+use std::fmt::Write;
+
+use super::figure::{Axis, Dash, Figure, Ink, Layer, Panel, Side};
+use super::figures::envelope;
+use super::page::Page;
+use super::text::{escape, literal};
+use crate::number;
+use crate::rocking::SolverEvent;
+use crate::units::G_M_S2;
+
+/// A structure under a motion, over time.
+#[derive(Debug, Clone, Default)]
+pub struct TracedResponse {
+    pub motion: String,
+    pub structure: String,
+    pub alpha_rad: f64,
+    /// Width and height of the block that rocks like it, m.
+    pub width_m: f64,
+    pub height_m: f64,
+    /// At each sample and event.
+    pub points: Vec<TracedPoint>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TracedPoint {
+    pub time_s: f64,
+    pub theta_over_alpha: f64,
+    pub ground_m_s2: f64,
+    pub ground_m_s: f64,
+    pub event: Option<SolverEvent>,
+}
+
+/// Values of a line.
+const VALUES: usize = 900;
+/// Height of the area of the data of a panel, points.
+const HEIGHT: f64 = 58.0;
+/// Rotations over alpha are drawn up to this.
+const MOST: f64 = 2.5;
+/// Time that is shown before the first event and after the last, s.
+const AROUND_S: f64 = 1.5;
+/// Pictures a second of what moves, and the most of them.
+const PICTURES_A_SECOND: f64 = 25.0;
+const MOST_PICTURES: f64 = 1200.0;
+
+impl TracedResponse {
+    fn times(&self, of: SolverEvent) -> Vec<f64> {
+        self.points.iter().filter(|point| point.event == Some(of)).map(|point| point.time_s).collect()
+    }
+
+    fn overturned_at(&self) -> Option<f64> {
+        self.times(SolverEvent::Overturn).first().copied()
+    }
+
+    /// What came of it, in a sentence.
+    pub fn sentence(&self) -> String {
+        let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
+        let most = self.points.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
+        let (structure, motion) = (literal(&self.structure), literal(&self.motion));
+        match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
+            (Some(at), _) => {
+                format!("Motion {motion} overturns {structure} after {} s, with {impacts}.", number::fixed(at, 1))
+            }
+            (None, Some(at)) => format!(
+                "Under motion {motion}, {structure} rocks from {} s on, at most {} of the rotation at which it tips, \
+                 with {impacts}.",
+                number::fixed(*at, 1),
+                number::PERCENT.one(most)
+            ),
+            _ => format!("Motion {motion} does not uplift {structure}."),
+        }
+    }
+
+    /// The block in words.
+    fn size(&self) -> String {
+        let [width, height] = [self.width_m, self.height_m].map(number::length);
+        format!("A block of {width} × {height} m rocks like it; it moves in real time.")
+    }
+
+    /// From when to when something happens, s.
+    fn span(&self) -> [f64; 2] {
+        let mut events = self.points.iter().filter(|point| point.event.is_some()).map(|point| point.time_s);
+        let end = self.points.last().map_or(0.0, |point| point.time_s);
+        let Some(first) = events.next() else { return [0.0, end.min(10.0)] };
+        let moving = self.points.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
+        let last = events.last().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
+        [(first - AROUND_S).max(0.0), (last + AROUND_S).min(end)]
+    }
+}
+
+/// The rotation, the acceleration and the velocity of the ground.
+pub fn figure(response: &TracedResponse) -> Figure {
+    let samples: Vec<&TracedPoint> = response.points.iter().filter(|point| point.event.is_none()).collect();
+    let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
+    let rotation: Vec<f64> = samples.iter().map(|point| point.theta_over_alpha.clamp(-MOST, MOST)).collect();
+    let velocities: Vec<f64> = samples.iter().map(|point| point.ground_m_s).collect();
+    let accelerations: Vec<f64> = samples.iter().map(|point| point.ground_m_s2 / G_M_S2).collect();
+    let end = samples.last().map_or(1.0, |point| point.time_s);
+    let line = |values: &[f64], ink: Ink| Layer::line("", ink, envelope(values, dt_s, VALUES));
+    let at_zero = |of: SolverEvent| response.times(of).into_iter().map(|time| [time, 0.0]).collect::<Vec<_>>();
+    let limit = |sign: f64| Layer::curve("", Ink::Muted, Dash::Short, vec![[0.0, sign], [end, sign]], Vec::new());
+    let mut layers = vec![
+        limit(-1.0),
+        limit(1.0),
+        line(&rotation, Ink::Data(1)),
+        Layer::points("uplift", Ink::Data(2), at_zero(SolverEvent::Uplift)),
+        Layer::points("impact", Ink::Data(0), at_zero(SolverEvent::Impact)),
+    ];
+    let most = rotation.iter().map(|value| value.abs()).fold(1.1, f64::max) * 1.08;
+    if let Some(at) = response.overturned_at() {
+        layers.extend(Layer::upright(at, [-most, most], "overturned", Side::Along));
+    }
+    let time = |label: &str| Axis::linear(label).over(0.0, end);
+    let y = Axis::linear("*θ*/*α*: beyond 1 it tips unless it is brought back").over(-most, most);
+    let panels = vec![
+        Panel::new("Rotation", time(""), y, layers),
+        Panel::new("Ground acceleration", time(""), Axis::linear("g"), vec![line(&accelerations, Ink::Text)]),
+        Panel::new(
+            "Ground velocity",
+            time("time, s"),
+            Axis::linear("m/s"),
+            vec![line(&velocities, Ink::Data(0))],
+        ),
+    ];
+    let words = |text: &str| -> String {
+        let parts = text.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|part| !part.is_empty());
+        parts.collect::<Vec<_>>().join("-").to_lowercase()
+    };
+    let name = format!("response-{}-{}", words(&response.structure), words(&response.motion));
+    let title = format!("{} under motion {}", literal(&response.structure), literal(&response.motion));
+    let caption = "Dots: uplift and impacts. Dashed: the rotation *α* at which it tips.";
+    Figure::new(&name, &title, caption, 1, HEIGHT, panels)
+}
+
+/// The page of responses: what moves, and what came of each.
+pub fn page(all: &[TracedResponse]) -> Page {
+    let title = match all {
+        [one] => format!("{} under motion {}", one.structure, one.motion),
+        several => format!("{} over time", number::counted(several.len(), "response")),
+    };
+    let sentences: Vec<String> = all.iter().map(TracedResponse::sentence).collect();
+    let (first, others) = sentences.split_at(sentences.len().min(1));
+    Page {
+        title,
+        place: all.first().map_or(String::new(), TracedResponse::size),
+        sentence: first.concat(),
+        moving: all.iter().enumerate().map(|(id, response)| moving(response, id)).collect(),
+        facts: others.to_vec(),
+        ..Page::default()
+    }
+}
+
+/// A keyframe: the time as a fraction of all, the rotation in degrees, and the corner about which.
+struct Keyframe {
+    at: f64,
+    degrees: f64,
+    corner: f64,
+}
+
+/// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its own
+/// on the page.
+pub fn moving(response: &TracedResponse, id: usize) -> String {
+    let [start, end] = response.span();
+    let seconds = end - start;
+    let frames = keyframes(response, start, end);
+    let joined = |value: &dyn Fn(&Keyframe) -> String| frames.iter().map(value).collect::<Vec<_>>().join(";");
+    let times = joined(&|frame| short(frame.at, 4));
+    let [half, high] = drawn_size(response);
+    let turns = joined(&|frame| format!("{} {} 0", short(frame.degrees, 2), short(frame.corner * half, 1)));
+    let attributes = format!("begin=\"play{id}.click\" dur=\"{}s\" keyTimes=\"{times}\" fill=\"freeze\"", short(seconds, 2));
+    let (width, height, ground) = (360.0, high + 46.0, high + 18.0);
+    let mut text = String::new();
+    let name = escape(&format!("{} under motion {}, moving", response.structure, response.motion));
+    let _ = write!(
+        text,
+        "<svg class=\"moving\" viewBox=\"0 0 {width} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
+         <path d=\"M20 {ground}H340\" stroke=\"var(--muted)\" stroke-width=\"1.2\"/>\n\
+         <g transform=\"translate(180 {ground})\"><g>\n\
+         <rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"var(--data0)\" fill-opacity=\"0.2\" \
+         stroke=\"var(--ink)\" stroke-width=\"1.6\"/>\n\
+         <circle cx=\"0\" cy=\"{}\" r=\"3.4\" fill=\"var(--data1)\"/>\n\
+         <animateTransform attributeName=\"transform\" type=\"rotate\" {attributes} values=\"{turns}\"/>\n</g></g>\n",
+        short(-half, 1),
+        short(-high, 1),
+        short(2.0 * half, 1),
+        short(high, 1),
+        short(-0.5 * high, 1),
+    );
+    let middle = ground + 15.0;
+    let _ = write!(
+        text,
+        "<path d=\"M20 {middle}H300\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
+         <circle cx=\"20\" cy=\"{middle}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" \
+         begin=\"play{id}.click\" dur=\"{}s\" from=\"20\" to=\"300\" fill=\"freeze\"/></circle>\n\
+         <text x=\"308\" y=\"{}\" font-size=\"10\" fill=\"var(--muted)\">{} s</text>\n\
+         <g id=\"play{id}\" class=\"play\" role=\"button\" tabindex=\"0\" aria-label=\"play\">\
+         <rect x=\"20\" y=\"8\" width=\"62\" height=\"24\" rx=\"12\" fill=\"var(--data1)\"/>\
+         <path d=\"M34 14v12l10-6z\" fill=\"var(--paper)\"/>\
+         <text x=\"50\" y=\"24\" font-size=\"11.5\" fill=\"var(--paper)\">play</text></g>\n</svg>\n",
+        short(seconds, 2),
+        middle + 3.5,
+        number::fixed(seconds, 1),
+    );
+    text
+}
+
+/// Half the width and the height of the drawn block, of which the diagonal is always the same.
+fn drawn_size(response: &TracedResponse) -> [f64; 2] {
+    const DIAGONAL: f64 = 190.0;
+    let scale = DIAGONAL / response.width_m.hypot(response.height_m);
+    [0.5 * scale * response.width_m, scale * response.height_m]
+}
+
+/// The rotation at equal times, and at each sample where it changes its corner; a block turns about the corner on
+/// the side to which it leans.
+fn keyframes(response: &TracedResponse, start: f64, end: f64) -> Vec<Keyframe> {
+    let seconds = (end - start).max(1e-9);
+    let step = (1.0 / PICTURES_A_SECOND).max(seconds / MOST_PICTURES);
+    let alpha = response.alpha_rad.to_degrees();
+    let (mut frames, mut next, mut corner): (Vec<Keyframe>, f64, f64) = (Vec::new(), start, 1.0);
+    for point in response.points.iter().filter(|point| (start..=end).contains(&point.time_s)) {
+        let at = (point.time_s - start) / seconds;
+        let side = if point.theta_over_alpha < 0.0 { -1.0 } else { 1.0 };
+        let is_turning = point.theta_over_alpha != 0.0 && side != corner;
+        if is_turning {
+            // At no rotation both corners are on the ground.
+            frames.extend([corner, side].map(|corner| Keyframe { at, degrees: 0.0, corner }));
+            corner = side;
+        }
+        if point.time_s >= next || is_turning {
+            let degrees = (alpha * point.theta_over_alpha).clamp(-90.0, 90.0);
+            frames.push(Keyframe { at, degrees, corner });
+            next = point.time_s + step;
+        }
+    }
+    if let (Some(first), Some(last)) = (frames.first().map(|f| (f.degrees, f.corner)), frames.last().map(|f| (f.degrees, f.corner))) {
+        frames.insert(0, Keyframe { at: 0.0, degrees: first.0, corner: first.1 });
+        frames.push(Keyframe { at: 1.0, degrees: last.0, corner: last.1 });
+    }
+    frames
+}
+
+/// A number without zeros at its end.
+fn short(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_string() } else { text.to_string() }
+}

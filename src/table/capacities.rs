@@ -1,0 +1,71 @@
+//! The outputs of ida: capacities, one row for each motion and structure, and their distributions.
+
+use serde::{Deserialize, Serialize};
+
+use crate::fragility::grouped;
+use crate::keyword::keywords;
+use crate::number::Limited;
+use crate::rocking::{CapacityStatus, Outcome};
+use crate::statistics::FitStatus;
+
+keywords! {
+    /// A measure that grows with a motion in proportion.
+    pub enum ScaledMeasure {
+        /// The factor itself.
+        Scale = "scale",
+        /// Peak ground acceleration, g.
+        Pga = "pga",
+        /// Peak ground velocity, m/s.
+        Pgv = "pgv",
+        /// PGA / (g tan alpha).
+        Im4 = "im4",
+        /// p PGV / (g tan alpha).
+        Im5 = "im5",
+        /// wm PGV / (g tan alpha).
+        Im6 = "im6",
+    }
+}
+
+/// The capacity of a structure under a motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CapacityRow {
+    pub motion_id: String,
+    pub suite: Option<String>,
+    pub earthquake: Option<String>,
+    pub mw: Option<f64>,
+    pub re_km: Option<f64>,
+    pub structure: String,
+    pub measure: ScaledMeasure,
+    pub unscaled: f64,
+    pub capacity: CapacityStatus,
+    pub safe_below: Option<f64>,
+    pub overturning_intensity: Option<f64>,
+    pub safe_up_to: Option<f64>,
+}
+
+/// The lognormal distribution of the capacities of a structure under the motions of a suite.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CapacityFitRow {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub measure: ScaledMeasure,
+    pub n: i64,
+    pub n_safe: i64,
+    pub n_below: i64,
+    /// Lowest intensity at which half of the motions overturn the structure.
+    pub half_overturn_at: Option<f64>,
+    pub theta: Limited,
+    pub beta: Limited,
+    pub status: FitStatus,
+}
+
+/// What is read of a stripe.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stripe {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub intensity: f64,
+    pub outcome: Outcome,
+}
+
+grouped!(CapacityRow, CapacityFitRow, Stripe);

@@ -1,0 +1,134 @@
+//! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a change.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rockfrag::fragility::{Kind, Model, Peak, Z_95};
+use rockfrag::hazard::{
+    Hazard, HazardCurve, PairOfPeaks, PeakHazard, RateByParts, Site, ratio_of_rates,
+};
+use rockfrag::keyword::Keyword;
+use rockfrag::object::{Object, Part, Restitution, Subject};
+
+/// A curve that ends where nothing is stronger.
+fn curve() -> HazardCurve {
+    HazardCurve::new(vec![(0.1, 0.2), (1.0, 1.8e-2), (4.0, 2.1e-3), (8.0, 3e-4), (20.0, 1e-5), (45.0, 1e-7)]).unwrap()
+}
+
+fn site(hazard: Hazard) -> Site {
+    Site::new(hazard)
+}
+
+fn over_pga() -> Site {
+    let (peak, curve) = (Peak::Pga, curve());
+    site(Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity: None }))
+}
+
+fn block(width: f64) -> Subject {
+    Subject::shipped(&Object::block("block", width, 1.9), Kind::Recorded, 0.1).unwrap()
+}
+
+#[test]
+fn the_parts_of_a_rate_sum_to_the_rate() {
+    let pair = |k: usize| PairOfPeaks {
+        pga_m_s2: 1.0 + k as f64,
+        pgv_m_s: 0.1 + 0.1 * k as f64,
+        annual_rate: 1e-3 / (1 + k) as f64,
+        mw: None,
+    };
+    let joint = site(Hazard::Joint((0..12).map(pair).collect()));
+    for site in [over_pga(), joint] {
+        let (rate, parts) = (site.overturning(&block(0.5)).unwrap(), site.rate_by_intensity(&block(0.5), 60));
+        let sum = parts.rates.iter().sum::<f64>() + parts.beyond;
+        assert!((sum / rate - 1.0).abs() < 1e-3, "{sum} for {rate}");
+        assert!(parts.rates.iter().filter(|part| **part > 0.01 * rate).count() > 5);
+    }
+}
+
+#[test]
+fn the_fragility_at_a_site_integrates_to_its_rate() {
+    let (site, subject) = (over_pga(), block(0.5));
+    let rate = site.rates(&subject);
+    let at = |im: f64| site.fragility(&subject, &[im]).unwrap()[0];
+    let [overturning, failure] = curve().mean_annual_rates(&[9.81 * 0.5 / 1.9], 0.2, |im| {
+        let states = at(im);
+        assert!(states.overturning.low <= states.overturning.value);
+        assert!(states.overturning.value <= states.overturning.high && states.overturning.high <= 1.0);
+        [states.overturning.value, states.failure.value]
+    });
+    for (sum, rate) in [(overturning, rate.overturning), (failure, rate.failure)] {
+        assert!((sum / rate.unwrap().value().unwrap() - 1.0).abs() < 1e-3);
+    }
+}
+
+/// A block with its restitution, the model's parameters and the magnitude at these standard deviations.
+fn drawn(width: f64, z: &[f64]) -> f64 {
+    let mut object = Object::block("block", width, 1.9);
+    let median = block(width).directions[0].structure.eta;
+    object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
+    let mut subject = Subject::shipped(&object, Kind::Recorded, 0.1).unwrap();
+    let direction = &mut subject.directions[0];
+    let ends = direction.model.ends();
+    let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };
+    for (z, [low, high]) in z[2..].iter().zip(&ends) {
+        let (Model::Calibrated { overturning: low, .. }, Model::Calibrated { overturning: high, .. }) = (low, high)
+        else {
+            panic!("the surface")
+        };
+        let step = z / (2.0 * Z_95);
+        overturning.c += step * (high.c - low.c);
+        overturning.ln_s += step * (high.ln_s - low.ln_s);
+        overturning.m += step * (high.m - low.m);
+    }
+    Site { mw: Some(6.35 + 0.6 * z[1]), ..over_pga() }.overturning(&subject).unwrap()
+}
+
+#[test]
+fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
+    let [before, after] = [0.5, 0.6].map(|width| {
+        let rates = over_pga().rates(&block(width));
+        let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?)).filter(|(part, _)| *part != Part::Velocity);
+        RateByParts {
+            rate: rates.overturning.unwrap().value().unwrap(),
+            sds: Part::ALL.iter().filter_map(known).collect(),
+        }
+    });
+    let ratio = ratio_of_rates(&before, &after, |_| true);
+    assert!((ratio.value - drawn(0.6, &[0.0; 5]) / drawn(0.5, &[0.0; 5])).abs() < 1e-9, "two runs");
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut draws: Vec<f64> = (0..1000)
+        .map(|_| {
+            let z: Vec<f64> = (0..5).map(|_| StandardNormal.sample(&mut random)).collect();
+            drawn(0.6, &z) / drawn(0.5, &z)
+        })
+        .collect();
+    draws.sort_by(f64::total_cmp);
+    for (limit, drawn) in [(ratio.low, draws[25]), (ratio.high, draws[974])] {
+        assert!((limit / drawn).ln().abs() < 0.15, "{limit} for {drawn}");
+    }
+    // What is not shared counts twice: the limits are wider.
+    let apart = ratio_of_rates(&before, &after, |_| false);
+    assert!(apart.low < ratio.low && apart.high > ratio.high);
+}
+
+#[test]
+fn a_change_is_one_thing_and_is_what_it_says() {
+    let object = Object { shape: rockfrag::object::Shape { depth: Some(0.8), ..Object::block("a", 0.5, 1.9).shape }, ..Object::block("a", 0.5, 1.9) };
+    let changes = object.changes();
+    let sizes: Vec<_> = changes.iter().map(|changed| (changed.object.shape.width, changed.object.shape.depth)).collect();
+    assert!((sizes[0].0.unwrap() - 0.6).abs() < 1e-12 && (sizes[0].1.unwrap() - 0.9).abs() < 1e-12);
+    assert!((sizes[1].0.unwrap() - 0.75).abs() < 1e-12);
+    assert_eq!(changes[2].object.shape.centre_height, Some(0.75 * 0.95));
+    let etas: Vec<f64> = changes
+        .iter()
+        .filter_map(|changed| match changed.object.shape.eta {
+            Some(Restitution::Number(eta)) => Some(eta),
+            _ => None,
+        })
+        .collect();
+    let median = object.sides().unwrap()[0].structure.eta;
+    let loss = |eta: f64| ((1.0 - eta) / (1.0 - median)).ln();
+    assert!((loss(etas[0]) - 0.4).abs() < 1e-9 && (loss(etas[1]) + 0.4).abs() < 1e-9, "16 and 84 %");
+    let upstairs = &changes.iter().find(|changed| changed.object.place.level.is_some()).unwrap().object;
+    assert!(upstairs.changes().iter().any(|changed| changed.object.place.level.is_none()), "and down again");
+}
