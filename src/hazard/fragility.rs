@@ -28,11 +28,11 @@ impl Site {
         let at = |intensity: f64| {
             let states = |given: &GivenPeak| given.limit_states(intensity, Scenarios::Many).map(|p| p.value);
             let value = states(&middle);
-            let ends: Vec<_> =
-                ends.iter().map(|unknown| unknown.map(states)).collect();
+            let ends: Vec<_> = ends.iter().map(|unknown| unknown.map(states)).collect();
             let limited = |of: fn(&LimitStates<f64>) -> f64| match of(&value) {
                 p if p > 0.0 && p < 1.0 => {
-                    let estimate = Budget::new(&value, &ends, |states| logit(of(states))).limit_probability(p, 0.0);
+                    let estimate =
+                        Budget::new(&value, &ends, |states| logit(of(states))).limit_probability(p, 0.0);
                     Estimate { high: estimate.high.min(value.rocking), ..estimate }
                 }
                 p => Estimate::exact(p),

@@ -1,9 +1,9 @@
 //! How many times as often an object overturns after a change, with limits in which what is not known of both
 //! cancels.
 
-use crate::object::Part;
 use crate::fragility::Z_95;
 use crate::keyword::Keyword;
+use crate::object::Part;
 use crate::statistics::Estimate;
 
 /// An annual rate, and the standard deviations of its logarithm by part.
@@ -18,7 +18,11 @@ pub struct RateByParts {
 /// The rate after a change over the rate before, with 95 % limits. A part that is shared moves both rates alike:
 /// only the difference of what it does to either counts, sd^2 = (sd_after - sd_before)^2; another counts twice,
 /// sd_after^2 + sd_before^2.
-pub fn ratio_of_rates(before: &RateByParts, after: &RateByParts, is_shared: impl Fn(Part) -> bool) -> Estimate {
+pub fn ratio_of_rates(
+    before: &RateByParts,
+    after: &RateByParts,
+    is_shared: impl Fn(Part) -> bool,
+) -> Estimate {
     let sd_of = |of: &RateByParts, part: Part| {
         of.sds.iter().find(|(other, _)| *other == part).map_or(0.0, |(_, sd)| *sd)
     };

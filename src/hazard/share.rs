@@ -38,17 +38,20 @@ impl Site {
                 };
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let edges = edges(first, last);
-                let probability = |intensity: f64| given.limit_states(intensity, Scenarios::Many).overturning.value;
+                let probability =
+                    |intensity: f64| given.limit_states(intensity, Scenarios::Many).overturning.value;
                 let rates = rates_in_bins(&curve, &edges, &given.jumps(), probability);
                 RateByIntensity { edges, rates, beyond: probability(last) * rate_beyond }
             }
             Hazard::Joint(pairs) => {
                 let peaks = pairs.iter().map(|pair| pair.pga_m_s2);
-                let (low, high) = peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
+                let (low, high) =
+                    peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
                 let (edges, mut rates) = (edges(low, high * 1.001), vec![0.0; bins]);
                 for pair in pairs {
                     let (peaks, mw) = ([pair.pga_m_s2, pair.pgv_m_s], pair.mw.or(self.mw));
-                    let p = limit_states_at(&subject.directions, peaks, mw, Scenarios::Many).overturning.value;
+                    let p =
+                        limit_states_at(&subject.directions, peaks, mw, Scenarios::Many).overturning.value;
                     let bin = edges.partition_point(|edge| *edge <= pair.pga_m_s2).clamp(1, bins) - 1;
                     rates[bin] += p * pair.annual_rate;
                 }

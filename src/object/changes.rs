@@ -27,12 +27,17 @@ impl Object {
     /// another one, a coefficient of restitution that is measured, at its 16 and 84 % quantiles.
     pub fn changes(&self) -> Vec<Changed> {
         let mut all = Vec::new();
-        if let (Some(width), Some(height), None) = (self.shape.width, self.shape.height, self.shape.beam_mass_ratio) {
+        if let (Some(width), Some(height), None) =
+            (self.shape.width, self.shape.height, self.shape.beam_mass_ratio)
+        {
             all.extend(WIDER.map(|part| self.widened(width, 2.0 * part * width)));
             let centre_height = (1.0 - LOWER) * self.shape.centre_height.unwrap_or(0.5 * height);
             let mut object = self.clone();
             object.shape.centre_height = Some(centre_height);
-            all.push(Changed { words: format!("centre of mass at {} m", number::length(centre_height)), object });
+            all.push(Changed {
+                words: format!("centre of mass at {} m", number::length(centre_height)),
+                object,
+            });
         }
         all.push(self.moved());
         all.extend(self.measured());

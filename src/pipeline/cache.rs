@@ -75,7 +75,8 @@ fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()
 
 /// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
 pub fn is_ours(path: &Path) -> bool {
-    let is_marked = ["html", "svg", "png", "xlsx"].iter().any(|ending| path.extension().is_some_and(|of| of == *ending));
+    let is_marked =
+        ["html", "svg", "png", "xlsx"].iter().any(|ending| path.extension().is_some_and(|of| of == *ending));
     if is_table(path) || is_marked {
         return Provenance::of_file(path).is_ok_and(|made| made.is_some());
     }

@@ -36,7 +36,9 @@ pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>>
 
 /// PGV/PGA, and what is not known of the hazard, is the same only under the same hazard.
 fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Limited {
-    let known = |of: &Rated| Some(RateByParts { rate: of.rate.value.filter(|rate| *rate > 0.0)?, sds: of.sds.clone() });
+    let known = |of: &Rated| {
+        Some(RateByParts { rate: of.rate.value.filter(|rate| *rate > 0.0)?, sds: of.sds.clone() })
+    };
     let Some((before, after)) = known(before).zip(known(after)) else { return Limited::default() };
     let is_shared = |part: Part| same_hazard || !matches!(part, Part::Velocity | Part::Hazard);
     ratio_of_rates(&before, &after, is_shared).into()
@@ -51,18 +53,25 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
         pairs.iter().enumerate().map(|(row, pair)| percent_in_row(of(pair), row as f64 + off)).collect()
     };
     let word = |(row, pair): (usize, &Pair)| {
-        let ends = [pair.before, pair.after].map(|of| of.overturning.high.or(of.overturning.value).unwrap_or(0.0));
+        let ends =
+            [pair.before, pair.after].map(|of| of.overturning.high.or(of.overturning.value).unwrap_or(0.0));
         let x = 100.0 * ends[0].max(ends[1]);
         let text = match is_changed(pair) {
             true => format!("× {}", TWO_DIGITS.value(pair.ratio)),
             false => "as before".to_string(),
         };
-        Some(Words { x, y: row as f64, text, side: Side::Right }).filter(|_| x > 0.0 && pair.ratio.value.is_some())
+        Some(Words { x, y: row as f64, text, side: Side::Right })
+            .filter(|_| x > 0.0 && pair.ratio.value.is_some())
     };
     let mut layers = Vec::new();
     if let Some(target) = target {
         let at = [pairs.len() as f64 - 0.5, -0.5];
-        layers.extend(Layer::upright(100.0 * target, at, &format!("target {}", PERCENT.one(target)), Side::Above));
+        layers.extend(Layer::upright(
+            100.0 * target,
+            at,
+            &format!("target {}", PERCENT.one(target)),
+            Side::Above,
+        ));
     }
     layers.extend([
         Layer::estimates("before", Ink::Muted, estimates(|pair| pair.before.overturning, -0.17)),
@@ -109,7 +118,11 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         "Before: {}. After: {}. Hazard: {}.",
         literal(&before.file),
         literal(&after.file),
-        literal(&if same_hazard { before.hazard.clone() } else { format!("{}; {}", before.hazard, after.hazard) })
+        literal(&if same_hazard {
+            before.hazard.clone()
+        } else {
+            format!("{}; {}", before.hazard, after.hazard)
+        })
     );
     let alone = pairs.len() == 1;
     Page {
@@ -120,12 +133,13 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         place: files,
         sentence: format!(
             "{name} overturns with a probability of {} before and {} after, {}{ratio}.",
-            p[0],
-            p[1],
-            when
+            p[0], p[1], when
         ),
         tiles: tiles(&pairs, when),
-        facts: [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.sds)].into_iter().flatten().collect(),
+        facts: [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.sds)]
+            .into_iter()
+            .flatten()
+            .collect(),
         table: Some(table(&pairs, when)),
         notes: unpaired(before, after, &pairs),
         figures: vec![figure(&pairs, when, target)],
@@ -156,7 +170,8 @@ fn tiles(pairs: &[Pair], when: &str) -> Vec<Tile> {
 }
 
 fn table(pairs: &[Pair], when: &str) -> Table {
-    let heads = ["object", &format!("before, {when}"), "after", "95 % limits", "times as often", "95 % limits"];
+    let heads =
+        ["object", &format!("before, {when}"), "after", "95 % limits", "times as often", "95 % limits"];
     let row = |pair: &Pair| {
         vec![
             pair.before.name.as_deref().map_or("unnamed".to_string(), literal),
@@ -184,7 +199,8 @@ fn what_changed(pairs: &[Pair]) -> Option<String> {
         let name = pair.before.name.as_deref().map_or("the object".to_string(), literal);
         format!("{name}: {}, then {}", place(pair.before), place(pair.after))
     };
-    let lines: Vec<String> = pairs.iter().filter(|pair| place(pair.before) != place(pair.after)).map(line).collect();
+    let lines: Vec<String> =
+        pairs.iter().filter(|pair| place(pair.before) != place(pair.after)).map(line).collect();
     (!lines.is_empty()).then(|| format!("What changed: {}.", lines.join("; ")))
 }
 

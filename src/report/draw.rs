@@ -118,7 +118,8 @@ pub fn html_of_panels(figure: &Figure) -> String {
         _ => format!("<div class=\"legend\">\n{}</div>\n", entries.iter().map(entry).collect::<String>()),
     };
     // A legend that is of one panel alone stands below it.
-    let mut labelled = figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
+    let mut labelled =
+        figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
     let owner = labelled.next().filter(|_| labelled.next().is_none() && figure.panels.len() > 1);
     let is_wide = figure.columns == 1 && figure.panels.iter().all(|panel| panel.names().is_empty());
     let panel = |panel: &Panel| {
@@ -367,7 +368,10 @@ impl Pen {
         let places: Vec<f64> = lines.map(|tick| at(&tick)).collect();
         let d: String = places.iter().map(|&at| course(&[[left, at], [left + width, at]])).collect();
         let (rule, stroke) = (Ink::Rule.colour(), round(0.45 * self.unit));
-        let _ = writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{rule}\" stroke-width=\"{stroke}\"/>");
+        let _ = writeln!(
+            self.text,
+            "<path d=\"{d}\" fill=\"none\" stroke=\"{rule}\" stroke-width=\"{stroke}\"/>"
+        );
     }
 
     fn y_ticks(&self, height: f64) -> usize {
@@ -399,7 +403,8 @@ impl Pen {
         }
         let d: String = lines.iter().map(|line| course(line)).collect();
         let (ink, stroke) = (Ink::Muted.colour(), round(0.6 * unit));
-        let _ = writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"{stroke}\"/>");
+        let _ =
+            writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"{stroke}\"/>");
         let place = [left + 0.5 * width, bottom + 21.0 * unit];
         self.label(place, SMALL, middle, Ink::Muted, &panel.x.label);
     }
@@ -424,7 +429,9 @@ impl Pen {
             Marks::Line { points, band, dash } => {
                 let limits: Vec<([f64; 2], [f64; 2])> =
                     points.iter().copied().zip(band.iter().copied()).collect();
-                for piece in limits.split(|([x, y], _)| !(x + y).is_finite()).filter(|piece| !piece.is_empty()) {
+                for piece in
+                    limits.split(|([x, y], _)| !(x + y).is_finite()).filter(|piece| !piece.is_empty())
+                {
                     let edge = |end: usize| piece.iter().map(move |([x, _], limits)| [*x, limits[end]]);
                     let outline: Vec<_> = edge(0).chain(edge(1).rev()).map(&place).collect();
                     self.fill(&outline, colour, 0.16);
@@ -473,7 +480,8 @@ impl Pen {
         }
         let size = size * self.unit;
         let (x, y, letters, colour) = (round(x), round(y), round(size), ink.colour());
-        let _ = write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
+        let _ =
+            write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
         let mut drop = 0.0;
         for run in runs(marked) {
             let below = match run.level {
@@ -484,7 +492,8 @@ impl Pen {
             let small =
                 if below == 0.0 { String::new() } else { format!(" font-size=\"{}\"", round(0.72 * size)) };
             let italic = if run.italic { " font-style=\"italic\" font-weight=\"400\"" } else { "" };
-            let moved = if below == drop { String::new() } else { format!(" dy=\"{}\"", round(below - drop)) };
+            let moved =
+                if below == drop { String::new() } else { format!(" dy=\"{}\"", round(below - drop)) };
             drop = below;
             let _ = write!(self.text, "<tspan{small}{italic}{moved}>{}</tspan>", escape(&run.words));
         }

@@ -233,7 +233,9 @@ impl Marks {
         const NONE: f64 = f64::NAN;
         match self {
             Marks::Words(_) => Vec::new(),
-            Marks::Points(points) | Marks::Area(points) => points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect(),
+            Marks::Points(points) | Marks::Area(points) => {
+                points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect()
+            }
             Marks::Line { points, band, .. } => {
                 let limits = band.iter().copied().chain(std::iter::repeat([NONE; 2]));
                 points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()

@@ -5,9 +5,9 @@ use super::object::{columns, facts, limits_in_words, widened, words_of};
 use super::page::{Page, Table, Tile};
 use super::rated::{BAND_NAMES, Evaluation, Rated, percent_in_row};
 use super::text::literal;
-use crate::object::Part;
 use crate::keyword::Keyword;
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT};
+use crate::object::Part;
 
 /// The most objects that are drawn.
 const DRAWN: usize = 60;
@@ -23,9 +23,11 @@ fn sorted(evaluations: &[Evaluation]) -> Vec<(&Evaluation, &Rated)> {
 /// How likely each object overturns, those on the ground and those on floors apart.
 pub fn figure(evaluations: &[Evaluation]) -> Figure {
     let all = sorted(evaluations);
-    let answered: Vec<&Rated> = all.iter().map(|(_, rated)| *rated).filter(|rated| rated.is_answered()).collect();
+    let answered: Vec<&Rated> =
+        all.iter().map(|(_, rated)| *rated).filter(|rated| rated.is_answered()).collect();
     let drawn = &answered[..answered.len().min(DRAWN)];
-    let (upstairs, ground): (Vec<&Rated>, Vec<&Rated>) = drawn.iter().partition(|rated| rated.floor.is_some());
+    let (upstairs, ground): (Vec<&Rated>, Vec<&Rated>) =
+        drawn.iter().partition(|rated| rated.floor.is_some());
     let places = [("On the ground", ground), ("On floors", upstairs)];
     let when = evaluations.first().map_or("", |of| of.when.as_str());
     let target = evaluations.iter().find_map(|of| of.target);
@@ -56,7 +58,8 @@ fn panel(title: &str, x: Axis, rows: &[&Rated], target: Option<f64>) -> Panel {
     }
     for (band, name) in BAND_NAMES.iter().enumerate().rev() {
         let its = rows.iter().enumerate().filter(|(_, rated)| rated.band() == band);
-        let estimates: Vec<_> = its.map(|(row, rated)| percent_in_row(rated.overturning, row as f64)).collect();
+        let estimates: Vec<_> =
+            its.map(|(row, rated)| percent_in_row(rated.overturning, row as f64)).collect();
         if let Some(rated) = rows.iter().find(|rated| rated.band() == band) {
             layers.push(Layer::estimates(name, rated.ink(), estimates));
         }
@@ -94,7 +97,11 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     let facts = [Some(friction), building, limits_in_words(&sds)].into_iter().flatten();
     Page {
         title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
-        place: format!("{} free-standing, {place}; hazard: {}", number::count(answered), literal(&hazards.join("; "))),
+        place: format!(
+            "{} free-standing, {place}; hazard: {}",
+            number::count(answered),
+            literal(&hazards.join("; "))
+        ),
         sentence: format!("{}{file} {}.", worst.title(), worst.sentence(when)),
         tiles: tiles(&all, when),
         facts: facts.chain(models).collect(),
@@ -140,9 +147,13 @@ fn tiles(all: &[(&Evaluation, &Rated)], years: &str) -> Vec<Tile> {
         ),
         tile(
             format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),
-            "probability that at least one does: if all fall together, to if each falls by itself".to_string(),
+            "probability that at least one does: if all fall together, to if each falls by itself"
+                .to_string(),
         ),
-        tile(number::count(above), format!("{} more likely than 2 % to overturn", if above == 1 { "is" } else { "are" })),
+        tile(
+            number::count(above),
+            format!("{} more likely than 2 % to overturn", if above == 1 { "is" } else { "are" }),
+        ),
     ]
 }
 
@@ -151,7 +162,8 @@ fn table(all: &[(&Evaluation, &Rated)], several: bool) -> Table {
     let has = |what: fn(&Rated) -> bool| all.iter().any(|(_, rated)| what(rated));
     let (floors, counts) = (has(|rated| rated.floor.is_some()), has(|rated| rated.count.is_some()));
     let too_far = format!("rocks too far {years}, %");
-    let mut heads = vec!["object", "overturns, %", "95 % limits", "once in years", &too_far, "friction needed"];
+    let mut heads =
+        vec!["object", "overturns, %", "95 % limits", "once in years", &too_far, "friction needed"];
     let overturns = format!("overturns {years}, %");
     heads[1] = &overturns;
     heads.extend(["size"]);

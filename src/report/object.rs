@@ -5,8 +5,8 @@ use super::page::{Column, Page, Section, Table, Tile};
 use super::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
 use super::rated::{Evaluation, Rated, percent_in_row};
 use crate::fragility::Z_95;
-use crate::object::Part;
 use crate::number::{self, Limited, PERCENT, RATE};
+use crate::object::Part;
 
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 150.0;
@@ -87,7 +87,11 @@ fn fragility(curve: &FragilityCurve, evaluation: &Evaluation, hazard: Option<&Ha
     let line = |value: &dyn Fn(&FragilityPoint) -> f64| -> Vec<[f64; 2]> {
         curve.points.iter().map(|point| [point.intensity, 100.0 * value(point)]).collect()
     };
-    let band = curve.points.iter().map(|point| [100.0 * point.overturning.low, 100.0 * point.overturning.high]).collect();
+    let band = curve
+        .points
+        .iter()
+        .map(|point| [100.0 * point.overturning.low, 100.0 * point.overturning.high])
+        .collect();
     let too_far = format!("rocks beyond {} of *α*, or overturns", PERCENT.one(evaluation.limit_state));
     let overturning = line(&|point| point.overturning.value);
     let ends = [curve.points.first(), curve.points.last()].map(|point| point.map_or(1.0, |p| p.intensity));
@@ -97,7 +101,8 @@ fn fragility(curve: &FragilityCurve, evaluation: &Evaluation, hazard: Option<&Ha
         Layer::curve("overturns, with 95 % limits", Ink::Data(1), Dash::Solid, overturning, band),
     ];
     for (intensity, years) in hazard.map_or(&[][..], |hazard| &hazard.usual) {
-        let inside = (ends[0]..=ends[1]).contains(intensity) && hazard.is_some_and(|h| h.label == curve.label);
+        let inside =
+            (ends[0]..=ends[1]).contains(intensity) && hazard.is_some_and(|h| h.label == curve.label);
         if inside {
             let words = format!("once in {} years", number::count(*years as usize));
             layers.extend(Layer::upright(*intensity, [0.0, 100.0], &words, Side::Along));
@@ -109,7 +114,8 @@ fn fragility(curve: &FragilityCurve, evaluation: &Evaluation, hazard: Option<&Ha
         "Probability under a motion of this {what} at the site, averaged over what such motions have \
          besides.{half}"
     );
-    let (x, y) = (Axis::log(&curve.label).over(ends[0], ends[1]), Axis::linear("probability, %").over(0.0, 101.0));
+    let (x, y) =
+        (Axis::log(&curve.label).over(ends[0], ends[1]), Axis::linear("probability, %").over(0.0, 101.0));
     Panel::new("Fragility", x, y, layers).explained(caption)
 }
 
@@ -155,7 +161,8 @@ pub fn words_of(p: Limited, row: usize) -> Option<Words> {
 }
 
 fn hazard(hazard: &HazardCurve) -> Panel {
-    let [first, last] = [hazard.points.first(), hazard.points.last()].map(|point| point.map_or(1.0, |p| p[0]));
+    let [first, last] =
+        [hazard.points.first(), hazard.points.last()].map(|point| point.map_or(1.0, |p| p[0]));
     let rates = hazard.points.iter().map(|point| point[1]);
     let lowest = rates.fold(f64::INFINITY, f64::min);
     let mut layers = Vec::new();
@@ -166,10 +173,14 @@ fn hazard(hazard: &HazardCurve) -> Panel {
     layers.push(Layer::line("", Ink::Text, hazard.points.clone()));
     layers.push(Layer::points("", Ink::Text, hazard.usual.iter().map(|(im, years)| [*im, 1.0 / years])));
     let what = hazard.label.split(' ').next().unwrap_or_default();
-    let usual: Vec<String> = hazard.usual.iter().map(|(im, years)| {
-        let unit = hazard.label.split(['(', ')']).nth(1).unwrap_or_default();
-        format!("{} {unit} once in {} years", number::significant(*im, 2), number::count(*years as usize))
-    }).collect();
+    let usual: Vec<String> = hazard
+        .usual
+        .iter()
+        .map(|(im, years)| {
+            let unit = hazard.label.split(['(', ')']).nth(1).unwrap_or_default();
+            format!("{} {unit} once in {} years", number::significant(*im, 2), number::count(*years as usize))
+        })
+        .collect();
     let caption = format!("How often {what} is exceeded at the site, as it was given: {}.", usual.join(", "));
     let x = Axis::log(&hazard.label).over(first, last);
     Panel::new("Hazard", x, Axis::log("exceeded, times a year"), layers).explained(caption)
@@ -196,7 +207,8 @@ fn shares(hazard: &HazardCurve) -> Panel {
     );
     let layers = vec![Layer::area("", Ink::Data(1), closed), Layer::line("", Ink::Data(1), outline)];
     let most = hazard.shares.iter().map(|([low, high], share)| 100.0 * share / (high / low).ln());
-    let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most.fold(1e-9, f64::max));
+    let y = Axis::linear(&format!("% of the rate per unit of ln {what}"))
+        .over(0.0, 1.08 * most.fold(1e-9, f64::max));
     let x = hazard.points.first().zip(hazard.points.last());
     let x = x.map_or(Axis::log(&hazard.label), |(a, b)| Axis::log(&hazard.label).over(a[0], b[0]));
     Panel::new("Where the rate comes from", x, y, layers).explained(caption)
@@ -249,20 +261,26 @@ fn states(evaluation: &Evaluation, rated: &Rated) -> Panel {
         ("overturns".to_string(), rated.overturning),
     ];
     let layers = vec![
-        Layer::estimates("", Ink::Data(1), rows.iter().enumerate().map(|(row, (_, p))| percent_in_row(*p, row as f64))),
+        Layer::estimates(
+            "",
+            Ink::Data(1),
+            rows.iter().enumerate().map(|(row, (_, p))| percent_in_row(*p, row as f64)),
+        ),
         Layer::words(Ink::Text, rows.iter().enumerate().filter_map(|(row, (_, p))| words_of(*p, row))),
     ];
     let x = Axis::log(&format!("probability {}, %", evaluation.when.clone()));
     let x = widened(x, rows.iter().map(|(_, p)| *p));
     let caption = "Probability of each limit state with 95 % limits.";
-    Panel::new("How likely", x, Axis::names(rows.into_iter().map(|(name, _)| name)), layers).explained(caption)
+    Panel::new("How likely", x, Axis::names(rows.into_iter().map(|(name, _)| name)), layers)
+        .explained(caption)
 }
 
 /// The page of one object.
 pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     let portrait = &evaluation.portrait;
     let sentence = rated.sentence(&evaluation.when);
-    let place = rated.floor.as_ref().map_or("On the ground".to_string(), |floor| format!("On a floor: {floor}"));
+    let place =
+        rated.floor.as_ref().map_or("On the ground".to_string(), |floor| format!("On a floor: {floor}"));
     let title = match &rated.name {
         Some(name) => format!("{name}, {}", rated.size),
         None => format!("{} of {}", rated.kind, rated.size),
@@ -302,7 +320,8 @@ fn tiles(evaluation: &Evaluation, rated: &Rated, portrait: &Portrait) -> Vec<Til
         a.1.value.unwrap_or(1.0).total_cmp(&b.1.value.unwrap_or(1.0))
     };
     let others = portrait.changes.get(1..).unwrap_or_default();
-    if let Some((name, p)) = others.iter().filter(|(_, p)| p.value < rated.overturning.value).min_by(by_value) {
+    if let Some((name, p)) = others.iter().filter(|(_, p)| p.value < rated.overturning.value).min_by(by_value)
+    {
         tiles.push(tile(PERCENT.value(*p), format!("what helps most of what is compared: {name}")));
     }
     tiles
@@ -342,7 +361,8 @@ fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
     let row = |name: String, p: Limited, rate: Limited| {
         vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(rate)]
     };
-    let too_far = format!("rocks beyond {} of its slenderness, or overturns", PERCENT.one(evaluation.limit_state));
+    let too_far =
+        format!("rocks beyond {} of its slenderness, or overturns", PERCENT.one(evaluation.limit_state));
     let none = Limited::default();
     Table {
         columns: columns(&["", &evaluation.when, "95 % limits", "rate a year"]),
@@ -358,7 +378,11 @@ fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
 fn table_of_changes(evaluation: &Evaluation, portrait: &Portrait) -> Table {
     let row = |(name, p): &(String, Limited)| vec![name.clone(), PERCENT.value(*p), PERCENT.limits(*p, "")];
     Table {
-        columns: columns(&["What would change it", &format!("overturns {}", evaluation.when.clone()), "95 % limits"]),
+        columns: columns(&[
+            "What would change it",
+            &format!("overturns {}", evaluation.when.clone()),
+            "95 % limits",
+        ]),
         rows: portrait.changes.iter().map(row).collect(),
         ..Table::default()
     }

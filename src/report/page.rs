@@ -75,7 +75,8 @@ impl Page {
         let (first, others) = figures.split_at(figures.len().min(1));
         let is_beside = self.figures.first().is_some_and(|figure| figure.panels.len() == 1);
         let class = if is_beside && self.table.is_some() { "first" } else { "" };
-        let words = format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
+        let words =
+            format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
         let words = if words.is_empty() { words } else { format!("<div>\n{words}</div>\n") };
         let [before, after] = if is_beside { [words, first.concat()] } else { [first.concat(), words] };
         format!(
@@ -134,7 +135,9 @@ fn write_figure(figure: &Figure) -> String {
         words => format!("<p class=\"caption\">{}</p>\n", html(words)),
     };
     let across = figure.panels.len().min(3);
-    format!("<section class=\"figure\" style=\"--across:{across}\">\n<h2>{title}</h2>\n{panels}{caption}</section>\n")
+    format!(
+        "<section class=\"figure\" style=\"--across:{across}\">\n<h2>{title}</h2>\n{panels}{caption}</section>\n"
+    )
 }
 
 fn write_table(Table { caption, columns, rows }: &Table) -> String {
@@ -143,18 +146,18 @@ fn write_table(Table { caption, columns, rows }: &Table) -> String {
         .iter()
         .map(|column| format!("<th scope=\"col\"{}>{}</th>", class(column), html(&column.head)));
     let row = |cells: &Vec<String>| {
-        let cells = columns
-            .iter()
-            .zip(cells)
-            .map(|(column, cell)| {
-                let head = escape(&words(&column.head));
-                format!("<td{} data-head=\"{head}\">{}</td>", class(column), html(cell))
-            });
+        let cells = columns.iter().zip(cells).map(|(column, cell)| {
+            let head = escape(&words(&column.head));
+            format!("<td{} data-head=\"{head}\">{}</td>", class(column), html(cell))
+        });
         format!("<tr>{}</tr>\n", cells.collect::<String>())
     };
     let (heads, body) = (heads.collect::<String>(), rows.iter().map(row).collect::<String>());
-    let title =
-        if caption.is_empty() { String::new() } else { format!("<p class=\"caption\">{}</p>\n", html(caption)) };
+    let title = if caption.is_empty() {
+        String::new()
+    } else {
+        format!("<p class=\"caption\">{}</p>\n", html(caption))
+    };
     let table = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
     title + &scrolled(caption, &table)
 }

@@ -3,8 +3,8 @@
 use super::figure::{Estimate, Ink};
 use super::portrait::Portrait;
 use super::text::literal;
-use crate::object::Part;
 use crate::number::{self, Limited, PERCENT};
+use crate::object::Part;
 
 /// An evaluation of objects over the hazard of a site.
 #[derive(Debug, Clone, Default)]

@@ -60,7 +60,10 @@ impl TracedResponse {
         let (structure, motion) = (literal(&self.structure), literal(&self.motion));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
-                format!("Motion {motion} overturns {structure} after {} s, with {impacts}.", number::fixed(at, 1))
+                format!(
+                    "Motion {motion} overturns {structure} after {} s, with {impacts}.",
+                    number::fixed(at, 1)
+                )
             }
             (None, Some(at)) => format!(
                 "Under motion {motion}, {structure} rocks from {} s on, at most {} of the rotation at which it tips, \
@@ -98,8 +101,10 @@ pub fn figure(response: &TracedResponse) -> Figure {
     let accelerations: Vec<f64> = samples.iter().map(|point| point.ground_m_s2 / G_M_S2).collect();
     let end = samples.last().map_or(1.0, |point| point.time_s);
     let line = |values: &[f64], ink: Ink| Layer::line("", ink, envelope(values, dt_s, VALUES));
-    let at_zero = |of: SolverEvent| response.times(of).into_iter().map(|time| [time, 0.0]).collect::<Vec<_>>();
-    let limit = |sign: f64| Layer::curve("", Ink::Muted, Dash::Short, vec![[0.0, sign], [end, sign]], Vec::new());
+    let at_zero =
+        |of: SolverEvent| response.times(of).into_iter().map(|time| [time, 0.0]).collect::<Vec<_>>();
+    let limit =
+        |sign: f64| Layer::curve("", Ink::Muted, Dash::Short, vec![[0.0, sign], [end, sign]], Vec::new());
     let mut layers = vec![
         limit(-1.0),
         limit(1.0),
@@ -124,7 +129,8 @@ pub fn figure(response: &TracedResponse) -> Figure {
         ),
     ];
     let words = |text: &str| -> String {
-        let parts = text.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|part| !part.is_empty());
+        let parts =
+            text.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|part| !part.is_empty());
         parts.collect::<Vec<_>>().join("-").to_lowercase()
     };
     let name = format!("response-{}-{}", words(&response.structure), words(&response.motion));
@@ -168,7 +174,10 @@ pub fn moving(response: &TracedResponse, id: usize) -> String {
     let times = joined(&|frame| short(frame.at, 4));
     let [half, high] = drawn_size(response);
     let turns = joined(&|frame| format!("{} {} 0", short(frame.degrees, 2), short(frame.corner * half, 1)));
-    let attributes = format!("begin=\"play{id}.click\" dur=\"{}s\" keyTimes=\"{times}\" fill=\"freeze\"", short(seconds, 2));
+    let attributes = format!(
+        "begin=\"play{id}.click\" dur=\"{}s\" keyTimes=\"{times}\" fill=\"freeze\"",
+        short(seconds, 2)
+    );
     let (width, height, ground) = (360.0, high + 46.0, high + 18.0);
     let mut text = String::new();
     let name = escape(&format!("{} under motion {}, moving", response.structure, response.motion));
@@ -234,7 +243,9 @@ fn keyframes(response: &TracedResponse, start: f64, end: f64) -> Vec<Keyframe> {
             next = point.time_s + step;
         }
     }
-    if let (Some(first), Some(last)) = (frames.first().map(|f| (f.degrees, f.corner)), frames.last().map(|f| (f.degrees, f.corner))) {
+    if let (Some(first), Some(last)) =
+        (frames.first().map(|f| (f.degrees, f.corner)), frames.last().map(|f| (f.degrees, f.corner)))
+    {
         frames.insert(0, Keyframe { at: 0.0, degrees: first.0, corner: first.1 });
         frames.push(Keyframe { at: 1.0, degrees: last.0, corner: last.1 });
     }

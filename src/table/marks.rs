@@ -24,9 +24,11 @@ impl Provenance {
         let mut text = String::new();
         archive.by_name(PROPERTIES).ok()?.read_to_string(&mut text).ok()?;
         let parts = text.split("name=\"rockfrag").skip(1);
-        let part = |part: &str| Some(part.split_once("<vt:lpwstr>")?.1.split_once("</vt:lpwstr>")?.0.to_string());
+        let part =
+            |part: &str| Some(part.split_once("<vt:lpwstr>")?.1.split_once("</vt:lpwstr>")?.0.to_string());
         let json = parts.map(part).collect::<Option<String>>()?;
-        let json = json.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+        let json =
+            json.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         serde_json::from_str(&json).ok()
     }
 }

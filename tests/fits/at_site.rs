@@ -4,15 +4,14 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag::fragility::{Kind, Model, Peak, Z_95};
-use rockfrag::hazard::{
-    Hazard, HazardCurve, PairOfPeaks, PeakHazard, RateByParts, Site, ratio_of_rates,
-};
+use rockfrag::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, RateByParts, Site, ratio_of_rates};
 use rockfrag::keyword::Keyword;
 use rockfrag::object::{Object, Part, Restitution, Subject};
 
 /// A curve that ends where nothing is stronger.
 fn curve() -> HazardCurve {
-    HazardCurve::new(vec![(0.1, 0.2), (1.0, 1.8e-2), (4.0, 2.1e-3), (8.0, 3e-4), (20.0, 1e-5), (45.0, 1e-7)]).unwrap()
+    HazardCurve::new(vec![(0.1, 0.2), (1.0, 1.8e-2), (4.0, 2.1e-3), (8.0, 3e-4), (20.0, 1e-5), (45.0, 1e-7)])
+        .unwrap()
 }
 
 fn site(hazard: Hazard) -> Site {
@@ -71,7 +70,8 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let ends = direction.model.ends();
     let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };
     for (z, [low, high]) in z[2..].iter().zip(&ends) {
-        let (Model::Calibrated { overturning: low, .. }, Model::Calibrated { overturning: high, .. }) = (low, high)
+        let (Model::Calibrated { overturning: low, .. }, Model::Calibrated { overturning: high, .. }) =
+            (low, high)
         else {
             panic!("the surface")
         };
@@ -87,7 +87,9 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
 fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
     let [before, after] = [0.5, 0.6].map(|width| {
         let rates = over_pga().rates(&block(width));
-        let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?)).filter(|(part, _)| *part != Part::Velocity);
+        let known = |part: &Part| {
+            Some((*part, rates.errors.part_sd(*part)?)).filter(|(part, _)| *part != Part::Velocity)
+        };
         RateByParts {
             rate: rates.overturning.unwrap().value().unwrap(),
             sds: Part::ALL.iter().filter_map(known).collect(),
@@ -113,9 +115,13 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
 
 #[test]
 fn a_change_is_one_thing_and_is_what_it_says() {
-    let object = Object { shape: rockfrag::object::Shape { depth: Some(0.8), ..Object::block("a", 0.5, 1.9).shape }, ..Object::block("a", 0.5, 1.9) };
+    let object = Object {
+        shape: rockfrag::object::Shape { depth: Some(0.8), ..Object::block("a", 0.5, 1.9).shape },
+        ..Object::block("a", 0.5, 1.9)
+    };
     let changes = object.changes();
-    let sizes: Vec<_> = changes.iter().map(|changed| (changed.object.shape.width, changed.object.shape.depth)).collect();
+    let sizes: Vec<_> =
+        changes.iter().map(|changed| (changed.object.shape.width, changed.object.shape.depth)).collect();
     assert!((sizes[0].0.unwrap() - 0.6).abs() < 1e-12 && (sizes[0].1.unwrap() - 0.9).abs() < 1e-12);
     assert!((sizes[1].0.unwrap() - 0.75).abs() < 1e-12);
     assert_eq!(changes[2].object.shape.centre_height, Some(0.75 * 0.95));

@@ -2,18 +2,18 @@
 
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
-use rockfrag::object::Part;
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::number;
-use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
-use rockfrag::rocking::{Outcome, Response, SolverEvent, Structure};
+use rockfrag::object::Part;
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
 use rockfrag::report::object;
 use rockfrag::report::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
 use rockfrag::report::rated::{Evaluation, Rated};
 use rockfrag::report::response::{self, TracedPoint, TracedResponse};
+use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list};
+use rockfrag::rocking::{Outcome, Response, SolverEvent, Structure};
 use rockfrag::statistics::Estimate;
 use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::motions::Motion;
@@ -83,7 +83,8 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         failure: 0.5,
         overturning: Estimate::around(0.4, 0.1),
     };
-    let outline = Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
+    let outline =
+        Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
     Evaluation {
         years: Some(50.0),
         when: "in 50 years".to_string(),
@@ -103,7 +104,10 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
                 shares: vec![([0.1, 0.5], 0.4), ([0.5, 1.0], 0.5)],
                 beyond: 0.1,
             }),
-            changes: vec![("as it is".to_string(), limited(0.02)), ("base of 0.60 m".to_string(), limited(0.01))],
+            changes: vec![
+                ("as it is".to_string(), limited(0.02)),
+                ("base of 0.60 m".to_string(), limited(0.01)),
+            ],
         },
         ..Evaluation::default()
     }
@@ -125,7 +129,14 @@ fn traced(count: usize) -> TracedResponse {
         event: event(k),
     };
     let (motion, structure) = ("m<1>".to_string(), "fra*me*2".to_string());
-    TracedResponse { motion, structure, alpha_rad: 0.2, width_m: 0.4, height_m: 2.0, points: (0..count * 4).map(point).collect() }
+    TracedResponse {
+        motion,
+        structure,
+        alpha_rad: 0.2,
+        width_m: 0.4,
+        height_m: 2.0,
+        points: (0..count * 4).map(point).collect(),
+    }
 }
 
 /// All figures, of `count` data, which may be none.
@@ -204,8 +215,8 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
         let text = svg(&figure, "{\"stage\": \"report\"}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
-        let image =
-            Pixmap::decode_png(&png(&text, 192.0, "{}").expect("the SVG is drawn")).expect("the PNG is whole");
+        let image = Pixmap::decode_png(&png(&text, 192.0, "{}").expect("the SVG is drawn"))
+            .expect("the PNG is whole");
         let ratio = |pixels: u32, at_96_dpi: f32| (f64::from(pixels) - 2.0 * f64::from(at_96_dpi)).abs();
         let off = [ratio(image.width(), tree.size().width()), ratio(image.height(), tree.size().height())];
         assert!(off.iter().all(|pixels| *pixels <= 1.0), "{}: {off:?}", figure.name);

@@ -5,8 +5,8 @@ use crate::fragility::{Z_95, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
 use crate::rocking::{CapacityStatus, Outcome};
-use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
+use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 
 /// The most panels, levels of an analysis, and steps of its curve.
 const PANELS: usize = 24;

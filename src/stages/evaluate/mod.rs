@@ -144,7 +144,8 @@ impl Stage for Evaluate {
             let (rows, text) = table::evaluate(path, &mut renames, &call, context)?;
             renames.expect_used()?;
             self.write(&rows, text, context, || {
-                let problem = "out: a page or figure is of objects at a site or under a motion, not of a table";
+                let problem =
+                    "out: a page or figure is of objects at a site or under a motion, not of a table";
                 Err(UsageError::because(problem))
             })
         } else if self.hazard.is_empty() {
@@ -378,8 +379,7 @@ fn file_format(out: &Path) -> anyhow::Result<FileFormat> {
         Some("xlsx") => FileFormat::Workbook,
         _ => {
             let out = out.display();
-            let expected =
-                "expected a name that ends in .parquet, .csv, .json, .xlsx, .html, .svg or .png";
+            let expected = "expected a name that ends in .parquet, .csv, .json, .xlsx, .html, .svg or .png";
             return Err(UsageError::because(format!("out is {out}; {expected}")));
         }
     })

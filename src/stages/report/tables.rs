@@ -155,13 +155,15 @@ impl Tables {
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
         tables.compared = tables.rows(Kind::Paper)?;
-        let evaluations: Vec<Evaluation> =
-            tables
+        let evaluations: Vec<Evaluation> = tables
             .of(Kind::Rates)
             .map(|item| evaluations::read(&item.path, item.made.as_ref()))
             .collect::<Result<_, _>>()?;
         tables.keep_of_one_time(evaluations);
-        let traced = tables.of(Kind::Traces).map(|item| evaluations::read_traces(&item.path)).collect::<Result<Vec<_>, _>>()?;
+        let traced = tables
+            .of(Kind::Traces)
+            .map(|item| evaluations::read_traces(&item.path))
+            .collect::<Result<Vec<_>, _>>()?;
         tables.traces = traced.into_iter().flatten().collect();
         for item in &tables.items {
             if matches!(item.kind, Kind::Other | Kind::Probabilities) {
