@@ -3,6 +3,7 @@
 //! ```text
 //! figure     a figure as data: panels of layers
 //! draw       a figure as SVG and PNG; axis: ranges and ticks
+//! pen        texts, lines, areas and dots of a drawing
 //! text       marked text
 //! page       the HTML page: sections of tables and figures
 //! rated      objects with their rates, in a reader's words
@@ -23,6 +24,7 @@ pub mod figures;
 pub mod list;
 pub mod object;
 mod page;
+mod pen;
 pub mod portrait;
 pub mod rated;
 pub mod response;

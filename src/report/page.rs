@@ -92,11 +92,19 @@ impl Page {
             class = class,
             before = before,
             after = after,
-            moving = self.moving.concat(),
+            moving = blocks(&self.moving),
             figures = others.concat(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             made = escape(&self.made),
         )
+    }
+}
+
+/// What moves, beside each other.
+fn blocks(moving: &[String]) -> String {
+    match moving {
+        [] => String::new(),
+        _ => format!("<div class=\"blocks\">\n{}</div>\n", moving.concat()),
     }
 }
 

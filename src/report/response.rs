@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::figure::{Axis, Dash, Figure, Ink, Layer, Panel, Side};
 use super::figures::envelope;
 use super::page::Page;
-use super::text::{escape, literal};
+use super::text::{escape, html, literal};
 use crate::number;
 use crate::rocking::SolverEvent;
 use crate::units::G_M_S2;
@@ -146,15 +146,23 @@ pub fn page(all: &[TracedResponse]) -> Page {
         several => format!("{} over time", number::counted(several.len(), "response")),
     };
     let sentences: Vec<String> = all.iter().map(TracedResponse::sentence).collect();
-    let (first, others) = sentences.split_at(sentences.len().min(1));
+    let first = &sentences[..sentences.len().min(1)];
     Page {
         title,
         place: all.first().map_or(String::new(), TracedResponse::size),
         sentence: first.concat(),
-        moving: all.iter().enumerate().map(|(id, response)| moving(response, id)).collect(),
-        facts: others.to_vec(),
+        moving: all.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
         ..Page::default()
     }
+}
+
+/// The block as it moves, with what came of it.
+fn with_words(response: &TracedResponse, id: usize) -> String {
+    format!(
+        "<div>\n{}<p class=\"caption\">{}</p>\n</div>\n",
+        moving(response, id),
+        html(&response.sentence())
+    )
 }
 
 /// A keyframe: the time as a fraction of all, the rotation in degrees, and the corner about which.
