@@ -91,7 +91,10 @@ pub fn html_of_panels(figure: &Figure) -> String {
             words => format!("<figcaption>{}</figcaption>\n", html(words)),
         };
         let small = svg_of_panel(panel, name, figure, NARROW, if is_wide { "small" } else { "" });
-        let wide = is_wide.then(|| svg_of_panel(panel, name, figure, WIDE, "wide")).unwrap_or_default();
+        let wide = match is_wide {
+            true => svg_of_panel(panel, name, figure, WIDE, "wide"),
+            false => String::new(),
+        };
         let legend = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
         format!("<figure>\n{wide}{small}{legend}{caption}</figure>\n")
     };
@@ -377,7 +380,7 @@ impl Pen {
                 let places: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
                 let (radius, opacity) = match points.len() {
                     ..6 => (2.2, 1.0),
-                    ..FEW_POINTS => (1.3, 0.85),
+                    6..FEW_POINTS => (1.3, 0.85),
                     _ => (0.8, 0.5),
                 };
                 self.dots(&places, radius, colour, opacity);

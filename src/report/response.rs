@@ -87,7 +87,8 @@ impl TracedResponse {
         let end = self.points.last().map_or(0.0, |point| point.time_s);
         let Some(first) = events.next() else { return [0.0, end.min(10.0)] };
         let moving = self.points.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
-        let last = events.last().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
+        let last =
+            events.next_back().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
         [(first - AROUND_S).max(0.0), (last + AROUND_S).min(end)]
     }
 }

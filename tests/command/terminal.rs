@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use arrow_array::builder::{Float64Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, StringArray};
-use rockfrag::stages::ida::CapacityFitRow;
+use rockfrag::table::capacities::CapacityFitRow;
 use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
