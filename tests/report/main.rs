@@ -3,7 +3,7 @@
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
 use rockfrag::motion::IntensityMeasures;
-use rockfrag::number;
+use rockfrag::number::{self, Limited};
 use rockfrag::object::Part;
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
@@ -63,7 +63,7 @@ fn tables(count: usize) -> (Vec<Cases>, Fits) {
     (groups, tables)
 }
 
-fn limited(value: f64) -> number::Limited {
+fn limited(value: f64) -> Limited {
     Estimate { value, low: 0.3 * value, high: 3.0 * value }.into()
 }
 
