@@ -73,7 +73,10 @@ except ImportError as error:
 
 def test_a_result_is_a_frame_of_pandas_and_a_cell_of_a_notebook(responses):
     frame = pandas.DataFrame(responses)
-    pandas.testing.assert_frame_equal(frame, responses.to_pandas(), check_dtype=False)
+    # A column without a value has no type.
+    known, same = frame.dropna(axis=1, how="all"), responses.to_pandas().dropna(axis=1, how="all")
+    pandas.testing.assert_frame_equal(known, same, check_dtype=False)
+    assert list(frame.columns) == responses.to_polars().columns
     assert responses.summary.splitlines()[0] in responses._repr_html_()
 
 
@@ -187,8 +190,8 @@ def test_masks_are_honoured():
     wrong = np.ma.masked_array(np.where(hidden, -1.0, im), hidden)
     fit, expected = rockfrag.fit_fragility(wrong, outcome), rockfrag.fit_fragility(im[~hidden], outcome[~hidden])
     assert (fit.n, fit.theta) == (expected.n, expected.theta)
-    curve = rockfrag.probability(np.ma.masked_array([0.5, 0.9], [True, False]), 0.6, **BLOCK)
-    assert np.isnan(curve.p_f[0]) and curve.p_f[1] == rockfrag.probability(0.9, 0.6, **BLOCK).p_f
+    with pytest.raises(ValueError, match=r"pga has no value at \[1\]"):
+        rockfrag.probability(np.ma.masked_array([0.5, 0.9], [False, True]), 0.6, **BLOCK)
     with pytest.raises(ValueError, match="sample 1 of the acceleration is NaN"):
         rockfrag.simulate_motion(np.ma.masked_array([0.1, 0.2, 0.3], [False, True, False]), 0.01, **BLOCK)
 

@@ -1,6 +1,6 @@
 """Arrays: one motion through one structure, the curve of given outcomes, probabilities at intensities.
 
-Masked entries of a masked array are unknown: NaN, and left out of fits.
+Masked entries of a masked array are unknown: left out of fits, and refused elsewhere.
 """
 
 from __future__ import annotations
@@ -248,6 +248,9 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
         Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
     """
     given = np.broadcast_arrays(known(pga), known(pgv))
+    for name, peaks in zip(("pga", "pgv"), given, strict=True):
+        if np.isnan(peaks).any():
+            raise ValueError(f"{name} has no value at {np.argwhere(np.isnan(peaks))[0].tolist()}")
     names = [field.name for field in fields(Probabilities) if field.name.startswith("p_")]
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
