@@ -41,7 +41,6 @@ def test_an_unknown_option_names_the_nearest(motions):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({}, ValueError, "no structure; expected width and height"),
         ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "invalid value 'x' for 'p"),
         ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "15.*alpha.* is it in degrees"),
         ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
