@@ -71,7 +71,7 @@ impl Warning {
             UnreadableFile => "not imported",
             UnusedColumns => "columns not used by rockfrag",
             LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
-            OneDirection => "in the weaker direction alone: a response is to one component of a motion",
+            OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
             NoPartner => "no perpendicular component: left out",
         }
@@ -120,6 +120,11 @@ impl Warnings {
             subjects.named.extend(others.named);
             subjects.named.truncate(NAMED);
         }
+    }
+
+    /// Drops a warning that does not hold after all.
+    pub fn remove(&mut self, warning: Warning) {
+        self.0.remove(&warning);
     }
 
     /// Joins the warnings of another stage about the same subjects: the one about more of them stays.

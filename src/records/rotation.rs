@@ -9,10 +9,29 @@ use crate::motion::measures::{peak, velocity};
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;
 
+/// What tells which components are of one instrument.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Component {
+    pub event: Option<String>,
+    pub station: Option<String>,
+    pub dt_s: f64,
+    /// None of a vertical component.
+    pub azimuth_deg: Option<f64>,
+}
+
+impl Component {
+    /// Describes a record.
+    pub fn new(motion: &RecordedMotion) -> Component {
+        let RecordedMotion { event, station, dt_s, azimuth_deg, .. } = motion;
+        Component { event: event.clone(), station: station.clone(), dt_s: *dt_s, azimuth_deg: *azimuth_deg }
+    }
+}
+
 /// Pairs each component with the first free earlier one of its event, station and time step at right angles;
 /// `T` identifies a component. Returns the pairs in the order of their first components, and the components
 /// left out: vertical, of unknown origin, or without a partner.
-pub fn pairs<T>(components: Vec<(RecordedMotion, T)>) -> (Vec<[T; 2]>, Vec<T>) {
+pub fn pairs<T>(components: Vec<(Component, T)>) -> (Vec<[T; 2]>, Vec<T>) {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();
     for (place, (motion, _)) in components.iter().enumerate() {

@@ -24,7 +24,7 @@ use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion, Part};
 use crate::table::responses::{self, TraceRow};
 use crate::table::rows;
-use crate::warning::Warnings;
+use crate::warning::{Warning, Warnings};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
@@ -72,9 +72,13 @@ impl Stage for Simulate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, warnings) = self.structures.or_paper().resolve()?;
-        context.warn(warnings);
+        let (structures, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
+        let plan = self.plan(&structures)?;
+        if !plan.second.is_empty() {
+            warnings.remove(Warning::OneDirection);
+        }
+        context.warn(warnings);
         self.expect_traced(&motions)?;
         let out = out_of_partition(&self.out, self.partition);
         let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
@@ -90,7 +94,7 @@ impl Stage for Simulate {
             let simulate_chunk = |chunk: Result<_, TableError>| {
                 let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
                 bar.advance(chunk.len())?;
-                pool.with(|scratch| self.respond(&path, &chunk, &structures, scratch))
+                pool.with(|scratch| self.respond(&path, &chunk, &plan, scratch))
             };
             motions::read_part(&motions, part, CHUNK)?.map(simulate_chunk).collect()
         };
@@ -139,7 +143,35 @@ struct Responded {
     overturned: Vec<(usize, String)>,
 }
 
+/// Which structures each motion shakes.
+struct Plan {
+    /// Directions of each object, the weaker first; a body without depth has the same twice.
+    directions: Vec<[Structure; 2]>,
+    /// Motions that are the second of a pair, which shakes the other direction.
+    second: HashSet<String>,
+}
+
+impl Plan {
+    fn structures(&self, motion: &Motion) -> impl Iterator<Item = &Structure> {
+        let direction = usize::from(self.second.contains(&motion.motion_id));
+        self.directions.iter().map(move |directions| &directions[direction])
+    }
+}
+
 impl Simulate {
+    /// Plans which component of a pair shakes which direction of an object with a depth.
+    fn plan(&self, structures: &[Structure]) -> anyhow::Result<Plan> {
+        let others = self.structures.or_paper().other_directions(structures)?;
+        let second = match others.iter().any(Option::is_some) {
+            true => motions::second_of_pairs(&Table::open(&self.input)?)?,
+            false => HashSet::new(),
+        };
+        let both = |(structure, other): (&Structure, Option<Structure>)| {
+            [structure.clone(), other.unwrap_or_else(|| structure.clone())]
+        };
+        Ok(Plan { directions: structures.iter().zip(others).map(both).collect(), second })
+    }
+
     fn is_traced(&self, motion_id: &str) -> bool {
         self.trace.iter().any(|traced| traced == ALL || traced == motion_id)
     }
@@ -169,19 +201,21 @@ impl Simulate {
         &self,
         path: &Path,
         motions: &[Motion],
-        structures: &[Structure],
+        plan: &Plan,
         scratch: &mut MeasureScratch,
     ) -> anyhow::Result<Responded> {
         let records = motions.iter().map(|motion| motion.record(path)).collect::<Result<Vec<_>, _>>()?;
-        let of_record = |&record| structures.iter().map(move |structure| Problem { structure, record });
-        let problems: Vec<Problem> = records.iter().flat_map(of_record).collect();
+        let mut problems = Vec::new();
+        for (motion, &record) in motions.iter().zip(&records) {
+            problems.extend(plan.structures(motion).map(|structure| Problem { structure, record }));
+        }
         let mut responses = simulate_all(&problems).into_iter();
         let (mut rows, mut measured) =
             (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
         let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Vec::new());
         for (motion, record) in motions.iter().zip(&records) {
             let measures = Measures::new(motion, record, scratch);
-            for (index, (structure, response)) in structures.iter().zip(&mut responses).enumerate() {
+            for (index, (structure, response)) in plan.structures(motion).zip(&mut responses).enumerate() {
                 if response.outcome == Outcome::Overturning {
                     overturned.push((index, motion.motion_id.clone()));
                 }
@@ -189,7 +223,7 @@ impl Simulate {
                 measured.push(measures.of_structure(structure));
             }
             if self.is_traced(&motion.motion_id) {
-                for structure in structures {
+                for structure in plan.structures(motion) {
                     traces.extend(trace_rows(motion, record, structure)?);
                 }
             }

@@ -47,7 +47,7 @@ impl Batch {
     }
 
     fn out_of_range(&self, row: usize, name: &str, found: Option<f64>) -> TableError {
-        let found = found.map_or("no number".to_string(), |number| number.to_string());
+        let found = found.map_or("no number".to_string(), |number| format!("{number:?}"));
         self.value_error(row, name, format!("{found}; expected {}", range_of_column(name).expected))
     }
 

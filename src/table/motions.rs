@@ -2,6 +2,7 @@
 //! acceleration_m_s2.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,6 +16,7 @@ use super::dictionary;
 use super::file::{Partition, RowGroup, Table, or_error};
 use super::lists::Lists;
 use super::rows::side_by_side;
+use crate::records::rotation::{Component, pairs};
 use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
@@ -158,6 +160,23 @@ pub fn record<'a>(
         let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
         TableError::value(path, row, column, problem)
     })
+}
+
+/// The names of motions that are the second of two horizontal components of an instrument.
+pub fn second_of_pairs(table: &Table) -> Result<HashSet<String>, TableError> {
+    const COLUMNS: [&str; 5] = ["motion_id", "earthquake", "station", "azimuth_deg", "dt_s"];
+    let mut components = Vec::new();
+    for batch in table.batches(&|name| COLUMNS.contains(&name)) {
+        let batch = batch?;
+        let (events, stations) = (batch.texts("earthquake")?, batch.texts("station")?);
+        let (azimuths, dt) = (batch.numbers("azimuth_deg")?, batch.required_numbers("dt_s")?);
+        for (row, id) in batch.required_texts("motion_id")?.into_iter().enumerate() {
+            let [event, station] = [&events, &stations].map(|texts| texts[row].clone().map(Cow::into_owned));
+            let component = Component { event, station, dt_s: dt[row], azimuth_deg: azimuths[row] };
+            components.push((component, id.into_owned()));
+        }
+    }
+    Ok(pairs(components).0.into_iter().map(|[_, second]| second).collect())
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.

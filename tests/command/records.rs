@@ -130,3 +130,38 @@ fn a_time_step_that_lowers_the_peak_is_told() {
     let (_, lowered) = succeed(folder.path(), &format!("{import} --resample 0.04"));
     assert!(!kept.contains("lower") && lowered.contains("% lower"), "{kept} {lowered}");
 }
+
+/// Names of structures and motions in the responses.
+fn responses(folder: &Path) -> Vec<(String, String)> {
+    let table = Table::open(&folder.join("responses.parquet")).unwrap();
+    let mut all = Vec::new();
+    for batch in table.batches(&|_| true) {
+        let batch = batch.unwrap();
+        let names = [batch.required_texts("motion_id").unwrap(), batch.required_texts("structure").unwrap()];
+        let rows = (0..names[0].len()).map(|row| (names[0][row].to_string(), names[1][row].to_string()));
+        all.extend(rows);
+    }
+    all
+}
+
+#[test]
+fn each_component_of_a_pair_shakes_its_direction_of_an_object() {
+    let (first, second) = (at2("140", 0.3), at2("230", 0.2));
+    let other = at2("140", 0.25).replace("El Centro #4", "Bonds Corner");
+    let folder = folder(&[("a.AT2", &*first), ("b.AT2", &second), ("c.AT2", &other)]);
+    succeed(folder.path(), "import-motions a.AT2 b.AT2 c.AT2");
+    let (_, told) = succeed(folder.path(), "simulate --width 0.5 --depth 0.8 --height 1.9");
+    let other = "structure, other direction";
+    let expected = [("a", "structure"), ("b", other), ("c", "structure")];
+    assert_eq!(responses(folder.path()), expected.map(|(a, b)| (a.to_string(), b.to_string())));
+    assert!(!told.contains("weaker"), "{told}");
+    // Without a pair, or a depth, each motion shakes the weaker direction.
+    for options in [
+        "--in motions.parquet --width 0.5 --height 1.9",
+        "--in c.parquet --width 0.5 --depth 0.8 --height 1.9",
+    ] {
+        succeed(folder.path(), "import-motions c.AT2 --out c.parquet --force");
+        succeed(folder.path(), &format!("simulate {options} --force"));
+        assert!(responses(folder.path()).iter().all(|(_, name)| name == "structure"), "{options}");
+    }
+}

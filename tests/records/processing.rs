@@ -2,10 +2,8 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::records::RecordedMotion;
-use rockfrag::records::rotation::{HorizontalPair, pairs};
+use rockfrag::records::rotation::{Component, HorizontalPair, pairs};
 use rockfrag::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
-use rockfrag::units::Unit;
 
 use crate::writers::{DT, motion, peak};
 
@@ -91,8 +89,7 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
     let component = |((station, azimuth), place): ((&str, f64), usize)| {
         let (station, azimuth_deg) =
             (Some(station.to_string()), Some(azimuth).filter(|azimuth| !azimuth.is_nan()));
-        let unknown = RecordedMotion::new(DT, Vec::new(), Unit::parse("m/s2").unwrap());
-        (RecordedMotion { station, azimuth_deg, ..unknown }, place)
+        (Component { event: None, station, dt_s: DT, azimuth_deg }, place)
     };
     let found = pairs(components.into_iter().zip(0..).map(component).collect());
     assert_eq!(found, (vec![[0, 3], [1, 5]], vec![2, 4]));

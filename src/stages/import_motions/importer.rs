@@ -14,7 +14,7 @@ use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::records::implausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
-use crate::records::rotation::pairs;
+use crate::records::rotation::{Component, pairs};
 use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use crate::rocking::Record;
 use crate::table::keys;
@@ -92,8 +92,7 @@ impl Importer {
                     continue;
                 }
                 // Samples are read again once a pair is found: that takes less memory than keeping all of them.
-                let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..record.motion };
-                components.push((motion, (file.clone(), index)));
+                components.push((Component::new(&record.motion), (file.clone(), index)));
             }
         }
         let horizontal = counted(components.len(), "horizontal component");

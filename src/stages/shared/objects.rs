@@ -171,6 +171,17 @@ impl StructureArgs {
         }
     }
 
+    /// Finds the other direction of each structure; none of a body without depth.
+    pub fn other_directions(&self, structures: &[Structure]) -> anyhow::Result<Vec<Option<Structure>>> {
+        let (objects, _) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
+        let other = |structure: &Structure| {
+            let object = objects.iter().find(|object| object.name == structure.name)?;
+            let other = object.sides().ok()?.into_iter().nth(1)?.structure;
+            Some(Structure { name: format!("{}, other direction", structure.name), ..other })
+        };
+        Ok(structures.iter().map(other).collect())
+    }
+
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
     /// them.
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
