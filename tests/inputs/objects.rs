@@ -118,7 +118,7 @@ fn fifteen_objects_are_the_same_in_every_form() {
 
     let levels: Vec<String> =
         LIST.iter().map(|row| (row[6].parse::<f64>().unwrap() / 5.0).to_string()).collect();
-    let period = (0.0466 * 17.5_f64.powf(0.9)).to_string();
+    let period = place.period.unwrap().to_string();
     let with_levels = LIST.iter().zip(&levels).map(|(row, level)| {
         let period = if row[6] == "0" { "" } else { &period };
         [&row[..6], &[level.as_str(), period]].concat()
