@@ -7,9 +7,10 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, Sample, grouped};
+use super::measure::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, Kind, Predictor, Prior, predictor};
-use super::tree::Z_95;
+use super::surface::{self, Cut, Kind, Predictor, Prior, Section, predictor};
+use super::tree::{LimitStates, Z_95};
 use crate::motion::IntensityMeasures;
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
@@ -25,6 +26,41 @@ pub enum Scenarios {
     One,
     /// An average over many, as over a hazard: they do not.
     Many,
+}
+
+/// A probability is taken at its estimate or at one of its 95 % limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Level {
+    Estimate,
+    Low(Scenarios),
+    High(Scenarios),
+}
+
+impl Level {
+    /// Computes an estimate and its limits.
+    pub fn all(scenarios: Scenarios, p_at: impl Fn(Level) -> f64) -> Estimate {
+        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
+        Estimate { value: p_at(Level::Estimate), low, high }
+    }
+
+    /// Computes the estimates of all limit states and their limits.
+    pub fn limit_states(
+        scenarios: Scenarios,
+        p_at: impl Fn(Level) -> LimitStates<f64>,
+    ) -> LimitStates<Estimate> {
+        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
+        let limits = low.zip(high, |low, high| (low, high));
+        p_at(Level::Estimate).zip(limits, |value, (low, high)| Estimate { value, low, high })
+    }
+
+    /// Returns the value of an estimate, or one of its limits.
+    pub fn of(self, estimate: Estimate) -> f64 {
+        match self {
+            Level::Estimate => estimate.value,
+            Level::Low(_) => estimate.low,
+            Level::High(_) => estimate.high,
+        }
+    }
 }
 
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
@@ -150,10 +186,12 @@ impl Calibration {
         for outcome in outcomes {
             let ObservedOutcome { structure, pga_m_s2, pgv_m_s, mw, .. } = outcome;
             let measures = IntensityMeasures::new(structure, *pga_m_s2, *pgv_m_s, None, None);
-            let Some(predictor) = shipped.predictor(structure, &measures, *mw) else { continue };
+            let predictor = shipped.predictor(structure, &measures, *mw);
+            let p = shipped.probability(structure, &measures, *mw, Scenarios::Many);
+            let Some((predictor, p)) = predictor.zip(p) else { continue };
             if predictor.added.is_finite() {
                 let peaks = [*pga_m_s2, *pgv_m_s, pgv_m_s / pga_m_s2];
-                sample.y.push(Observed { predictor, happened: outcome.fell, peaks });
+                sample.y.push(Observed { predictor, happened: outcome.fell, expected: p.value, peaks });
                 sample.clusters.push(outcome.earthquake);
             }
         }
@@ -169,7 +207,7 @@ impl Calibration {
     /// The same, fitted to cases of the same kind.
     fn fitted(self, sample: Sample<Observed>) -> Calibration {
         let prior = surface::prior(self.kind, self.limit_state);
-        let expected = sample.y.iter().map(|case| logistic(self.calibrated(&case.predictor))).sum();
+        let expected = sample.y.iter().map(|case| case.expected).sum();
         let (at, covariance, n_clusters) = maximum(&sample, &prior);
         let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] =
             [0, 1, 2].map(|k| ends(sample.y.iter().map(|case| case.peaks[k])));
@@ -203,26 +241,26 @@ impl Calibration {
         predictor(self.kind, structure, measures, mw, self.limit_state)
     }
 
-    fn calibrated(&self, motion: &Predictor) -> f64 {
-        self.c + self.ln_s.exp() * motion.logit + self.m * self.magnitude(motion) + motion.added
+    /// The calibrated surface for a structure and motions of a magnitude, if it is known.
+    pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
+        let by = [self.c, self.ln_s.exp(), self.m];
+        Branch { calibration: self, section: Section::new(self.kind, structure, self.limit_state, by, mw) }
     }
 
-    /// M - 6.9. That which PGV / PGA tells does not count where P falls with it: P never falls as PGV rises.
-    fn magnitude(&self, motion: &Predictor) -> f64 {
-        if self.m < 0.0 && motion.magnitude_sd > 0.0 { motion.middle } else { motion.magnitude }
-    }
-
-    /// Computes the calibrated probability, with 95 % limits: those of c + s L + m (M - 6.9) by the delta
-    /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
-    pub fn probability(&self, motion: &Predictor, scenarios: Scenarios) -> Estimate {
-        let by_parameters = [1.0, self.ln_s.exp() * motion.logit, self.magnitude(motion)];
-        let between = match scenarios {
-            Scenarios::One => self.tau.hypot(self.m * motion.magnitude_sd),
-            Scenarios::Many => 0.0,
-        };
-        let half_width = Z_95 * variance(&self.covariance, &by_parameters).sqrt().hypot(between);
-        let z = self.calibrated(motion);
-        Estimate::shifted(half_width, |shift| logistic(z + shift))
+    /// Computes the calibrated probability given rocking, with limits; none where a measure is missing.
+    pub fn probability(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+        scenarios: Scenarios,
+    ) -> Option<Estimate> {
+        let im5 = Measure::Im5.value_of(measures)?;
+        let ln_seconds = (im5 / (measures.im4 * structure.p_rad_s)).ln();
+        let branch = self.branch(structure, mw);
+        let (cut, magnitude) = (branch.at(measures.im4, measures.im4.ln()), branch.magnitude(ln_seconds));
+        let p = |level| logistic(branch.logit(&cut, ln_seconds, magnitude, level));
+        Some(Level::all(scenarios, p))
     }
 
     /// It with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
@@ -269,7 +307,45 @@ impl Calibration {
     }
 }
 
-fn logistic(z: f64) -> f64 {
+/// P_ro or P_ex of a structure under motions of one magnitude: ready for many of them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Branch<'a> {
+    calibration: &'a Calibration,
+    section: Section,
+}
+
+impl Branch<'_> {
+    /// What is left of it at an IM4 and its logarithm.
+    pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
+        self.section.at(im4, ln_im4)
+    }
+
+    /// M - 6.9 of motions with this ln(PGV / PGA), s.
+    pub fn magnitude(&self, ln_seconds: f64) -> f64 {
+        self.section.magnitude(ln_seconds)
+    }
+
+    /// Computes c + s L + m (M - 6.9) + g. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta
+    /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
+    pub fn logit(&self, cut: &Cut, ln_seconds: f64, magnitude: f64, level: Level) -> f64 {
+        let Branch { calibration, section } = self;
+        let of_surface = cut.logit(ln_seconds);
+        let logit = of_surface + section.m * magnitude + cut.gain(ln_seconds);
+        let (sign, scenarios) = match level {
+            Level::Estimate => return logit,
+            Level::Low(scenarios) => (-1.0, scenarios),
+            Level::High(scenarios) => (1.0, scenarios),
+        };
+        let by_parameters = [1.0, of_surface - calibration.c, magnitude];
+        let between = match scenarios {
+            Scenarios::One => calibration.tau.hypot(section.m * section.magnitude_sd),
+            Scenarios::Many => 0.0,
+        };
+        logit + sign * Z_95 * variance(&calibration.covariance, &by_parameters).sqrt().hypot(between)
+    }
+}
+
+pub(super) fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
@@ -283,6 +359,8 @@ struct Observed {
     /// What the surface says of it.
     predictor: Predictor,
     happened: bool,
+    /// The probability by the surface for the kind of motion.
+    expected: f64,
     /// PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motion.
     peaks: [f64; 3],
 }
@@ -295,10 +373,12 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
     cases.sample(&[], |case| {
         let happened = cases.happened(case, event, limit_state)?;
         let mw = cases.magnitude(case);
-        let predictor = shipped.predictor(&cases.structure, &cases.measures(case), mw)?;
+        let (structure, measures) = (&cases.structure, cases.measures(case));
+        let predictor = shipped.predictor(structure, &measures, mw)?;
+        let expected = shipped.probability(structure, &measures, mw, Scenarios::Many)?.value;
         let (pga, pgv) = (cases.pga_m_s2[case], cases.pgv_m_s[case]);
         let is_finite = predictor.logit.is_finite() && predictor.added.is_finite();
-        is_finite.then_some(Observed { predictor, happened, peaks: [pga, pgv, pgv / pga] })
+        is_finite.then_some(Observed { predictor, happened, expected, peaks: [pga, pgv, pgv / pga] })
     })
 }
 

@@ -2,44 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::calibration::Scenarios;
+use super::calibration::{Level, Scenarios};
 use super::model::{Direction, Model};
 use super::peaks::{Peak, RatioGiven};
-use super::tree::{LimitStates, UNKNOWN};
-use crate::motion::IntensityMeasures;
+use super::ready::ReadyObject;
+use super::tree::LimitStates;
 use crate::statistics::Estimate;
 use crate::statistics::numerics::{first, quadrature};
-
-/// Motions of a given PGA or PGV, and the object.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GivenPeak<'a> {
-    /// The directions in which the object falls.
-    pub directions: &'a [Direction],
-    /// The peak that is given.
-    pub peak: Peak,
-    /// PGV / PGA of the motions, given the peak.
-    pub ratio: RatioGiven,
-    /// Magnitude of the motions; `None`: inferred from PGV / PGA.
-    pub mw: Option<f64>,
-}
-
-/// Probabilities of LS1, LS2 and LS3 of an object under motions of a PGA and PGV (m/s2 and m/s): in either of
-/// its directions, which fall independently under one motion. NaN where a model has none.
-pub(crate) fn limit_states_at(
-    directions: &[Direction],
-    [pga_m_s2, pgv_m_s]: [f64; 2],
-    mw: Option<f64>,
-    scenarios: Scenarios,
-) -> LimitStates<Estimate> {
-    let in_direction = |Direction { structure, model }: &Direction| {
-        let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
-        let probabilities = model.probabilities(structure, &measures, mw, scenarios);
-        let rocking = Estimate::exact(1.0 - probabilities.p_nr);
-        probabilities.limit_states().unwrap_or(LimitStates { rocking, ..LimitStates::all(UNKNOWN) })
-    };
-    let either = |a: LimitStates<Estimate>, b| a.zip(b, |a, b| a.zip(b, |a, b| a + b - a * b));
-    directions.iter().map(in_direction).reduce(either).unwrap_or(LimitStates::all(Estimate::exact(0.0)))
-}
 
 /// Standard deviations from the median within which all ratios lie that count.
 const FARTHEST: f64 = 6.0;
@@ -53,7 +22,54 @@ const PANEL: f64 = 1.6;
 /// PGV between which the uplift of any structure is sought, m/s.
 const SOUGHT_M_S: [f64; 2] = [1e-6, 1e3];
 
-impl GivenPeak<'_> {
+/// An object under motions of which one peak is given.
+pub struct GivenPeak<'a> {
+    /// The directions in which the object falls.
+    pub directions: &'a [Direction],
+    ready: ReadyObject<'a>,
+    /// The peak that is given.
+    pub peak: Peak,
+    ratio: RatioGiven,
+    /// Magnitude of the motions; `None`: inferred from PGV / PGA.
+    pub mw: Option<f64>,
+    /// Of motions of one PGA.
+    nodes: Vec<Node>,
+    /// Least PGA that uplifts it, m/s2.
+    uplift_m_s2: f64,
+}
+
+/// Motions that stand for others: standard deviations of ln(PGV / PGA) from its median, and weight.
+struct Node {
+    deviations: f64,
+    weight: f64,
+}
+
+impl<'a> GivenPeak<'a> {
+    /// Makes an object, in the directions in which it falls, ready for motions of which this peak is given and
+    /// PGV / PGA has this distribution. `mw` is their magnitude; `None`: inferred from PGV / PGA.
+    pub fn new(
+        directions: &'a [Direction],
+        peak: Peak,
+        ratio: RatioGiven,
+        mw: Option<f64>,
+    ) -> GivenPeak<'a> {
+        let is_on_floor = directions.iter().all(|direction| direction.model.floor().is_some());
+        let step = if is_on_floor { STEP_ON_FLOORS } else { STEP };
+        let last = (FARTHEST / step).ceil() as i32;
+        let node = |k: i32| {
+            let deviations = step * f64::from(k);
+            Node { deviations, weight: step * density(deviations) }
+        };
+        let nodes = match ratio.is_exact() {
+            true => vec![Node { deviations: 0.0, weight: 1.0 }],
+            false => (-last..=last).map(node).collect(),
+        };
+        let uplifts = directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure)[0]);
+        let uplift_m_s2 = uplifts.fold(f64::INFINITY, f64::min);
+        let ready = ReadyObject::new(directions, mw);
+        GivenPeak { directions, ready, peak, ratio, mw, nodes, uplift_m_s2 }
+    }
+
     /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard
     /// deviations above its median.
     pub fn peaks(&self, intensity: f64, deviations: f64) -> [f64; 2] {
@@ -64,26 +80,40 @@ impl GivenPeak<'_> {
         }
     }
 
-    /// Probabilities of LS1, LS2 and LS3 at an intensity, with limits; NaN where the model has none.
-    pub fn limit_states(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Estimate> {
-        let mut mean = LimitStates::all(Estimate::exact(0.0));
-        let uplifts =
-            |Direction { structure, model }: &Direction| intensity >= model.uplift_m_s2(structure)[0];
-        if self.peak == Peak::Pga && !self.directions.iter().any(uplifts) {
-            return mean;
-        }
-        for (node, weight) in self.nodes(intensity) {
-            let peaks = self.peaks(intensity, node);
-            let states = limit_states_at(self.directions, peaks, self.mw, scenarios);
-            mean = mean.zip(states, |sum, state| sum.zip(state, |sum, p| sum + weight * p));
+    /// Probabilities of the limit states at an intensity; NaN where the model has none.
+    pub fn limit_states(&self, intensity: f64) -> LimitStates<f64> {
+        self.at_level(intensity, Level::Estimate)
+    }
+
+    /// The same with limits.
+    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Estimate> {
+        Level::limit_states(scenarios, |level| self.at_level(intensity, level))
+    }
+
+    fn at_level(&self, intensity: f64, level: Level) -> LimitStates<f64> {
+        let mut mean = LimitStates::all(0.0);
+        let mut add = |node: &Node, at: LimitStates<f64>| mean = mean.zip(at, |sum, p| sum + node.weight * p);
+        match self.peak {
+            Peak::Pga if intensity < self.uplift_m_s2 => {}
+            Peak::Pga => {
+                let (object, ln_pga) = (self.ready.at(intensity), intensity.ln());
+                for node in &self.nodes {
+                    add(node, object.limit_states(self.ratio.ln_ratio(ln_pga, node.deviations), level));
+                }
+            }
+            Peak::Pgv => {
+                for node in self.nodes_of_pgv(intensity) {
+                    let [pga, pgv] = self.peaks(intensity, node.deviations);
+                    add(&node, self.ready.at(pga).limit_states((pgv / pga).ln(), level));
+                }
+            }
         }
         mean
     }
 
     /// Least intensity that uplifts the object, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> [f64; 2] {
-        let of_all =
-            self.directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure));
+        let of_all = self.directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure));
         let [least, usual] = of_all.fold([f64::INFINITY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
         [self.intensity_of(least, -FARTHEST), self.intensity_of(usual, 0.0)]
     }
@@ -127,23 +157,14 @@ impl GivenPeak<'_> {
         first(low, high, |ln_pgv| self.peaks(ln_pgv.exp(), node)[0] >= pga_m_s2).exp()
     }
 
-    /// Standard deviations from the median, with weights that sum to 1, but for motions of too little PGA.
-    fn nodes(&self, intensity: f64) -> Vec<(f64, f64)> {
-        let density = |z: f64| (-0.5 * z * z).exp() / TAU.sqrt();
-        match (self.ratio.is_exact(), self.peak) {
-            (false, Peak::Pga) => {
-                let is_on_floor = self.directions.iter().all(|direction| direction.model.floor().is_some());
-                let step = if is_on_floor { STEP_ON_FLOORS } else { STEP };
-                let last = (FARTHEST / step).ceil() as i32;
-                (-last..=last).map(|k| step * f64::from(k)).map(|z| (z, step * density(z))).collect()
-            }
-            (false, Peak::Pgv) => {
-                let edges = self.edges(intensity);
-                let nodes = edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], PANEL));
-                nodes.map(|(z, width)| (z, width * density(z))).collect()
-            }
-            _ => vec![(0.0, 1.0)],
+    /// Motions that stand for those of a PGV; weights sum to 1, but for motions of too little PGA.
+    fn nodes_of_pgv(&self, pgv_m_s: f64) -> Vec<Node> {
+        if self.ratio.is_exact() {
+            return vec![Node { deviations: 0.0, weight: 1.0 }];
         }
+        let edges = self.edges(pgv_m_s);
+        let nodes = edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], PANEL));
+        nodes.map(|(deviations, width)| Node { deviations, weight: width * density(deviations) }).collect()
     }
 
     /// Standard deviations between which the motions of a PGV have probabilities without a jump.
@@ -158,4 +179,9 @@ impl GivenPeak<'_> {
         edges.dedup();
         edges
     }
+}
+
+/// The density of the standard normal distribution.
+fn density(z: f64) -> f64 {
+    (-0.5 * z * z).exp() / TAU.sqrt()
 }

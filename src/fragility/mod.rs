@@ -8,7 +8,7 @@
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
 //! model        the model that predicts: the calibrated surface, or the paper's fits
-//! on_floor     the model on a floor of a building
+//! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
 //! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
@@ -24,9 +24,11 @@ mod on_floor;
 mod overturning;
 mod parameter;
 mod peaks;
+mod ready;
 mod surface;
 mod tree;
 
+pub(crate) use calibration::Level;
 pub use calibration::{Calibration, ObservedOutcome, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{Cases, Cluster, Event, Group, Sample};
@@ -35,13 +37,13 @@ pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
 pub use given_peak::GivenPeak;
-pub(crate) use given_peak::limit_states_at;
 pub use measure::{Measure, Pair};
 pub use model::{Direction, Model, paper_probabilities};
 pub use overturning::{CurveFit, fit_curve, fit_curves};
 pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
 pub use parameter::{Parameter, ParameterRow};
 pub use peaks::{JointPeaks, Peak, RatioGiven};
+pub(crate) use ready::ReadyObject;
 pub use surface::{Kind, Predictor, predictor};
 pub use tree::{GivenRocking, LimitState, LimitStates, Probabilities, Z_95};
 pub use tree::{independent_failure, p_failure, p_failure_given_rocking, p_no_rocking};

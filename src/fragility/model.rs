@@ -1,14 +1,12 @@
 //! The model that predicts: the calibrated surface, or the curve and planes of the paper.
 
-use super::calibration::{Calibration, Scenarios};
+use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::on_floor;
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
-use super::surface::{self, Kind, Predictor};
-use super::tree::{
-    GivenRocking, Probabilities, UNKNOWN, independent_failure, p_failure_given_rocking, p_no_rocking,
-};
+use super::surface::{self, Kind};
+use super::tree::{GivenRocking, Probabilities, UNKNOWN, independent_failure, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
@@ -35,7 +33,7 @@ pub struct Direction {
 }
 
 /// Probability with which the limits hold the truth.
-const CONFIDENCE: f64 = 0.95;
+pub(super) const CONFIDENCE: f64 = 0.95;
 
 impl Model {
     /// Makes the model of a structure without fits: the surface for this kind of motion. `limit_state` is the
@@ -56,46 +54,6 @@ impl Model {
             }
             (model, None) => Some(model),
             (Model::Paper { .. }, Some(_)) => None,
-        }
-    }
-
-    /// The probabilities of the tree at an intensity (Eq. 12). A magnitude that is not known is estimated by
-    /// PGV / PGA.
-    pub fn probabilities(
-        &self,
-        structure: &Structure,
-        measures: &IntensityMeasures,
-        mw: Option<f64>,
-        scenarios: Scenarios,
-    ) -> Probabilities {
-        let (overturning, exceeding, floor) = match self {
-            Model::Calibrated { overturning, exceeding, floor, .. } => (overturning, exceeding, floor),
-            Model::Paper { demand, overturning, limit_state, .. } => {
-                return paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE);
-            }
-        };
-        let calibrations = [overturning, exceeding];
-        // Magnitude is that of the ground's motion, whatever a floor makes of it.
-        let of_ground = calibrations.map(|calibration| calibration.predictor(structure, measures, mw));
-        let given = |measures: &IntensityMeasures, added: [f64; 2]| {
-            let probability = |k: usize| {
-                let Predictor { magnitude, magnitude_sd, .. } = of_ground[k]?;
-                let here = calibrations[k].predictor(structure, measures, mw)?;
-                let here = Predictor { magnitude, magnitude_sd, added: here.added + added[k], ..here };
-                Some(calibrations[k].probability(&here, scenarios))
-            };
-            Probabilities::new(measures.im4, || {
-                let (p_ro, p_ex) = (probability(0)?, probability(1)?);
-                // What is not known of a structure moves both branches the same way.
-                Some(GivenRocking { p_ex, p_ro, p_failure: p_ro.zip(p_ex, p_failure_given_rocking) })
-            })
-        };
-        match floor {
-            Some(floor) => {
-                let limit_state = exceeding.limit_state.unwrap_or(f64::NAN);
-                on_floor::probabilities(*floor, structure, measures, limit_state, given)
-            }
-            None => given(measures, [0.0; 2]),
         }
     }
 

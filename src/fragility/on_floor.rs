@@ -1,10 +1,10 @@
-//! The probabilities on a floor: those at its own peaks, averaged over what they may be, and moved by how
-//! narrow the band of its motion is.
+//! The motions of a floor, given that of the ground: its own peaks, averaged over what they may be, and how
+//! narrow its band is, which moves the probabilities.
 
-use super::tree::{GivenRocking, LimitState, Probabilities};
-use crate::motion::{Floor, IntensityMeasures, floor};
+use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
+use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
-use crate::statistics::{Estimate, normal};
+use crate::statistics::normal;
 
 /// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its
 /// velocity; of P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
@@ -14,10 +14,18 @@ const EXCEEDING: [f64; 3] = [-0.09, 1.74, -1.22];
 /// most.
 const MOST_AMPLIFIED: f64 = 7.0;
 const MEDIAN_AMPLIFIED: f64 = 2.5;
-/// Seven nodes of the standard normal in a plane, exact to degree 5: the middle, and six around it (Stroud
-/// 1971).
-const AROUND: (f64, f64) = (2.0, 1.0 / 12.0);
-const MIDDLE: f64 = 0.5;
+/// Seven nodes of the standard normal in a plane with their weights, exact to degree 5: the middle, and six
+/// around it (Stroud 1971).
+const NODES: [[f64; 3]; 7] = [
+    [2.0, 0.0, 1.0 / 12.0],
+    [1.0, ROOT_3, 1.0 / 12.0],
+    [-1.0, ROOT_3, 1.0 / 12.0],
+    [-2.0, 0.0, 1.0 / 12.0],
+    [-1.0, -ROOT_3, 1.0 / 12.0],
+    [1.0, -ROOT_3, 1.0 / 12.0],
+    [0.0, 0.0, 0.5],
+];
+const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
 /// Ground accelerations that uplift a structure on a floor: by the strongest floor, and by a usual one, m/s2.
 pub(super) fn uplift_m_s2(structure: &Structure) -> [f64; 2] {
@@ -35,48 +43,71 @@ pub(super) fn median_measures(
     IntensityMeasures::new(structure, peaks.pfa_m_s2, peaks.pfv_m_s, None, None)
 }
 
-/// Averages the probabilities over the peaks of a floor. `given` gives those at its measures, with this added
-/// to the logits of P_ro and P_ex.
-pub(super) fn probabilities(
-    floor: Floor,
-    structure: &Structure,
-    ground: &IntensityMeasures,
-    limit_state: f64,
-    given: impl Fn(&IntensityMeasures, [f64; 2]) -> Probabilities,
-) -> Probabilities {
-    let [pga, pgv] = ground.peaks(structure);
-    let peaks = floor.peaks(pga, pgv);
-    let narrow = (structure.p_rad_s * floor.period_s).ln();
-    let [a, b, by_limit] = EXCEEDING;
-    let added =
-        [OVERTURNING[0] + OVERTURNING[1] * narrow, a + by_limit * (limit_state / 0.1).ln() + b * narrow]
-            .map(|term| peaks.resonant_share * term);
-    let at = |x: f64, y: f64| {
-        let along = floor::CORRELATION * x + (1.0 - floor::CORRELATION.powi(2)).sqrt() * y;
-        let pfa = peaks.pfa_m_s2 * (peaks.sd_ln_pfa * x).exp();
-        let pfv = peaks.pfv_m_s * (peaks.sd_ln_pfv * along).exp();
-        given(&IntensityMeasures::new(structure, pfa, pfv, None, None), added)
-    };
-    let around = (0..6).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos());
-    let nodes = around.map(|(sin, cos)| (at(AROUND.0 * cos, AROUND.0 * sin), AROUND.1));
-    let nodes: Vec<(Probabilities, f64)> = nodes.chain([(at(0.0, 0.0), MIDDLE)]).collect();
-    let p_nr = match peaks.sd_ln_pfa > 0.0 {
-        true => normal::cdf((structure.uplift_acceleration_m_s2() / peaks.pfa_m_s2).ln() / peaks.sd_ln_pfa),
-        false => nodes[0].0.p_nr,
-    };
-    let rocks = 1.0 - p_nr;
-    let mean = |state: LimitState| {
-        let add = |sum: Estimate, (node, weight): &(Probabilities, f64)| {
-            Some(sum.zip(node.limit_states()?.get(state), |sum, p| sum + weight * p))
+/// A structure on a floor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnFloor {
+    pub floor: Floor,
+    amplifier: Amplifier,
+    /// What the logits of P_ro and P_ex gain from a motion that is all resonance.
+    narrow: [f64; 2],
+}
+
+impl OnFloor {
+    pub fn new(floor: Floor, structure: &Structure, limit_state: f64) -> OnFloor {
+        let ln_periods = (structure.p_rad_s * floor.period_s).ln();
+        let [a, b, by_limit] = EXCEEDING;
+        let narrow = [
+            OVERTURNING[0] + OVERTURNING[1] * ln_periods,
+            a + by_limit * (limit_state / 0.1).ln() + b * ln_periods,
+        ];
+        OnFloor { floor, amplifier: floor.amplifier(), narrow }
+    }
+
+    /// The motions of the floor for those of the ground with this ln(PGV / PGA), s.
+    pub fn motions(&self, ln_seconds: f64) -> FloorMotions {
+        let amplified = self.amplifier.at(ln_seconds);
+        let node = |[x, y, weight]: [f64; 3]| {
+            let along = CORRELATION * x + (1.0 - CORRELATION * CORRELATION).sqrt() * y;
+            let ln_pfa = amplified.ln_pfa + amplified.sd_ln_pfa * x;
+            let ln_pfv = amplified.ln_pfv + amplified.sd_ln_pfv * along;
+            FloorMotion { pfa: ln_pfa.exp(), ln_pfa, ln_seconds: ln_seconds + ln_pfv - ln_pfa, weight }
         };
-        let sum = nodes.iter().try_fold(Estimate::exact(0.0), add)?;
-        Some(sum.map(|p| (p / rocks).min(1.0)))
-    };
-    let given_rocking = || {
-        let (p_failure, p_ro) = (mean(LimitState::Failure)?, mean(LimitState::Overturning)?);
-        let p_ex = p_failure
-            .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
-        Some(GivenRocking { p_ex, p_ro, p_failure })
-    };
-    Probabilities { p_nr, given_rocking: if rocks > 0.0 { given_rocking() } else { None } }
+        FloorMotions { nodes: NODES.map(node), amplified }
+    }
+
+    /// What the logits of P_ro and P_ex gain.
+    pub fn added(&self, motions: &FloorMotions) -> [f64; 2] {
+        self.narrow.map(|narrow| motions.amplified.resonant_share * narrow)
+    }
+}
+
+/// The motions of a floor for one of the ground: all have the same chance to rock whatever the structure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FloorMotions {
+    pub nodes: [FloorMotion; NODES.len()],
+    amplified: Amplified,
+}
+
+/// A motion of a floor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FloorMotion {
+    /// PFA / PGA and its logarithm.
+    pub pfa: f64,
+    pub ln_pfa: f64,
+    /// ln(PFV / PFA), s.
+    pub ln_seconds: f64,
+    /// The weights of all sum to 1.
+    pub weight: f64,
+}
+
+impl FloorMotions {
+    /// The probability that the floor uplifts a structure, of ln IM4 by the PGA of the ground.
+    pub fn p_rocking(&self, ln_im4: f64) -> f64 {
+        let Amplified { ln_pfa, sd_ln_pfa, .. } = self.amplified;
+        let ln_median = ln_im4 + ln_pfa;
+        match sd_ln_pfa > 0.0 {
+            true => 1.0 - normal::cdf(-ln_median / sd_ln_pfa),
+            false => f64::from(ln_median >= 0.0),
+        }
+    }
 }

@@ -87,8 +87,13 @@ impl RatioGiven {
     /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its
     /// median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
+        self.ln_ratio(intensity.ln(), deviations).exp()
+    }
+
+    /// ln of it, of ln of the intensity.
+    pub(super) fn ln_ratio(&self, ln_intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
-        (self.mean(intensity.ln()) + deviations * sd).exp()
+        self.mean(ln_intensity) + deviations * sd
     }
 }
 

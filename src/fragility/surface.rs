@@ -44,8 +44,6 @@ pub struct Predictor {
     /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
     /// tells.
     pub magnitude: f64,
-    /// The same in the middle of these magnitudes.
-    pub middle: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
     /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
@@ -62,41 +60,169 @@ pub fn predictor(
     limit_state: Option<f64>,
 ) -> Option<Predictor> {
     let im5 = Measure::Im5.value_of(measures)?;
-    let curve = SURFACE.curve(kind, limit_state);
-    let expected = &SURFACE.kinds[kind as usize].magnitude;
-    let [low, high] = expected.range;
-    let seconds = im5 / (measures.im4 * structure.p_rad_s);
-    let mean = || expected.intercept + expected.slope * seconds.ln();
+    let section = Section::new(kind, structure, limit_state, [0.0, 1.0, 1.0], mw);
+    let cut = section.at(measures.im4, measures.im4.ln());
+    let ln_seconds = (im5 / (measures.im4 * structure.p_rad_s)).ln();
     Some(Predictor {
-        logit: curve.logit(&features(structure, measures, im5, limit_state)),
-        magnitude: mw.unwrap_or_else(mean).clamp(low, high) - REFERENCE_MAGNITUDE,
-        middle: 0.5 * (low + high) - REFERENCE_MAGNITUDE,
-        magnitude_sd: if mw.is_some() { 0.0 } else { expected.sd },
-        added: curve.uplift.gain(measures.im4, im5),
+        logit: cut.logit(ln_seconds),
+        magnitude: section.magnitude(ln_seconds),
+        magnitude_sd: section.magnitude_sd,
+        added: cut.gain(ln_seconds),
     })
+}
+
+/// The surface for one structure, limit state, calibration and magnitude: a function of IM4 and of
+/// PGV / PGA.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Section {
+    /// Coefficients of x^i w^j r^k: at `[i][j][k]`.
+    coefficients: [[[f64; POWERS]; POWERS]; POWERS_OF_X],
+    /// ln IM4 - r - w.
+    lower: f64,
+    /// ln p of the structure, and within the domain.
+    ln_p: f64,
+    ln_p_held: f64,
+    uplift: Uplift,
+    /// M = intercept + slope ln(PGV / PGA), within the magnitudes of the data.
+    intercept: f64,
+    slope: f64,
+    magnitudes: Range,
+    /// By how much a logit rises with magnitude.
+    pub m: f64,
+    /// Standard deviation of M where it is not known, else 0.
+    pub magnitude_sd: f64,
+}
+
+impl Section {
+    /// Of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A magnitude that is
+    /// not known is that which PGV / PGA tells, which does not count where P would fall with it: P never falls
+    /// as PGV rises.
+    pub fn new(
+        kind: Kind,
+        structure: &Structure,
+        limit_state: Option<f64>,
+        [c, s, m]: [f64; 3],
+        mw: Option<f64>,
+    ) -> Section {
+        let (domain, curve) = (&SURFACE.domain, SURFACE.curve(kind, limit_state));
+        let [limit, end] = limits(limit_state);
+        let p = domain.p.held(structure.p_rad_s);
+        let fixed = [(domain.eta.held(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
+        let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
+        coefficients[0][0][0] = c;
+        for Term { coefficient, powers: [x, w, r], others } in &curve.terms {
+            let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power));
+            coefficients[*x][*w][*r] += s * coefficient * others.product::<f64>();
+        }
+        let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
+        let (intercept, slope) = match mw {
+            Some(mw) => (mw, 0.0),
+            None if m < 0.0 => (0.5 * (range.low + range.high), 0.0),
+            None => (intercept, slope),
+        };
+        Section {
+            coefficients,
+            lower: 0.4 * limit,
+            ln_p: structure.p_rad_s.ln(),
+            ln_p_held: p.ln(),
+            uplift: curve.uplift,
+            intercept,
+            slope,
+            magnitudes: range,
+            m,
+            magnitude_sd: if mw.is_some() { 0.0 } else { sd },
+        }
+    }
+
+    /// M - 6.9 of motions with this ln(PGV / PGA), s.
+    pub fn magnitude(&self, ln_seconds: f64) -> f64 {
+        self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
+    }
+
+    /// The section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule
+    /// in w = ln IM4 - r - 0.4 l. IM4 is held below the end of the domain: beyond, a polynomial means nothing.
+    pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
+        let Surface { ln_im4: range, ln_ratio, .. } = &*SURFACE;
+        let held = range.held(ln_im4);
+        let (x, w_at_r_0) = ((held + 0.2).ln(), held - self.lower);
+        let mut cubic = [0.0; POWERS];
+        for w in (0..POWERS).rev() {
+            for r in (0..POWERS).rev() {
+                let lower = if r > 0 { cubic[r - 1] } else { 0.0 };
+                let [of_1, of_x, of_x2] = [0, 1, 2].map(|power| self.coefficients[power][w][r]);
+                cubic[r] = w_at_r_0 * cubic[r] - lower + (of_1 + x * (of_x + x * of_x2));
+            }
+        }
+        let Uplift { n, ln_d, k } = self.uplift;
+        let ln_gain = n * (ln_d - (im4 - 1.0).max(0.0).ln() - k * (self.ln_p + ln_im4));
+        Cut { cubic, ln_p: self.ln_p_held, ln_ratio: *ln_ratio, ln_gain, slope: -n * k }
+    }
+}
+
+/// A section at one IM4: a function of ln(PGV / PGA), s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cut {
+    /// c + s L by powers of r.
+    cubic: [f64; POWERS],
+    /// ln p, and the range of ln(PGA / PGV), within the domain.
+    ln_p: f64,
+    ln_ratio: Range,
+    /// ln -g where PGV / PGA is 1 s, and its slope.
+    ln_gain: f64,
+    slope: f64,
+}
+
+impl Cut {
+    /// Computes c + s L. PGA / PGV is held within the domain.
+    pub fn logit(&self, ln_seconds: f64) -> f64 {
+        let r = self.ln_ratio.held(-ln_seconds) - self.ln_p;
+        self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)
+    }
+
+    /// Computes g = -(d / ((IM4 - 1) IM5^k))^n.
+    pub fn gain(&self, ln_seconds: f64) -> f64 {
+        -(self.ln_gain + self.slope * ln_seconds).exp()
+    }
 }
 
 /// Returns whether a structure is within those that the surface was fitted to.
 pub fn covers_structure(structure: &Structure) -> bool {
-    let Structure { p_rad_s, alpha_rad, eta, .. } = *structure;
-    [("p", p_rad_s), ("alpha", alpha_rad), ("eta", eta)].iter().all(|(name, value)| is_inside(name, *value))
+    let Domain { p, alpha, eta, .. } = &SURFACE.domain;
+    p.has(structure.p_rad_s) && alpha.has(structure.alpha_rad) && eta.has(structure.eta)
 }
 
 /// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted
 /// to.
 pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_state: f64) -> bool {
-    let ratio = structure.p_rad_s * measures.im4 / measures.im5;
-    [("im4", measures.im4), ("im5", measures.im5), ("ratio", ratio), ("limit", limit_state)]
-        .iter()
-        .all(|(name, value)| is_inside(name, *value))
+    let Domain { im4, im5, ratio, limit, .. } = &SURFACE.domain;
+    im4.has(measures.im4)
+        && im5.has(measures.im5)
+        && ratio.has(structure.p_rad_s * measures.im4 / measures.im5)
+        && limit.has(limit_state)
 }
 
 /// The relative amount by which a value may pass a bound, as rounding in print does.
 const UNSEEN: f64 = 1e-5;
 
-fn is_inside(name: &str, value: f64) -> bool {
-    let [low, high] = SURFACE.range(name);
-    (low * (1.0 - UNSEEN)..=high * (1.0 + UNSEEN)).contains(&value)
+/// The values between two bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Range {
+    low: f64,
+    high: f64,
+}
+
+impl Range {
+    fn has(&self, value: f64) -> bool {
+        (self.low * (1.0 - UNSEEN)..=self.high * (1.0 + UNSEEN)).contains(&value)
+    }
+
+    fn held(&self, value: f64) -> f64 {
+        value.clamp(self.low, self.high)
+    }
+
+    fn ln(&self) -> Range {
+        Range { low: self.low.ln(), high: self.high.ln() }
+    }
 }
 
 /// How the calibrations of structures under a kind of motion are distributed: c, ln s and m are normal.
@@ -125,43 +251,44 @@ pub(super) fn peaks(kind: Kind) -> JointPeaks {
 /// At this magnitude m does not count.
 const REFERENCE_MAGNITUDE: f64 = 6.9;
 
-const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
+/// L is a polynomial in x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l and r = ln(PGA / (p PGV)), whose
+/// coefficients are such in (eta - 0.85)/0.1, ln(p/2), l = ln(c/0.2) and ln(1.1 - c) of a limit state c, of
+/// P_ro 0. p, eta and c are held within the domain.
+const VARIABLES: [&str; 3] = ["x", "w", "r"];
+const FIXED: [&str; 4] = ["eta", "p", "limit", "end"];
+/// Powers of w and of r, from 0 to the third of both together; powers of x.
+const POWERS: usize = 4;
+const POWERS_OF_X: usize = 3;
 
 /// Of a limit state c, held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where nothing
 /// is left below overturning; 0 of P_ro.
 fn limits(limit_state: Option<f64>) -> [f64; 2] {
     limit_state.map_or([0.0; 2], |limit_state| {
-        let held = held("limit", limit_state);
+        let held = SURFACE.domain.limit.held(limit_state);
         [(held / 0.2).ln(), (1.1 - held).ln()]
     })
 }
 
-fn held(name: &str, value: f64) -> f64 {
-    let [low, high] = SURFACE.range(name);
-    value.clamp(low, high)
-}
-
-/// Computes x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l, r = ln(PGA / (p PGV)), (eta - 0.85)/0.1, ln(p/2)
-/// and l = ln(c/0.2) of a limit state c, 0 of P_ro. PGA/PGV, p, eta and c are held within the domain, IM4
-/// below its end: beyond, a polynomial means nothing.
-fn features(
-    structure: &Structure,
-    measures: &IntensityMeasures,
-    im5: f64,
-    limit_state: Option<f64>,
-) -> [f64; FEATURES.len()] {
-    let [limit, end] = limits(limit_state);
-    let (p, ln_im4) = (held("p", structure.p_rad_s), held("im4", measures.im4).ln());
-    let r = (held("ratio", structure.p_rad_s * measures.im4 / im5) / p).ln();
-    let eta = (held("eta", structure.eta) - 0.85) / 0.1;
-    [(ln_im4 + 0.2).ln(), ln_im4 - r - 0.4 * limit, r, eta, (p / 2.0).ln(), limit, end]
-}
-
 /// The file, read.
 struct Surface {
-    domain: Vec<(&'static str, [f64; 2])>,
+    domain: Domain,
+    /// Those of the domain in logarithms.
+    ln_ratio: Range,
+    ln_im4: Range,
     /// Of each kind of motion.
     kinds: [OfKind; 4],
+}
+
+/// What the surface was fitted to: p, eta and alpha of structures, limit states, PGA / PGV (1/s) and measures
+/// of motions.
+struct Domain {
+    p: Range,
+    eta: Range,
+    alpha: Range,
+    limit: Range,
+    ratio: Range,
+    im4: Range,
+    im5: Range,
 }
 
 /// What the file says of a kind of motion.
@@ -180,40 +307,47 @@ struct Curve {
 }
 
 /// The magnitude of motions, normal about intercept + slope ln(PGV / PGA), s, and the range of the data.
+#[derive(Clone, Copy)]
 struct ExpectedMagnitude {
     intercept: f64,
     slope: f64,
     sd: f64,
-    range: [f64; 2],
+    range: Range,
 }
 
 /// How fast a probability rises from uplift on.
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Uplift {
     n: f64,
-    d: f64,
+    ln_d: f64,
     k: f64,
 }
 
-impl Uplift {
-    /// Computes -(d / ((IM4 - 1) IM5^k))^n.
-    fn gain(&self, im4: f64, im5: f64) -> f64 {
-        -(self.d / ((im4 - 1.0).max(0.0) * im5.powf(self.k))).powf(self.n)
-    }
-}
-
-/// A product of powers of features.
+/// A product of powers of [`VARIABLES`] and of [`FIXED`].
 struct Term {
     coefficient: f64,
-    /// Feature and power of each.
-    factors: Vec<(usize, i32)>,
+    powers: [usize; VARIABLES.len()],
+    others: [i32; FIXED.len()],
 }
 
-impl Curve {
-    fn logit(&self, features: &[f64; FEATURES.len()]) -> f64 {
-        let product = |term: &Term| {
-            term.factors.iter().map(|&(feature, power)| features[feature].powi(power)).product::<f64>()
-        };
-        self.terms.iter().map(|term| term.coefficient * product(term)).sum()
+impl Term {
+    /// Reads a product such as `x*w^2`; 1 is the empty one.
+    fn parse(product: &str, coefficient: f64) -> Term {
+        let mut term = Term { coefficient, powers: Default::default(), others: Default::default() };
+        for factor in product.split('*').filter(|name| *name != "1") {
+            let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
+            let power: usize = power.parse().expect(product);
+            match VARIABLES.iter().position(|variable| *variable == name) {
+                Some(place) => term.powers[place] += power,
+                None => {
+                    let place = FIXED.iter().position(|fixed| *fixed == name).expect(product);
+                    term.others[place] += power as i32;
+                }
+            }
+        }
+        let [x, w, r] = term.powers;
+        assert!(x < POWERS_OF_X && w + r < POWERS, "{product}: of a higher degree than a section has");
+        term
     }
 }
 
@@ -226,18 +360,21 @@ impl Surface {
         &self.kinds[kind as usize].curves[usize::from(limit_state.is_some())]
     }
 
-    fn range(&self, name: &str) -> [f64; 2] {
-        self.domain.iter().find(|(other, _)| *other == name).expect("the domain has it").1
-    }
-
     /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
     /// tests find.
     fn parse(text: &'static str) -> Surface {
         let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        let of_domain = rows.iter().filter(|row| row[0] == "domain");
+        let range = |name: &str| {
+            let [low, high] = numbers(&rows, &["domain", name]);
+            Range { low, high }
+        };
+        let [p, eta, alpha, limit, ratio, im4, im5] =
+            ["p", "eta", "alpha", "limit", "ratio", "im4", "im5"].map(range);
         Surface {
-            domain: of_domain.map(|row| (row[1], numbers(&rows, &row[..2]))).collect(),
+            ln_ratio: ratio.ln(),
+            ln_im4: im4.ln(),
+            domain: Domain { p, eta, alpha, limit, ratio, im4, im5 },
             kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
                 .map(|kind| OfKind::parse(&rows, kind)),
         }
@@ -248,17 +385,14 @@ impl OfKind {
     fn parse(rows: &[Vec<&str>], kind: Kind) -> OfKind {
         let word = kind.as_str();
         let [intercept, slope, sd, low, high] = numbers(rows, &["magnitude", word]);
-        let term = |row: &Vec<&str>| Term {
-            coefficient: row[3 + kind as usize].parse().expect("a number"),
-            factors: factors(row[2]),
-        };
+        let term = |row: &Vec<&str>| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number"));
         let curve = |name: &str| {
             let [n, d, k] = numbers(rows, &["uplift", word, name]);
             let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
                 numbers(rows, &["calibration", word, name]);
             Curve {
                 terms: rows.iter().filter(|row| row.starts_with(&["term", name])).map(term).collect(),
-                uplift: Uplift { n, d, k },
+                uplift: Uplift { n, ln_d: d.ln(), k },
                 prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
             }
         };
@@ -266,7 +400,7 @@ impl OfKind {
             RatioGiven::of_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
         };
         OfKind {
-            magnitude: ExpectedMagnitude { intercept, slope, sd, range: [low, high] },
+            magnitude: ExpectedMagnitude { intercept, slope, sd, range: Range { low, high } },
             curves: ["pro", "pex"].map(curve),
             peaks: JointPeaks { given_pga: ratio_given("pga"), given_pgv: ratio_given("pgv") },
         }
@@ -277,14 +411,4 @@ impl OfKind {
 fn numbers<const N: usize>(rows: &[Vec<&str>], words: &[&str]) -> [f64; N] {
     let row = rows.iter().find(|row| row.starts_with(words)).expect("the file has it");
     std::array::from_fn(|k| row[words.len() + k].parse().expect("a number"))
-}
-
-/// Reads a product such as `x*w^2`; 1 is the empty one.
-fn factors(product: &str) -> Vec<(usize, i32)> {
-    let factor = |factor: &str| {
-        let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
-        let place = FEATURES.iter().position(|feature| *feature == name).expect(product);
-        (place, power.parse().expect(product))
-    };
-    product.split('*').filter(|name| *name != "1").map(factor).collect()
 }

@@ -1,6 +1,6 @@
 //! Hazard curve of one intensity, and its convolution with a fragility.
 
-use crate::statistics::numerics::quadrature;
+use crate::statistics::numerics::{interpolation, quadrature};
 
 /// Annual rate that the largest intensity of a hazard curve hardly has; a column of intensities, taken for
 /// rates, has.
@@ -11,7 +11,30 @@ const FREQUENT: f64 = 0.02;
 pub struct HazardCurve {
     /// Intensity and annual rate of exceedance.
     points: Vec<(f64, f64)>,
+    /// All of it, in parts of one segment or of many close points.
+    parts: Vec<Part>,
 }
+
+/// The points from one to another.
+#[derive(Debug, Clone, PartialEq)]
+struct Part {
+    from: usize,
+    to: usize,
+    /// Of close points, what stands for them.
+    nodes: Vec<Node>,
+}
+
+/// An intensity that stands for others, and how often a year one of them comes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Node {
+    ln_im: f64,
+    annual_rate: f64,
+}
+
+/// More points than this within this factor of intensity are taken together: a probability is a polynomial
+/// there, which as many nodes know.
+const MANY: usize = 8;
+const CLOSE: f64 = 1.1;
 
 /// Why points make no hazard curve. `point` counts from 0, in messages from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,8 +77,20 @@ impl HazardCurve {
         }
         match points.windows(2).position(|pair| pair[0].0 >= pair[1].0 || pair[0].1 < pair[1].1) {
             Some(before) => Err(HazardError::Unordered { point: before + 1 }),
-            None => Ok(HazardCurve { points }),
+            None => Ok(HazardCurve::in_parts(points)),
         }
+    }
+
+    fn in_parts(points: Vec<(f64, f64)>) -> HazardCurve {
+        let (mut parts, mut from) = (Vec::new(), 0);
+        while from + 1 < points.len() {
+            let close = points.partition_point(|point| point.0 <= CLOSE * points[from].0) - 1;
+            let to = if close > from + MANY { close } else { from + 1 };
+            let nodes = if to > from + 1 { nodes_of_close(&points[from..=to]) } else { Vec::new() };
+            parts.push(Part { from, to, nodes });
+            from = to;
+        }
+        HazardCurve { points, parts }
     }
 
     /// Returns all intensities, each with its rate.
@@ -75,12 +110,12 @@ impl HazardCurve {
         let [(low, rate), (high, rate_at_high)] = [points[points.len() - 2], points[points.len() - 1]];
         let slope = (rate / rate_at_high).ln() / (high / low).ln();
         points.push((FURTHER * high, (rate_at_high * FURTHER.powf(-slope)).max(f64::MIN_POSITIVE)));
-        HazardCurve { points }
+        HazardCurve::in_parts(points)
     }
 
     /// The same rates at other intensities, which rise with the intensity and fall with the rate.
     pub fn map(&self, other: impl Fn(f64, f64) -> f64) -> HazardCurve {
-        HazardCurve { points: self.points.iter().map(|&(im, rate)| (other(im, rate), rate)).collect() }
+        HazardCurve::in_parts(self.points.iter().map(|&(im, rate)| (other(im, rate), rate)).collect())
     }
 
     /// The intensity that is exceeded at an annual rate; beyond the ends of the curve that of the end.
@@ -117,19 +152,72 @@ impl HazardCurve {
     ) -> [f64; N] {
         let [_, (last, rate_beyond)] = self.ends();
         let mut rates = probabilities(last).map(|p| p * rate_beyond);
-        for segment in self.points.windows(2) {
-            let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
-            let slope = (rate / rate_at_high).ln() / (high / low).ln();
-            let mut edges = vec![low.ln(), high.ln()];
-            edges.extend(breaks.iter().filter(|&&im| low < im && im < high).map(|im| im.ln()));
-            edges.sort_by(f64::total_cmp);
-            for (ln_im, width) in edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], widest)) {
-                let density = slope * rate * (-slope * (ln_im - low.ln())).exp() * width;
-                for (sum, p) in rates.iter_mut().zip(probabilities(ln_im.exp())) {
-                    *sum += p * density;
+        let mut add = |node: &Node| {
+            for (sum, p) in rates.iter_mut().zip(probabilities(node.ln_im.exp())) {
+                *sum += p * node.annual_rate;
+            }
+        };
+        for part in &self.parts {
+            let [(low, _), (high, _)] = [self.points[part.from], self.points[part.to]];
+            let inside: Vec<f64> = breaks.iter().copied().filter(|&im| low < im && im < high).collect();
+            if inside.is_empty() && !part.nodes.is_empty() {
+                part.nodes.iter().for_each(&mut add);
+                continue;
+            }
+            for piece in self.pieces(part, &inside) {
+                match piece.len() > MANY + 1 {
+                    true => nodes_of_close(&piece).iter().for_each(&mut add),
+                    false => piece.windows(2).flat_map(|segment| nodes_of(segment, widest)).for_each(|node| add(&node)),
                 }
             }
         }
         rates
     }
+
+    /// The points of a part, in pieces from break to break.
+    fn pieces(&self, part: &Part, breaks: &[f64]) -> Vec<Vec<(f64, f64)>> {
+        let mut points = self.points[part.from..=part.to].to_vec();
+        points.extend(breaks.iter().map(|&im| (im, self.exceedance(im))));
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by_key(|point| point.0);
+        let mut pieces = vec![vec![points[0]]];
+        for &point in &points[1..] {
+            pieces.last_mut().expect("there is a first").push(point);
+            if breaks.contains(&point.0) {
+                pieces.push(vec![point]);
+            }
+        }
+        pieces
+    }
+}
+
+/// Gauss-Legendre on panels of a segment that are at most `widest`.
+fn nodes_of(segment: &[(f64, f64)], widest: f64) -> impl Iterator<Item = Node> {
+    let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
+    let slope = (rate / rate_at_high).ln() / (high / low).ln();
+    quadrature(low.ln(), high.ln(), widest).map(move |(ln_im, width)| {
+        let annual_rate = slope * rate * (-slope * (ln_im - low.ln())).exp() * width;
+        Node { ln_im, annual_rate }
+    })
+}
+
+/// The nodes of one panel over many points, each with its share of all rates between them.
+fn nodes_of_close(points: &[(f64, f64)]) -> Vec<Node> {
+    /// Nodes of the Gauss-Legendre rule of order 2 on (0, 1).
+    const WITHIN: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+    let [from, to] = [points[0].0.ln(), points[points.len() - 1].0.ln()];
+    let panel = quadrature(from, to, f64::INFINITY);
+    let mut nodes: Vec<Node> = panel.map(|(ln_im, _)| Node { ln_im, annual_rate: 0.0 }).collect();
+    for segment in points.windows(2) {
+        let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
+        let (ratio, ln_low, width) = ((rate_at_high / rate).ln(), low.ln(), (high / low).ln());
+        for part in WITHIN {
+            let density = -ratio * rate * (ratio * part).exp() / WITHIN.len() as f64;
+            let shares = interpolation((ln_low + part * width - from) / (to - from));
+            for (node, share) in nodes.iter_mut().zip(shares) {
+                node.annual_rate += density * share;
+            }
+        }
+    }
+    nodes
 }

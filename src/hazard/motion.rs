@@ -2,7 +2,9 @@
 
 use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
-use crate::fragility::{Direction, GivenPeak, LimitStates, Model, Peak, Scenarios, Z_95, limit_states_at};
+use crate::fragility::{
+    Direction, GivenPeak, Level, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95,
+};
 use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Estimate;
 
@@ -99,12 +101,13 @@ impl Motion {
     ) -> LimitStates<Estimate> {
         match self.given().zip(velocity) {
             None => {
-                let peaks = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                limit_states_at(directions, peaks, self.mw, scenarios)
+                let [pga, pgv] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
+                let ready = ReadyObject::new(directions, self.mw);
+                Level::limit_states(scenarios, |level| ready.limit_states(pga, pgv, level))
             }
             Some(((peak, intensity), (velocity, mw, ln))) => {
                 let (ratio, mw) = (velocity.at(mw, ln), velocity.magnitude(self.mw, mw));
-                GivenPeak { directions, peak, ratio, mw }.limit_states(intensity, scenarios)
+                GivenPeak::new(directions, peak, ratio, mw).estimates(intensity, scenarios)
             }
         }
     }

@@ -2,7 +2,7 @@
 //! times the probabilities of a model.
 
 use super::curve::HazardCurve;
-use crate::fragility::{Direction, GivenPeak, LimitStates, Scenarios, limit_states_at};
+use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
 use crate::number::Limited;
 use crate::statistics::Estimate;
 
@@ -38,7 +38,7 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
 /// of rate times probability.
 pub fn mean_annual_rates<const N: usize>(
     bins: &[PairOfPeaks],
-    probabilities: impl Fn(&PairOfPeaks) -> [f64; N],
+    mut probabilities: impl FnMut(&PairOfPeaks) -> [f64; N],
 ) -> [f64; N] {
     let mut rates = [0.0; N];
     for bin in bins {
@@ -104,7 +104,7 @@ impl From<AnnualRate> for Limited {
 
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
-    let states = |intensity| given_peak.limit_states(intensity, Scenarios::Many).map(|state| state.value);
+    let states = |intensity| given_peak.limit_states(intensity);
     let (jumps, widest) = (given_peak.jumps(), given_peak.widest_panel());
     let sums = curve.mean_annual_rates(&jumps, widest, |intensity| states(intensity).into_array());
     let [_, (last, rate_beyond)] = curve.ends();
@@ -121,11 +121,13 @@ pub(super) fn rates_over_pairs(
     mw: Option<f64>,
     bins: &[PairOfPeaks],
 ) -> LimitStates<Rate> {
+    let mut ready = ReadyObject::new(directions, mw);
     let states = |bin: &PairOfPeaks| {
-        let peaks = [bin.pga_m_s2, bin.pgv_m_s];
-        limit_states_at(directions, peaks, bin.mw.or(mw), Scenarios::Many)
-            .map(|state| state.value)
-            .into_array()
+        let mw = bin.mw.or(mw);
+        if mw != ready.mw {
+            ready = ReadyObject::new(directions, mw);
+        }
+        ready.limit_states(bin.pga_m_s2, bin.pgv_m_s, Level::Estimate).into_array()
     };
     LimitStates::from(mean_annual_rates(bins, states)).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
 }
@@ -136,7 +138,7 @@ pub(super) fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f
     const STEPS: i32 = 100;
     let [(first, _), (last, rate_beyond)] = curve.ends();
     let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));
-    let overturning = |intensity| given_peak.limit_states(intensity, Scenarios::Many).overturning.value;
+    let overturning = |intensity| given_peak.limit_states(intensity).overturning;
     let step = |k: i32| {
         let middle = (edge(k) * edge(k + 1)).sqrt();
         (middle, overturning(middle) * (curve.exceedance(edge(k)) - curve.exceedance(edge(k + 1))))

@@ -3,7 +3,7 @@
 use super::curve::HazardCurve;
 use super::rates::rates_over_curve;
 use super::site::{Hazard, Site, ends_early};
-use crate::fragility::{Scenarios, limit_states_at};
+use crate::fragility::{Level, ReadyObject};
 use crate::object::Subject;
 use crate::statistics::numerics::quadrature;
 
@@ -38,8 +38,7 @@ impl Site {
                 };
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let edges = edges(first, last);
-                let probability =
-                    |intensity: f64| given.limit_states(intensity, Scenarios::Many).overturning.value;
+                let probability = |intensity: f64| given.limit_states(intensity).overturning;
                 let rates = rates_in_bins(&curve, &edges, &given.jumps(), probability);
                 RateByIntensity { edges, rates, beyond: probability(last) * rate_beyond }
             }
@@ -49,9 +48,9 @@ impl Site {
                     peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
                 let (edges, mut rates) = (edges(low, high * 1.001), vec![0.0; bins]);
                 for pair in pairs {
-                    let (peaks, mw) = ([pair.pga_m_s2, pair.pgv_m_s], pair.mw.or(self.mw));
+                    let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
                     let p =
-                        limit_states_at(&subject.directions, peaks, mw, Scenarios::Many).overturning.value;
+                        ready.limit_states(pair.pga_m_s2, pair.pgv_m_s, Level::Estimate).overturning;
                     let bin = edges.partition_point(|edge| *edge <= pair.pga_m_s2).clamp(1, bins) - 1;
                     rates[bin] += p * pair.annual_rate;
                 }

@@ -237,7 +237,7 @@ impl Motions {
         let mw = mw.unwrap_or(self.median);
         let above = self.given.map_or(0.0, |_| self.velocity.above_mean()[0]);
         let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + above);
-        GivenPeak { directions, peak: self.peak, ratio: self.velocity.at(mw, ln), mw: known }
+        GivenPeak::new(directions, self.peak, self.velocity.at(mw, ln), known)
     }
 }
 

@@ -37,10 +37,23 @@ const MODES: usize = 5;
 /// Share of the first mode's motion that is left where a floor's record ends.
 const LEFT: f64 = 0.05;
 
-/// How a peak of a floor depends on u = ln(T1/Tg), by scripts/floors/peaks.py: [b, k, d, e, l, h]. The rigid
-/// share of a mode is r = 1/(1 + exp(k (u - b))), its resonance D = d/(exp(-l (u - e)) + exp(h (u - e))).
-const OF_ACCELERATION: [f64; 6] = [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494];
-const OF_VELOCITY: [f64; 6] = [0.930, 3.199, 3.569, -0.225, 1.574, 0.637];
+/// How a peak of a floor depends on u = ln(T1/Tg), Tg = 2 pi PGV/PGA, by scripts/floors/peaks.py. The rigid
+/// share of mode i is r = 1/(1 + exp(k (u_i - b))), its resonance D = d/(exp(-l (u_i - e)) + exp(h (u_i - e))),
+/// u_i = u - ln(2i - 1).
+#[derive(Clone, Copy)]
+struct PeakByPeriod {
+    b: f64,
+    k: f64,
+    d: f64,
+    e: f64,
+    l: f64,
+    h: f64,
+}
+
+const OF_ACCELERATION: PeakByPeriod =
+    PeakByPeriod { b: -0.090, k: 3.430, d: 3.635, e: 0.112, l: 0.434, h: 1.494 };
+const OF_VELOCITY: PeakByPeriod =
+    PeakByPeriod { b: 0.930, k: 3.199, d: 3.569, e: -0.225, l: 1.574, h: 0.637 };
 /// Scatter s of both peaks, of a motion that is all resonance.
 const SCATTER: [f64; 2] = [0.284, 0.314];
 
@@ -77,33 +90,97 @@ impl Floor {
         floor
     }
 
-    /// Predicts the peaks of the floor from PGA (m/s2) and PGV (m/s) of the ground: ln(floor/ground) =
-    /// ln(A^2 + B)/2 with the rigid part A = 1 - sum G_i (1 - r_i) and the resonant one B = sum G_i^2 D_i^2.
+    /// Predicts the peaks of the floor from PGA (m/s2) and PGV (m/s) of the ground.
     pub fn peaks(&self, pga_m_s2: f64, pgv_m_s: f64) -> FloorPeaks {
-        let period_of_ground = TAU * pgv_m_s / pga_m_s2;
-        let u = (self.period_s / period_of_ground).ln();
-        let (acceleration, resonant_a) = self.amplified(OF_ACCELERATION, u);
-        let (velocity, resonant_v) = self.amplified(OF_VELOCITY, u);
+        let amplified = self.amplifier().at((pgv_m_s / pga_m_s2).ln());
         FloorPeaks {
-            pfa_m_s2: acceleration * pga_m_s2,
-            pfv_m_s: velocity * pgv_m_s,
+            pfa_m_s2: amplified.ln_pfa.exp() * pga_m_s2,
+            pfv_m_s: amplified.ln_pfv.exp() * pgv_m_s,
+            sd_ln_pfa: amplified.sd_ln_pfa,
+            sd_ln_pfv: amplified.sd_ln_pfv,
+            resonant_share: amplified.resonant_share,
+        }
+    }
+
+    /// The floor, ready for the peaks of many motions.
+    pub(crate) fn amplifier(&self) -> Amplifier {
+        Amplifier {
+            ln_period: (self.period_s / TAU).ln(),
+            modes: [OF_ACCELERATION, OF_VELOCITY].map(|peak| {
+                let mut odd = 1.0_f64;
+                self.shares().map(|share| {
+                    let mode = Mode {
+                        share,
+                        by_k: odd.powf(-peak.k),
+                        by_l: odd.powf(peak.l),
+                        by_h: odd.powf(-peak.h),
+                    };
+                    odd += 2.0;
+                    mode
+                })
+            }),
+        }
+    }
+}
+
+/// What depends on the floor alone of the peaks that it makes of the ground's.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Amplifier {
+    /// ln(T1 / 2 pi), s.
+    ln_period: f64,
+    /// Modes of acceleration and of velocity.
+    modes: [[Mode; MODES]; 2],
+}
+
+/// Share of a mode, and (2i - 1) to the powers -k, l and -h of a peak.
+#[derive(Debug, Clone, Copy)]
+struct Mode {
+    share: f64,
+    by_k: f64,
+    by_l: f64,
+    by_h: f64,
+}
+
+/// Peaks of a floor over those of the ground.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Amplified {
+    /// Median ln(PFA / PGA) and its standard deviation.
+    pub ln_pfa: f64,
+    pub sd_ln_pfa: f64,
+    /// Median ln(PFV / PGV) and its standard deviation.
+    pub ln_pfv: f64,
+    pub sd_ln_pfv: f64,
+    pub resonant_share: f64,
+}
+
+impl Amplifier {
+    /// Predicts the peaks of the floor from ln(PGV / PGA), s, of the ground: ln(floor/ground) = ln(A^2 + B)/2
+    /// with the rigid part A = 1 - sum G_i (1 - r_i) and the resonant one B = sum G_i^2 D_i^2.
+    pub fn at(&self, ln_seconds: f64) -> Amplified {
+        let u = self.ln_period - ln_seconds;
+        let [(ln_pfa, resonant_a), (ln_pfv, resonant_v)] =
+            [0, 1].map(|k| amplified([OF_ACCELERATION, OF_VELOCITY][k], &self.modes[k], u));
+        Amplified {
+            ln_pfa,
             sd_ln_pfa: SCATTER[0] * resonant_a.sqrt(),
+            ln_pfv,
             sd_ln_pfv: SCATTER[1] * resonant_v.sqrt(),
             resonant_share: resonant_v,
         }
     }
+}
 
-    /// The factor of a peak, and the share of resonance in its square.
-    fn amplified(&self, [b, k, d, e, l, h]: [f64; 6], u: f64) -> (f64, f64) {
-        let (mut rigid, mut resonant) = (1.0, 0.0);
-        for (i, share) in self.shares().into_iter().enumerate() {
-            let of_mode = u - ((2 * i + 1) as f64).ln();
-            let r = 1.0 / (1.0 + (k * (of_mode - b)).exp());
-            let resonance = d / ((-l * (of_mode - e)).exp() + (h * (of_mode - e)).exp());
-            rigid -= share * (1.0 - r);
-            resonant += (share * resonance).powi(2);
-        }
-        let square = rigid * rigid + resonant;
-        (square.sqrt(), resonant / square)
+/// ln of the factor of a peak at u = ln(T1 / Tg), and the share of resonance in its square.
+fn amplified(peak: PeakByPeriod, modes: &[Mode; MODES], u: f64) -> (f64, f64) {
+    let PeakByPeriod { b, k, d, e, l, h } = peak;
+    let [by_k, by_l, by_h] = [k * (u - b), -l * (u - e), h * (u - e)].map(f64::exp);
+    let (mut rigid, mut resonant) = (1.0, 0.0);
+    for mode in modes {
+        let r = 1.0 / (1.0 + by_k * mode.by_k);
+        let resonance = d / (by_l * mode.by_l + by_h * mode.by_h);
+        rigid -= mode.share * (1.0 - r);
+        resonant += (mode.share * resonance).powi(2);
     }
+    let square = rigid * rigid + resonant;
+    (0.5 * square.ln(), resonant / square)
 }

@@ -8,7 +8,7 @@ use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::objects::{StructureArgs, named};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
-use crate::fragility::{GivenPeak, LimitStates, Peak, Scenarios};
+use crate::fragility::{GivenPeak, LimitStates, Peak};
 use crate::hazard::{PgvPgaRatio, magnitude, strongest};
 use crate::inputs::Renames;
 use crate::keyword::keywords;
@@ -125,10 +125,9 @@ impl Export {
         let model = &subject.directions[0].model;
         let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None, None).0);
         let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
-        let given_peak = GivenPeak { directions: &subject.directions, peak: self.im, ratio, mw };
+        let given_peak = GivenPeak::new(&subject.directions, self.im, ratio, mw);
         let reaching = |intensity: f64| {
-            let states = given_peak.limit_states(intensity, Scenarios::One);
-            states.map(|state| state.value.clamp(0.0, 1.0)).into_array()
+            given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0)).into_array()
         };
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let [uplift, _] = given_peak.uplift();

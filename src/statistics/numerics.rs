@@ -23,6 +23,15 @@ pub fn quadrature(from: f64, to: f64, widest: f64) -> impl Iterator<Item = (f64,
     })
 }
 
+/// Returns by how much each value at the nodes of a panel counts in the polynomial through all, at a place
+/// between its ends, from 0 to 1.
+pub fn interpolation(place: f64) -> [f64; 8] {
+    std::array::from_fn(|k| {
+        let others = (0..GAUSS_LEGENDRE.len()).filter(|other| *other != k).map(|other| GAUSS_LEGENDRE[other].0);
+        others.map(|other| (place - other) / (GAUSS_LEGENDRE[k].0 - other)).product()
+    })
+}
+
 /// Halvings of an interval to rounding.
 const HALVINGS: usize = 60;
 

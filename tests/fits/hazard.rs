@@ -118,7 +118,7 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
         ] {
             let wider = 1.0_f64.hypot(per_z);
             let directions = [Direction { structure: structure.clone(), model: model.clone() }];
-            let given = GivenPeak { directions: &directions, peak, ratio, mw: None };
+            let given = GivenPeak::new(&directions, peak, ratio, None);
             let rate = rates_over_curve(&given, &curve).overturning.value;
             let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
             assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");

@@ -328,7 +328,7 @@ fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
         let of_magnitude = if mw.is_none() { shipped.m * of.magnitude_sd } else { 0.0 };
         let spread = shipped.tau * shipped.tau + of_magnitude * of_magnitude;
         for (scenarios, between) in [(Scenarios::One, spread), (Scenarios::Many, 0.0)] {
-            let p = shipped.probability(&of, scenarios);
+            let p = shipped.probability(&structure, &of_motion, mw, scenarios).unwrap();
             let half_width = 1.959_963_984_540_054 * (variance + between).sqrt();
             assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
             assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);

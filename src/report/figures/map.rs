@@ -52,8 +52,8 @@ fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
-        let of = calibration.predictor(structure, &measures, None).filter(|_| measures.im4 >= 1.0);
-        of.is_some_and(|of| calibration.probability(&of, Scenarios::One).value >= level)
+        let p = calibration.probability(structure, &measures, None, Scenarios::One);
+        p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
     };
     let point = |pga: f64| {
         let is_crossed = reaches(pga, most.ln()) && !reaches(pga, least.ln());
