@@ -12,13 +12,14 @@ use crate::statistics::numerics::{first, quadrature};
 
 /// Standard deviations from the median within which all ratios lie that count.
 const FARTHEST: f64 = 6.0;
-/// Step of the trapezoidal rule, in standard deviations: exact to 1e-6 for smooth functions under a normal
-/// density.
-const STEP: f64 = 0.6;
-/// The same on floors, where nothing is sharp.
+/// Step of the trapezoidal rule on floors, in standard deviations: nothing is sharp there.
 const STEP_ON_FLOORS: f64 = 0.8;
-/// Widest panel of the quadrature, in standard deviations.
-const PANEL: f64 = 1.6;
+/// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
+/// which reach down to uplift.
+const PANEL_OF_PGA: f64 = 3.0;
+const PANEL_OF_PGV: f64 = 1.6;
+/// Times the PGA of uplift, up to which probabilities rise steeply.
+const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
 const SOUGHT_M_S: [f64; 2] = [1e-6, 1e3];
 
@@ -32,8 +33,8 @@ pub struct GivenPeak<'a> {
     ratio: RatioGiven,
     /// Magnitude of the motions; `None`: inferred from PGV / PGA.
     pub mw: Option<f64>,
-    /// Of motions of one PGA.
-    nodes: Vec<Node>,
+    /// ln(PGV / PGA), s, at which the model bends.
+    bends: Vec<f64>,
     /// Least PGA that uplifts it, m/s2.
     uplift_m_s2: f64,
 }
@@ -53,21 +54,11 @@ impl<'a> GivenPeak<'a> {
         ratio: RatioGiven,
         mw: Option<f64>,
     ) -> GivenPeak<'a> {
-        let is_on_floor = directions.iter().all(|direction| direction.model.floor().is_some());
-        let step = if is_on_floor { STEP_ON_FLOORS } else { STEP };
-        let last = (FARTHEST / step).ceil() as i32;
-        let node = |k: i32| {
-            let deviations = step * f64::from(k);
-            Node { deviations, weight: step * density(deviations) }
-        };
-        let nodes = match ratio.is_exact() {
-            true => vec![Node { deviations: 0.0, weight: 1.0 }],
-            false => (-last..=last).map(node).collect(),
-        };
+        let bends = directions.iter().flat_map(|direction| direction.model.bends(mw)).collect();
         let uplifts = directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure)[0]);
         let uplift_m_s2 = uplifts.fold(f64::INFINITY, f64::min);
         let ready = ReadyObject::new(directions, mw);
-        GivenPeak { directions, ready, peak, ratio, mw, nodes, uplift_m_s2 }
+        GivenPeak { directions, ready, peak, ratio, mw, bends, uplift_m_s2 }
     }
 
     /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard
@@ -97,12 +88,12 @@ impl<'a> GivenPeak<'a> {
             Peak::Pga if intensity < self.uplift_m_s2 => {}
             Peak::Pga => {
                 let (object, ln_pga) = (self.ready.at(intensity), intensity.ln());
-                for node in &self.nodes {
-                    add(node, object.limit_states(self.ratio.ln_ratio(ln_pga, node.deviations), level));
+                for node in self.nodes(intensity) {
+                    add(&node, object.limit_states(self.ratio.ln_ratio(ln_pga, node.deviations), level));
                 }
             }
             Peak::Pgv => {
-                for node in self.nodes_of_pgv(intensity) {
+                for node in self.nodes(intensity) {
                     let [pga, pgv] = self.peaks(intensity, node.deviations);
                     add(&node, self.ready.at(pga).limit_states((pgv / pga).ln(), level));
                 }
@@ -127,11 +118,24 @@ impl<'a> GivenPeak<'a> {
         }
     }
 
+    /// Intensities between which probabilities are smooth: at jumps, above uplift on the ground, and where
+    /// PGV / PGA bends.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        let mut all = self.jumps();
+        if self.peak == Peak::Pga {
+            all.extend(self.jumps().into_iter().map(|jump| STEEP * jump));
+        }
+        if self.ratio.bend != 0.0 {
+            all.push(self.ratio.knot.exp());
+        }
+        all
+    }
+
     /// Widest panel of ln of the peak over which probabilities are smooth: the paper's lower plane under
     /// pulses has a dispersion of 0.03.
     pub(crate) fn widest_panel(&self) -> f64 {
         let is_of_paper = |direction: &Direction| matches!(direction.model, Model::Paper { .. });
-        if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.2 }
+        if self.directions.iter().any(is_of_paper) { 0.02 } else { 0.4 }
     }
 
     /// PGA at which a probability jumps, m/s2, rising.
@@ -157,24 +161,47 @@ impl<'a> GivenPeak<'a> {
         first(low, high, |ln_pgv| self.peaks(ln_pgv.exp(), node)[0] >= pga_m_s2).exp()
     }
 
-    /// Motions that stand for those of a PGV; weights sum to 1, but for motions of too little PGA.
-    fn nodes_of_pgv(&self, pgv_m_s: f64) -> Vec<Node> {
+    /// Motions that stand for those of an intensity; weights sum to 1, but for motions of too little PGA.
+    fn nodes(&self, intensity: f64) -> Vec<Node> {
+        let is_on_floor = self.directions.iter().all(|direction| direction.model.floor().is_some());
         if self.ratio.is_exact() {
             return vec![Node { deviations: 0.0, weight: 1.0 }];
         }
-        let edges = self.edges(pgv_m_s);
-        let nodes = edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], PANEL));
-        nodes.map(|(deviations, width)| Node { deviations, weight: width * density(deviations) }).collect()
+        let all: Vec<(f64, f64)> = match self.peak {
+            Peak::Pga if is_on_floor => {
+                let last = (FARTHEST / STEP_ON_FLOORS).ceil() as i32;
+                (-last..=last).map(|k| (STEP_ON_FLOORS * f64::from(k), STEP_ON_FLOORS)).collect()
+            }
+            peak => {
+                let widest = if peak == Peak::Pga { PANEL_OF_PGA } else { PANEL_OF_PGV };
+                let edges = self.edges(intensity);
+                edges.windows(2).flat_map(|edge| quadrature(edge[0], edge[1], widest)).collect()
+            }
+        };
+        let node = |(deviations, width)| Node { deviations, weight: width * density(deviations) };
+        all.into_iter().map(node).collect()
     }
 
-    /// Standard deviations between which the motions of a PGV have probabilities without a jump.
-    fn edges(&self, pgv_m_s: f64) -> Vec<f64> {
-        let ln_ratio = |z| (self.peaks(pgv_m_s, z)[1] / self.peaks(pgv_m_s, z)[0]).ln();
-        let (median, sd) = (ln_ratio(0.0), ln_ratio(1.0) - ln_ratio(0.0));
-        let deviations = |pga: f64| (((pgv_m_s / pga).ln() - median) / sd).clamp(-FARTHEST, FARTHEST);
-        let jumps = self.jumps_of_pga().into_iter().map(deviations);
-        // Those with less PGA than uplifts the structure, behind the last, do not count.
-        let mut edges: Vec<f64> = std::iter::once(-FARTHEST).chain(jumps).collect();
+    /// Standard deviations between which the motions of an intensity have smooth probabilities.
+    fn edges(&self, intensity: f64) -> Vec<f64> {
+        let ln_intensity = intensity.ln();
+        let median = self.ratio.ln_ratio(ln_intensity, 0.0);
+        let deviations = |ln_seconds: f64| {
+            let above = ln_seconds - median;
+            above / (self.ratio.ln_ratio(ln_intensity, above.signum()) - median).abs()
+        };
+        let mut edges = vec![-FARTHEST, 0.0];
+        edges.extend(self.bends.iter().map(|bend| deviations(*bend)));
+        let mut last = FARTHEST;
+        if self.peak == Peak::Pgv {
+            // Those with less PGA than uplifts the structure, behind the last jump, do not count.
+            let jumps = self.jumps_of_pga().into_iter().map(|pga| deviations((intensity / pga).ln()));
+            let jumps: Vec<f64> = jumps.collect();
+            last = jumps.iter().copied().fold(-FARTHEST, f64::max).min(FARTHEST);
+            edges.extend(jumps);
+        }
+        edges.push(last);
+        edges.retain(|edge| (-FARTHEST..=last).contains(edge));
         edges.sort_by(f64::total_cmp);
         edges.dedup();
         edges

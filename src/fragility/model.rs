@@ -117,6 +117,14 @@ impl Model {
         matches!(self, Model::Calibrated { .. })
     }
 
+    /// Values of ln(PGV / PGA), s, at which probabilities bend, of motions of this magnitude.
+    pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
+        match self {
+            Model::Calibrated { overturning, .. } => surface::bends(overturning.kind, mw),
+            Model::Paper { .. } => Vec::new(),
+        }
+    }
+
     /// How PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> JointPeaks {
         match self {

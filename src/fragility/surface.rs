@@ -185,6 +185,15 @@ impl Cut {
     }
 }
 
+/// Values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude is not
+/// known, of the magnitudes of the data.
+pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
+    let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
+    let of_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
+    let of_magnitude = [range.low, range.high].map(|mw| (mw - intercept) / slope);
+    of_domain.into_iter().chain(of_magnitude.into_iter().filter(|_| mw.is_none())).collect()
+}
+
 /// Returns whether a structure is within those that the surface was fitted to.
 pub fn covers_structure(structure: &Structure) -> bool {
     let Domain { p, alpha, eta, .. } = &SURFACE.domain;

@@ -105,8 +105,8 @@ impl From<AnnualRate> for Limited {
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
     let states = |intensity| given_peak.limit_states(intensity);
-    let (jumps, widest) = (given_peak.jumps(), given_peak.widest_panel());
-    let sums = curve.mean_annual_rates(&jumps, widest, |intensity| states(intensity).into_array());
+    let (breaks, widest) = (given_peak.breaks(), given_peak.widest_panel());
+    let sums = curve.mean_annual_rates(&breaks, widest, |intensity| states(intensity).into_array());
     let [_, (last, rate_beyond)] = curve.ends();
     LimitStates::from(sums).zip(states(last), |value, at_last| Rate {
         value,
