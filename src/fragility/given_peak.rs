@@ -48,12 +48,7 @@ struct Node {
 impl<'a> GivenPeak<'a> {
     /// Makes an object, in the directions in which it falls, ready for motions of which this peak is given and
     /// PGV / PGA has this distribution. `mw` is their magnitude; `None`: inferred from PGV / PGA.
-    pub fn new(
-        directions: &'a [Direction],
-        peak: Peak,
-        ratio: RatioGiven,
-        mw: Option<f64>,
-    ) -> GivenPeak<'a> {
+    pub fn new(directions: &'a [Direction], peak: Peak, ratio: RatioGiven, mw: Option<f64>) -> GivenPeak<'a> {
         let bends = directions.iter().flat_map(|direction| direction.model.bends(mw)).collect();
         let uplifts = directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure)[0]);
         let uplift_m_s2 = uplifts.fold(f64::INFINITY, f64::min);
@@ -104,7 +99,8 @@ impl<'a> GivenPeak<'a> {
 
     /// Least intensity that uplifts the object, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> [f64; 2] {
-        let of_all = self.directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure));
+        let of_all =
+            self.directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure));
         let [least, usual] = of_all.fold([f64::INFINITY; 2], |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
         [self.intensity_of(least, -FARTHEST), self.intensity_of(usual, 0.0)]
     }

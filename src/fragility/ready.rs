@@ -8,9 +8,7 @@ use super::model::{CONFIDENCE, Direction, Model, paper_probabilities};
 use super::on_floor::{FloorMotions, OnFloor};
 use super::overturning::CurveFit;
 use super::surface::Cut;
-use super::tree::{
-    GivenRocking, LimitStates, Probabilities, UNKNOWN, p_failure_given_rocking, p_no_rocking,
-};
+use super::tree::{GivenRocking, LimitStates, Probabilities, UNKNOWN, p_failure_given_rocking, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::Estimate;

@@ -167,7 +167,10 @@ impl HazardCurve {
             for piece in self.pieces(part, &inside) {
                 match piece.len() > MANY + 1 {
                     true => nodes_of_close(&piece).iter().for_each(&mut add),
-                    false => piece.windows(2).flat_map(|segment| nodes_of(segment, widest)).for_each(|node| add(&node)),
+                    false => piece
+                        .windows(2)
+                        .flat_map(|segment| nodes_of(segment, widest))
+                        .for_each(|node| add(&node)),
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::site::{Hazard, Site};
-use crate::fragility::{Direction, GivenPeak, LimitStates, Scenarios};
+use crate::fragility::{Direction, GivenPeak, LimitStates};
 use crate::object::{Subject, Unknown};
 use crate::statistics::Estimate;
 
@@ -26,7 +26,7 @@ impl Site {
             ends.push(Unknown { part: *part, low, high });
         }
         let at = |intensity: f64| {
-            let states = |given: &GivenPeak| given.limit_states(intensity, Scenarios::Many).map(|p| p.value);
+            let states = |given: &GivenPeak| given.limit_states(intensity);
             let value = states(&middle);
             let ends: Vec<_> = ends.iter().map(|unknown| unknown.map(states)).collect();
             let limited = |of: fn(&LimitStates<f64>) -> f64| match of(&value) {

@@ -2,9 +2,7 @@
 
 use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
-use crate::fragility::{
-    Direction, GivenPeak, Level, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95,
-};
+use crate::fragility::{Direction, GivenPeak, Level, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
 use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Estimate;
 

@@ -49,8 +49,7 @@ impl Site {
                 let (edges, mut rates) = (edges(low, high * 1.001), vec![0.0; bins]);
                 for pair in pairs {
                     let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
-                    let p =
-                        ready.limit_states(pair.pga_m_s2, pair.pgv_m_s, Level::Estimate).overturning;
+                    let p = ready.limit_states(pair.pga_m_s2, pair.pgv_m_s, Level::Estimate).overturning;
                     let bin = edges.partition_point(|edge| *edge <= pair.pga_m_s2).clamp(1, bins) - 1;
                     rates[bin] += p * pair.annual_rate;
                 }

@@ -126,9 +126,8 @@ impl Export {
         let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None, None).0);
         let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
         let given_peak = GivenPeak::new(&subject.directions, self.im, ratio, mw);
-        let reaching = |intensity: f64| {
-            given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0)).into_array()
-        };
+        let reaching =
+            |intensity: f64| given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0)).into_array();
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let [uplift, _] = given_peak.uplift();
         let most = strongest(self.im).max(2.0 * uplift);

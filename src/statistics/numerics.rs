@@ -27,7 +27,8 @@ pub fn quadrature(from: f64, to: f64, widest: f64) -> impl Iterator<Item = (f64,
 /// between its ends, from 0 to 1.
 pub fn interpolation(place: f64) -> [f64; 8] {
     std::array::from_fn(|k| {
-        let others = (0..GAUSS_LEGENDRE.len()).filter(|other| *other != k).map(|other| GAUSS_LEGENDRE[other].0);
+        let others =
+            (0..GAUSS_LEGENDRE.len()).filter(|other| *other != k).map(|other| GAUSS_LEGENDRE[other].0);
         others.map(|other| (place - other) / (GAUSS_LEGENDRE[k].0 - other)).product()
     })
 }
