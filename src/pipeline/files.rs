@@ -57,7 +57,12 @@ pub fn role(arg: &Arg) -> Role {
 }
 
 pub fn files_of(role: Role, path: PathBuf) -> Vec<PathBuf> {
-    if role == Role::Fits { FITS.map(|name| path.join(name)).to_vec() } else { vec![path] }
+    // Fits to what stood and what fell have none of demands.
+    let is_there = |name: &&str| name.starts_with("pro") || path.join(name).exists();
+    match role {
+        Role::Fits => FITS.into_iter().filter(is_there).map(|name| path.join(name)).collect(),
+        _ => vec![path],
+    }
 }
 
 /// Returns the file of an argument in a run, if none is given; `has` tells whether a stage is in the run.
