@@ -85,7 +85,8 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
          after over before.",
         when
     );
-    Figure::new("compared", "Before and after", caption, 1, 0.0, vec![panel])
+    let panels = if pairs.is_empty() { Vec::new() } else { vec![panel] };
+    Figure::new("compared", "Before and after", caption, 1, 0.0, panels)
 }
 
 /// The page of two evaluations.
