@@ -126,6 +126,8 @@ pub mod records;
 pub mod report;
 pub mod rocking;
 #[doc(hidden)]
+pub mod source;
+#[doc(hidden)]
 pub mod stages;
 pub mod statistics;
 pub mod studies;

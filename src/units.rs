@@ -34,6 +34,12 @@ pub struct Unit {
     pub si: f64,
 }
 
+impl serde::Serialize for Unit {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
 use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velocity};
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].

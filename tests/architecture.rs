@@ -13,7 +13,18 @@ const LAYERS: [&[&str]; 8] = [
     &["studies", "records"],
     &["inputs"],
     &["fragility", "hazard", "object", "paper"],
-    &["motion", "rocking", "random", "statistics", "keyword", "number", "plausibility", "units", "warning"],
+    &[
+        "motion",
+        "rocking",
+        "random",
+        "statistics",
+        "keyword",
+        "number",
+        "plausibility",
+        "source",
+        "units",
+        "warning",
+    ],
 ];
 
 fn layer(room: &str) -> usize {

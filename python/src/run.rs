@@ -10,6 +10,7 @@ use std::time::Duration;
 use pyo3::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::pipeline::context::{Context, Observed, THREADS};
+use rockfrag::source::forget_pipes;
 
 use crate::error::to_python;
 
@@ -35,6 +36,7 @@ pub fn run<T: Send>(
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(Context) -> anyhow::Result<T> + Send,
 ) -> PyResult<T> {
+    forget_pipes();
     expect_own_threads().map_err(|error| to_python(&error))?;
     let mut context = Context::default();
     context.common.quiet = true;

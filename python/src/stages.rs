@@ -4,17 +4,16 @@ use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use clap::{Arg, ArgAction, Args as _, Command, FromArgMatches};
+use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use rockfrag::cli::config::arguments;
 use rockfrag::cli::{calls_of, configured, stage_commands};
 use rockfrag::pipeline::cache::{self, Done};
 use rockfrag::pipeline::call::Call;
-use rockfrag::pipeline::context::{COMMON, Context};
-use rockfrag::pipeline::files::role;
+use rockfrag::pipeline::context::Context;
 use rockfrag::stages::inspect::Inspect;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::error::{in_python, to_python};
 use crate::run::run;
@@ -22,31 +21,21 @@ use crate::run::run;
 /// A stage that is done: its name, the files that it wrote, what it prints, its warnings.
 type Made = (String, Vec<PathBuf>, String, Vec<String>);
 
-/// All stages as JSON: names, meanings, options with their meanings and defaults.
+/// All stages as JSON, in the words of Python.
 #[pyfunction]
 pub fn describe() -> String {
-    json!(stage_commands().iter().map(describe_stage).collect::<Vec<_>>()).to_string()
+    let mut stages = rockfrag::cli::describe();
+    for stage in stages.as_array_mut().into_iter().flatten() {
+        translate(&mut stage["help"]);
+        for option in stage["options"].as_array_mut().into_iter().flatten() {
+            translate(&mut option["help"]);
+        }
+    }
+    stages.to_string()
 }
 
-fn describe_stage(command: &Command) -> Value {
-    let words = |text: Option<&clap::builder::StyledStr>| text.map(|text| in_python(&text.to_string()));
-    let option = |arg: &Arg| {
-        let id = arg.get_id().as_str();
-        let default = arg.get_default_values().iter().map(|value| value.to_string_lossy());
-        json!({
-            "name": arg.get_long().unwrap_or(id).replace('-', "_"),
-            "help": words(arg.get_help()),
-            "default": default.collect::<Vec<_>>().join(","),
-            "flag": matches!(arg.get_action(), ArgAction::SetTrue),
-            "file": role(arg).is_read(),
-            "positional": arg.is_positional(),
-            "common": arg.get_help_heading() == Some(COMMON),
-        })
-    };
-    let options =
-        command.get_arguments().filter(|arg| !["help", "progress", "quiet"].contains(&arg.get_id().as_str()));
-    let options: Vec<Value> = options.map(option).collect();
-    json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
+fn translate(help: &mut Value) {
+    *help = in_python(help.as_str().unwrap_or_default()).into();
 }
 
 /// Runs a stage, unless its files are up to date. Options are a JSON object by the flags of the command.
@@ -74,10 +63,9 @@ pub fn call(
 
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> anyhow::Result<Made> {
-    let Done { summary, warnings, key, .. } = cache::run(call, context, made)?;
-    let outputs = call.stage.outputs();
-    made.extend(outputs.iter().map(|path| (path.clone(), key.clone())));
-    Ok((call.name.clone(), outputs, summary, warnings.lines()))
+    let Done { summary, warnings, keys, .. } = cache::run(call, context, made)?;
+    made.extend(keys);
+    Ok((call.name.clone(), call.stage.outputs(), summary, warnings.lines()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

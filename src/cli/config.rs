@@ -1,16 +1,19 @@
 //! Pipeline files: a section, or a call from Python, becomes arguments of the command line.
 
 use std::collections::BTreeMap;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use serde_json::{Map, Value};
 
+use super::yaml;
 use crate::keyword::hint;
-use crate::pipeline::UsageError;
-use crate::pipeline::files::{assigned, in_run, role};
+use crate::pipeline::paths::{PathKind, Role, listed, path_kind};
+use crate::pipeline::{InRun, UsageError};
+use crate::stages::Stages;
+use crate::table::provenance::text_of;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {
@@ -27,13 +30,16 @@ impl Config {
     pub fn read(path: &Path, commands: &[Command]) -> anyhow::Result<Config> {
         let failed = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
         let text = std::fs::read_to_string(path).map_err(|error| failed(error.to_string()))?;
-        let parsed: Option<BTreeMap<String, Value>> = serde_saphyr::from_str(&text).map_err(|error| {
-            failed(error.without_snippet().to_string().lines().next().unwrap_or_default().to_string())
-        })?;
+        let parsed = match yaml::parse(&text).map_err(failed)? {
+            Value::Object(parsed) => parsed,
+            Value::Null => Map::new(),
+            other => return Err(failed(format!("{other}; expected sections of options"))),
+        };
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut config = Config { out: folder.join("out"), seed: None, sections: BTreeMap::new(), folder };
-        for (key, value) in parsed.unwrap_or_default() {
+        for (key, value) in parsed {
             match (key.as_str(), value) {
+                ("out" | "seed", Value::Null) => {}
                 ("out", value) => config.out = config.folder.join(text_of(&value)),
                 ("seed", value) => config.seed = Some(text_of(&value)),
                 (_, Value::Object(section)) => drop(config.sections.insert(key, section)),
@@ -73,9 +79,14 @@ impl Config {
     pub fn section_of_run(&self, command: &Command, folder: &Path) -> anyhow::Result<Vec<OsString>> {
         let mut arguments = self.section(command, &[])?;
         let section = &self.sections[command.get_name()];
-        for arg in command.get_arguments() {
+        let run = InRun { stages: &|stage| self.has(stage), given: &|flag| section.contains_key(flag) };
+        let stated = Stages::in_run(command.get_name(), &run);
+        for arg in command.get_arguments().filter(|arg| path_kind(arg).is_some()) {
             let Some(flag) = arg.get_long().filter(|flag| !section.contains_key(*flag)) else { continue };
-            if let Some(file) = in_run(command.get_name(), arg, |stage| self.has(stage)) {
+            let default = arg.get_default_values().first().and_then(|default| default.to_str());
+            let is_word = |file: &&str| path_kind(arg).is_some_and(|kind| kind.words.contains(file));
+            let stated = stated.iter().find(|(of, _)| *of == flag).map(|(_, file)| *file);
+            if let Some(file) = stated.or(default.filter(|file| !is_word(file))) {
                 arguments.push(assigned(flag, folder.join(file).as_os_str()));
             }
         }
@@ -90,7 +101,7 @@ pub fn arguments(
     folder: &Path,
 ) -> anyhow::Result<Vec<OsString>> {
     let mut arguments = Vec::new();
-    for (flag, value) in options {
+    for (flag, value) in options.into_iter().filter(|(_, value)| !value.is_null()) {
         let Some(arg) = command
             .get_arguments()
             .find(|arg| arg.get_id() == flag.as_str() || arg.get_long() == Some(&flag))
@@ -99,29 +110,32 @@ pub fn arguments(
             let (name, hint) = (command.get_name(), hint(&flag, &known));
             return Err(UsageError::because(format!("{name}: unknown option '{flag}'{hint}")));
         };
-        let text = |value: &Value| -> OsString {
-            let text = text_of(value);
-            let path = folder.join(&text);
-            // An input may be a word, such as a site name, in place of a file.
-            if role(arg).is_read()
-                && (path.exists() || !folder.as_os_str().is_empty() && text.contains(['/', '.']))
-            {
-                path.into()
-            } else {
-                text.into()
-            }
-        };
-        let values: Vec<OsString> = match &value {
-            Value::Null | Value::Bool(false) => continue,
-            Value::Bool(true) => {
-                arguments.push(format!("--{flag}").into());
+        let values: Vec<OsString> = match (&value, path_kind(arg)) {
+            (Value::Bool(false), _) => continue,
+            (value, _) if matches!(arg.get_action(), ArgAction::SetTrue) => {
+                match text_of(value).to_lowercase().as_str() {
+                    "true" | "yes" | "on" => arguments.push(format!("--{flag}").into()),
+                    "false" | "no" | "off" => {}
+                    other => {
+                        return Err(UsageError::because(format!(
+                            "{flag} is {other}; expected true or false"
+                        )));
+                    }
+                }
                 continue;
             }
-            Value::Array(items) if matches!(arg.get_action(), ArgAction::Append) => {
-                items.iter().map(text).collect()
+            (Value::Array(items), kind) if matches!(arg.get_action(), ArgAction::Append) => {
+                let items = items.iter().map(structure_or_text);
+                items
+                    .map(|item| kind.map_or(item.clone().into(), |kind| path_in(folder, kind, &item)))
+                    .collect()
             }
-            Value::Array(items) => vec![items.iter().map(text_of).collect::<Vec<_>>().join(",").into()],
-            value => vec![text(value)],
+            (value, Some(kind)) if kind.role == Role::List => {
+                let paths = listed(folder, &text_of(value)).into_iter();
+                paths.map(|path| path_in(folder, kind, &path)).collect()
+            }
+            (value, Some(kind)) => vec![path_in(folder, kind, &text_of(value))],
+            (value, None) => vec![structure_or_text(value).into()],
         };
         match arg.get_long() {
             Some(long) => arguments.extend(values.iter().map(|value| assigned(long, value))),
@@ -131,16 +145,25 @@ pub fn arguments(
     Ok(arguments)
 }
 
-/// Converts a value to command-line text; a mapping becomes `name=frame,p=1`.
-fn text_of(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Object(pairs) => {
-            let pair = |(key, value): (&String, &Value)| format!("{key}={}", text_of(value));
-            pairs.iter().map(pair).collect::<Vec<_>>().join(",")
-        }
-        other => other.to_string(),
+/// Returns a path relative to a folder, as an argument that is no option; words stay.
+fn path_in(folder: &Path, kind: PathKind, text: &str) -> OsString {
+    match folder.join(text) {
+        _ if kind.words.contains(&text) || text == "-" => text.into(),
+        path if path.to_string_lossy().starts_with('-') => Path::new(".").join(path).into(),
+        path => path.into(),
     }
+}
+
+/// Returns the text of a value; a mapping stays JSON, in which a name may have a comma.
+fn structure_or_text(value: &Value) -> String {
+    if value.is_object() { value.to_string() } else { text_of(value) }
+}
+
+/// Returns `--flag=value`; the value may begin with a minus sign.
+pub fn assigned(flag: &str, value: &OsStr) -> OsString {
+    let mut argument = OsString::from(format!("--{flag}="));
+    argument.push(value);
+    argument
 }
 
 /// Parses the arguments of a stage without errors, which later parsing reports.

@@ -2,22 +2,28 @@
 
 pub mod config;
 mod examples;
+mod yaml;
 
+use std::any::TypeId;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Command, FromArgMatches, Parser, Subcommand};
+use clap::builder::StyledStr;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use serde_json::{Value, json};
 
-use self::config::{Config, lenient};
+use self::config::{Config, assigned, lenient};
 use self::examples::with_examples;
 use crate::number::shown;
 use crate::pipeline::call::Call;
-use crate::pipeline::context::{Common, Context, THREADS};
+use crate::pipeline::context::{COMMON, Common, Context, THREADS};
 use crate::pipeline::options::in_one_line;
-use crate::pipeline::{UsageError, cache, files};
+use crate::pipeline::paths::{Role, path_kind};
+use crate::pipeline::{UsageError, cache};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 
@@ -72,8 +78,21 @@ pub fn command() -> Command {
         with_examples(Common::augment_args(stage.clone().args_override_self(true)).about(about))
     };
     let in_order = |(place, stage): (usize, Command)| stage.display_order(10 + place);
-    let stages = stages.get_subcommands().map(with_common).enumerate().map(in_order);
+    let stages = stages
+        .get_subcommands()
+        .map(|stage| with_common(stage).mut_args(with_hint))
+        .enumerate()
+        .map(in_order);
     <Tool as clap::CommandFactory>::command().subcommands(stages)
+}
+
+/// Tells shells how to complete a path.
+fn with_hint(arg: Arg) -> Arg {
+    match path_kind(&arg).map(|kind| kind.role) {
+        Some(Role::Fits | Role::Folder) => arg.value_hint(ValueHint::DirPath),
+        Some(_) => arg.value_hint(ValueHint::AnyPath),
+        None => arg,
+    }
 }
 
 /// Returns the commands of stages, in the order of a run.
@@ -82,6 +101,46 @@ pub fn stage_commands() -> Vec<Command> {
     command.build();
     let is_stage = |command: &&Command| Stages::has_subcommand(command.get_name());
     command.get_subcommands().filter(is_stage).cloned().collect()
+}
+
+/// Describes all stages and their options, as JSON.
+pub fn describe() -> Value {
+    let stage = |command: &Command| {
+        let options: Vec<Value> =
+            command.get_arguments().filter(|arg| arg.get_id() != "help").map(option).collect();
+        json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
+    };
+    Value::Array(stage_commands().iter().map(stage).collect())
+}
+
+fn option(arg: &Arg) -> Value {
+    let path = path_kind(arg);
+    let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<usize>()];
+    let value = arg.get_value_parser().type_id();
+    let kind = match path.map(|path| path.role) {
+        Some(Role::Input | Role::List) => "input",
+        Some(Role::Folder) => "folder",
+        Some(Role::Fits) => "fits",
+        Some(Role::Output) => "output",
+        None if matches!(arg.get_action(), ArgAction::SetTrue) => "flag",
+        None if numbers.iter().any(|number| value == *number) => "number",
+        None => "text",
+    };
+    let default = arg.get_default_values().iter().map(|value| value.to_string_lossy());
+    json!({
+        "name": arg.get_long().unwrap_or(arg.get_id().as_str()),
+        "kind": kind,
+        "formats": path.map_or(&[][..], |path| path.formats),
+        "default": default.collect::<Vec<_>>().join(","),
+        "help": words(arg.get_help()),
+        "heading": arg.get_help_heading().unwrap_or_default(),
+        "positional": arg.is_positional(),
+        "common": arg.get_help_heading() == Some(COMMON),
+    })
+}
+
+fn words(text: Option<&StyledStr>) -> String {
+    text.map(StyledStr::to_string).unwrap_or_default()
 }
 
 /// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
@@ -163,14 +222,27 @@ fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<Call> {
     // Parsed as part of the whole command line, which usage lines name.
     let parse = |words: &[OsString]| self::command().try_get_matches_from(words);
     let mut whole = parse(&words)?;
-    if let Some(out) = whole.subcommand().and_then(|(_, matches)| files::out_beside_in(matches)) {
+    if let Some(out) = whole.subcommand().and_then(out_beside_in) {
         whole = parse(&[words, vec![out]].concat())?;
     }
-    let stage = Stages::from_arg_matches(&whole)?.parsed();
-    let matches = whole.subcommand_matches(command.get_name()).cloned().unwrap_or_default();
-    files::check_out(command, &matches)?;
+    let stage = Stages::from_arg_matches(&whole)?;
+    let (options, stage) = (stage.options(), stage.parsed());
     stage.check()?;
-    Call::new(command, &matches, stage)
+    let matches = whole.subcommand_matches(command.get_name()).cloned().unwrap_or_default();
+    let (name, common) = (command.get_name().to_string(), Common::from_arg_matches(&matches)?);
+    Ok(Call { name, stage, common, options })
+}
+
+/// Returns `--out` beside a given `--in`, if the user gives no `--out`.
+fn out_beside_in((_, matches): (&str, &ArgMatches)) -> Option<OsString> {
+    let is = |id: &str, source: ValueSource| {
+        matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(source)
+    };
+    if !(is("in", ValueSource::CommandLine) && is("out", ValueSource::DefaultValue)) {
+        return None;
+    }
+    let [input, out] = ["in", "out"].map(|id| matches.get_raw(id)?.next().map(PathBuf::from));
+    Some(assigned("out", input?.with_file_name(out?).as_os_str()))
 }
 
 /// Returns the calls of a pipeline file, in the order of a run.

@@ -77,6 +77,12 @@ pub fn design_row(ims: &[f64]) -> Vec<f64> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pair(pub Measure, pub Measure);
 
+impl serde::Serialize for Pair {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{}:{}", self.0, self.1))
+    }
+}
+
 impl FromStr for Pair {
     type Err = String;
 

@@ -11,6 +11,7 @@ use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
 use super::unpack::{Member, unpack};
 use super::workbook;
+use crate::source;
 use crate::units::Unit;
 
 /// Rows at the end of a table that show how it is written.
@@ -49,13 +50,9 @@ struct Rows {
 impl Grid {
     /// Reads the table in a file, or in a sheet of a workbook: `list.xlsx#Sheet2`.
     pub fn read(path: &Path) -> Result<Grid, InputError> {
-        let text = path.to_string_lossy();
-        let (file, sheet) = match text.rsplit_once('#').filter(|_| !path.exists()) {
-            Some((file, sheet)) => (Path::new(file), Some(sheet)),
-            None => (path, None),
-        };
-        let bytes = std::fs::read(file).map_err(|error| InputError::Unreadable(error.to_string()))?;
-        Grid::parse(&bytes, sheet)
+        let (file, sheet) = source::split_sheet(path);
+        let bytes = source::read(&file).map_err(|error| InputError::Unreadable(error.to_string()))?;
+        Grid::parse(&bytes, sheet.as_deref())
     }
 
     /// Reads a table, packed or not: text, or a sheet of a workbook.

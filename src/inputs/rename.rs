@@ -13,6 +13,12 @@ pub struct Rename {
     pub heading: String,
 }
 
+impl serde::Serialize for Rename {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&format_args!("{}={}", self.column, self.heading))
+    }
+}
+
 impl FromStr for Rename {
     type Err = &'static str;
 

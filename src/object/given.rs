@@ -1,15 +1,20 @@
 //! An object as it is given: its shape, the place where it stands, and how well both are known.
 
+use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use super::field::Field;
+use serde::Serialize;
+use serde_json::Value;
+
 use crate::motion::Floor;
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
 /// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are those of
 /// [`Field`].
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "Field says it")]
 pub struct Shape {
     pub width: Option<f64>,
@@ -25,7 +30,8 @@ pub struct Shape {
 }
 
 /// Where an object stands, and how well it is known.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "Field says it")]
 pub struct Place {
     pub period: Option<f64>,
@@ -38,13 +44,16 @@ pub struct Place {
 }
 
 /// A coefficient of restitution as it is given.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Restitution {
-    /// A number.
-    Number(f64),
     /// Housner's, 1 - 1.5 sin^2(alpha).
     Housner,
+    /// A number.
+    #[serde(untagged)]
+    Number(f64),
     /// That of a fitted structure: its fits do not say how it was found.
+    #[serde(untagged)]
     Fitted(f64),
 }
 
@@ -78,18 +87,28 @@ impl From<StructureError> for Reason {
 }
 
 /// An object: what is known of it, or why there is no answer.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Object {
     /// Name in tables.
     pub name: String,
     /// Number of such objects.
     pub count: Option<u32>,
     /// Its shape.
+    #[serde(flatten)]
     pub shape: Shape,
     /// Where it stands.
+    #[serde(flatten)]
     pub place: Place,
     /// Why there is no answer, whatever its shape.
+    #[serde(skip)]
     pub refused: Option<Reason>,
+}
+
+/// The names and values of a mapping, without those that are null.
+fn given(mapping: BTreeMap<String, Value>) -> Vec<(String, String)> {
+    let text = |value: Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
+    let given = mapping.into_iter().filter(|(_, value)| !value.is_null());
+    given.map(|(name, value)| (name, text(value))).collect()
 }
 
 impl FromStr for Object {
@@ -98,9 +117,15 @@ impl FromStr for Object {
     /// Reads an object as NAME=VALUE,...
     fn from_str(text: &str) -> Result<Object, String> {
         let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
-        for pair in text.split(',') {
+        // A mapping of a pipeline file or of Python is JSON, whose values may have commas.
+        let mapping = serde_json::from_str::<BTreeMap<String, Value>>(text).map_or(Vec::new(), given);
+        let pair = |pair: &str| {
             let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-            object.set(&name.trim().replace('_', "-"), value.trim())?;
+            (name.trim().to_string(), value.trim().to_string())
+        };
+        let pairs = if mapping.is_empty() { text.split(',').map(pair).collect() } else { mapping };
+        for (name, value) in pairs {
+            object.set(&name.replace('_', "-"), &value)?;
         }
         Ok(object)
     }

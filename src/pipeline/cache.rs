@@ -1,14 +1,13 @@
 //! Runs a call unless its files are up to date: the key in their footers equals the key of the call.
 
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::UsageError;
-use super::call::Call;
+use super::call::{Call, Plan, Planned};
 use super::context::Context;
+use crate::source::is_pipe;
 use crate::table::TableError;
-use crate::table::file::is_table;
-use crate::table::keys::head;
+use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
 use crate::warning::Warnings;
 
@@ -18,18 +17,26 @@ pub struct Done {
     pub warnings: Warnings,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
-    /// The key of its files.
-    pub key: String,
+    /// The keys of its files.
+    pub keys: Planned,
 }
 
-/// Returns the provenance of the files of a call if they are up to date, else the reason why not.
-pub fn freshness(call: &Call, planned: &Provenance) -> Result<Provenance, String> {
+/// Returns the provenance of the last file of a call if all are up to date, else the reason why not.
+pub fn freshness(plan: &Plan) -> Result<Provenance, String> {
     let mut last = None;
-    for path in call.stage.outputs() {
+    for (place, path) in plan.outputs.iter().enumerate() {
+        let planned = plan.output(place);
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        match Provenance::of_file(&path) {
-            Ok(Some(made)) if made.key() == planned.key() => last = Some(made),
-            Ok(Some(made)) => return Err(made.difference(planned).unwrap_or_default()),
+        match Provenance::of_file(path) {
+            Ok(Some(made)) if made.key() == planned.key() => {
+                if let Some(other) = made.further.iter().find_map(|further| changed(path, further)) {
+                    return Err(format!("{other} is missing or changed"));
+                }
+                last = Some(made);
+            }
+            Ok(Some(made)) => {
+                return Err(made.difference(&planned).unwrap_or(format!("{name} is another file")));
+            }
             Ok(None) => return Err(format!("{name} does not say how it was made")),
             Err(TableError::Missing(_)) => return Err(format!("{name} is missing")),
             Err(_) => return Err(format!("{name} cannot be read")),
@@ -38,49 +45,56 @@ pub fn freshness(call: &Call, planned: &Provenance) -> Result<Provenance, String
     last.ok_or_else(|| "it only prints".to_string())
 }
 
-/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
-/// its inputs must still be these.
-pub fn run(call: &Call, context: &Context, made: &HashMap<PathBuf, String>) -> anyhow::Result<Done> {
-    let planned = call.provenance(made)?;
-    let key = planned.key();
-    if !context.common.force
-        && let Ok(made) = freshness(call, &planned)
-    {
-        return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, key });
-    }
-    for path in call.stage.outputs() {
-        expect_replaceable(&path, call, context.common.force)?;
-    }
-    let context = context.of_call(call.inputs.values().flatten(), planned);
-    let summary = call.stage.run(&context)?;
-    Ok(Done { summary, warnings: context.warnings(), ran: true, key })
+/// Returns the name of a further file of the one at `path` that has not its hash.
+fn changed<'a>(path: &Path, (name, hash): (&'a String, &String)) -> Option<&'a str> {
+    let bytes = std::fs::read(path.with_file_name(name));
+    let is_same = bytes.is_ok_and(|bytes| *blake3::hash(&bytes).to_hex() == **hash);
+    (!is_same).then_some(name)
 }
 
-/// Checks that an output is not an input, nor, unless forced, a file of another program.
-fn expect_replaceable(out: &Path, call: &Call, force: bool) -> anyhow::Result<()> {
+/// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
+/// its inputs must still be these.
+pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Done> {
+    let plan = call.plan(made)?;
+    let keys = plan.keys().collect();
+    if !context.common.force
+        && let Ok(made) = freshness(&plan)
+    {
+        return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, keys });
+    }
+    for path in &plan.outputs {
+        expect_replaceable(path, &plan, context.common.force)?;
+    }
+    let context = context.begin(plan);
+    // What is read while another run replaces it may fail in many ways.
+    let summary = call.stage.run(&context).map_err(|error| match context.expect_unchanged() {
+        Err(changed) => changed.into(),
+        Ok(()) => error,
+    })?;
+    Ok(Done { summary, warnings: context.warnings(), ran: true, keys })
+}
+
+/// Checks that an output is neither an input nor a pipe nor, unless forced, a table of another program. What is
+/// no table is checked when it is written.
+fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()> {
+    let refuse = |problem: &str| Err(UsageError::because(format!("{}: {problem}", out.display())));
     let Ok(real) = out.canonicalize() else { return Ok(()) };
-    let is_out = |path: &PathBuf| path.canonicalize().is_ok_and(|path| path == real);
-    if call.inputs.values().flatten().any(is_out) {
-        return Err(UsageError::because(format!("{}: is read and cannot be written too", out.display())));
+    if plan.files.iter().any(|file| file.path.canonicalize().is_ok_and(|path| path == real)) {
+        return refuse("is read and cannot be written too");
     }
     if real.is_dir() {
-        return Err(UsageError::because(format!("{}: is a folder; expected a file", out.display())));
+        return refuse("is a folder; expected a file");
     }
-    if !force && !is_ours(&real) {
-        let out = out.display();
-        anyhow::bail!("{out}: not written by rockfrag, or damaged; --force replaces it");
+    if is_pipe(&real) {
+        return refuse("is a pipe or device; expected a file");
+    }
+    if !force && !is_text(&real) && !is_ours(&real, &[]) {
+        return Err(TableError::not_ours(out).into());
     }
     Ok(())
 }
 
-/// Returns whether rockfrag wrote a file, by the footer of a table or the first bytes of a text.
-pub fn is_ours(path: &Path) -> bool {
-    let is_marked =
-        ["html", "svg", "png", "xlsx"].iter().any(|ending| path.extension().is_some_and(|of| of == *ending));
-    if is_table(path) || is_marked {
-        return Provenance::of_file(path).is_ok_and(|made| made.is_some());
-    }
-    // Tables of evaluate as CSV or JSON need not name the model, but have columns that only rockfrag writes.
-    let own = ["rockfrag", "p_nr", "p_overturning"];
-    head(path).is_ok_and(|head| own.iter().any(|word| head.contains(word)))
+/// Returns whether files of this ending have no mark, but headings or keys.
+fn is_text(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "csv" || ending == "json")
 }

@@ -1,82 +1,116 @@
-//! One call of a stage, as parsed by clap: its parameters, inputs and key.
+//! One call of a stage, and what it would make of which files.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
-use clap::{ArgMatches, Command, FromArgMatches};
+use serde_json::Value;
 
 use super::Stage;
-use super::context::{COMMON, Common};
-use super::files::{Role, files_of, role};
+use super::context::Common;
+use super::paths::Read;
 use crate::table::TableError;
-use crate::table::file::Partition;
-use crate::table::keys::key_with;
-use crate::table::provenance::Provenance;
+use crate::table::file::{self, is_table};
+use crate::table::keys::{files_below, names_below, read_file, resolved};
+use crate::table::provenance::{InputFile, Provenance};
 
-/// Files of an input that are named in what is made of it.
-const MOST_NAMED: usize = 4;
+/// Keys of files that other calls of a run make, by [`resolved`] path.
+pub type Planned = HashMap<PathBuf, String>;
 
 pub struct Call {
     pub name: String,
     pub stage: Box<dyn Stage>,
     pub common: Common,
-    /// Values of all options except files, defaults included, by flag.
-    pub arguments: BTreeMap<String, Vec<String>>,
-    /// Files and folders to read, or words in their place (a site name), by flag.
-    pub inputs: BTreeMap<String, Vec<PathBuf>>,
+    /// All options of the stage but files, by flag.
+    pub options: BTreeMap<String, Value>,
+}
+
+/// What a call would make.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    pub made: Provenance,
+    /// The files to read.
+    pub files: Vec<PlannedFile>,
+    pub outputs: Vec<PathBuf>,
+}
+
+/// A file to read, with the key of its content and when it was last changed.
+#[derive(Debug, Clone)]
+pub struct PlannedFile {
+    pub path: PathBuf,
+    pub key: String,
+    pub modified: Option<SystemTime>,
+}
+
+pub fn modified_at(path: &Path) -> Option<SystemTime> {
+    path.metadata().and_then(|found| found.modified()).ok()
 }
 
 impl Call {
-    pub fn new(command: &Command, matches: &ArgMatches, stage: Box<dyn Stage>) -> anyhow::Result<Call> {
-        let mut arguments: BTreeMap<String, Vec<String>> = BTreeMap::new();
-        let mut inputs: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
-        for arg in command.get_arguments() {
-            let id = arg.get_id().as_str();
-            let flag = arg.get_long().unwrap_or(id).to_string();
-            let Ok(Some(values)) = matches.try_get_raw(id) else { continue };
-            let values = values.map(PathBuf::from);
-            match role(arg) {
-                Role::Output => {}
-                Role::Parameter if arg.get_help_heading() == Some(COMMON) => {}
-                Role::Parameter => {
-                    let texts = values.map(|value| value.to_string_lossy().into_owned());
-                    arguments.insert(flag, texts.collect());
-                }
-                role => {
-                    inputs.insert(flag, values.flat_map(|path| files_of(role, path)).collect());
-                }
+    /// Plans the call. `planned` has the keys of files not yet written.
+    pub fn plan(&self, planned: &Planned) -> Result<Plan, TableError> {
+        let mut plan = Plan {
+            made: Provenance::new(&self.name, self.options.clone()),
+            files: Vec::new(),
+            outputs: self.stage.outputs(),
+        };
+        for read in self.stage.inputs() {
+            let files = read.files(&plan.outputs, planned)?;
+            let inputs = plan.made.inputs.entry(read.flag.to_string()).or_default();
+            for (path, name) in files.iter().zip(names_below(&files)) {
+                let modified = modified_at(path);
+                let file = match planned.get(&resolved(path)) {
+                    Some(key) => InputFile { name, key: key.clone(), whole: None },
+                    None => read_file(path, name)?,
+                };
+                plan.files.push(PlannedFile { path: path.clone(), key: file.key.clone(), modified });
+                inputs.push(file);
             }
         }
-        // A partition reads one file of a folder, whatever comes and goes beside it.
-        if let Some(partition) = arguments.get("partition").and_then(|values| values.first()?.parse().ok()) {
-            let part = |path: &PathBuf| Partition::file_of(partition, path).ok().filter(|_| path.is_dir());
-            inputs.values_mut().flatten().for_each(|path| *path = part(path).unwrap_or(path.clone()));
-        }
-        let (name, common) = (command.get_name().to_string(), Common::from_arg_matches(matches)?);
-        Ok(Call { name, stage, common, arguments, inputs })
+        plan.made.inputs.retain(|_, files| !files.is_empty());
+        Ok(plan)
+    }
+}
+
+impl Plan {
+    /// Returns the provenance of one of the outputs.
+    pub fn output(&self, output: usize) -> Provenance {
+        Provenance { output, ..self.made.clone() }
     }
 
-    /// Returns the provenance of its files. `planned` has the keys of files not yet written.
-    pub fn provenance(&self, planned: &HashMap<PathBuf, String>) -> Result<Provenance, TableError> {
-        let is_word = |path: &Path| path.extension().is_none() && !path.exists();
-        let key = |path: &Path| match planned.get(path) {
-            None if is_word(path) => Ok(path.display().to_string()),
-            _ => key_with(path, planned),
-        };
-        let inputs = self.inputs.iter().map(|(flag, paths)| {
-            let keys = paths.iter().map(|path| key(path)).collect::<Result<Vec<_>, _>>()?;
-            Ok((flag.clone(), keys.join(" ")))
-        });
-        let name = |path: &PathBuf| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let names =
-            |paths: &Vec<PathBuf>| paths.iter().take(MOST_NAMED).map(name).collect::<Vec<_>>().join(", ");
-        Ok(Provenance {
-            files: self.inputs.iter().map(|(flag, paths)| (flag.clone(), names(paths))).collect(),
-            stage: self.name.clone(),
-            version: env!("CARGO_PKG_VERSION").to_string(),
-            arguments: self.arguments.clone(),
-            inputs: inputs.collect::<Result<_, TableError>>()?,
-            ..Provenance::default()
-        })
+    /// Returns the keys of the outputs.
+    pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
+        let key = |(place, path): (usize, &PathBuf)| (resolved(path), self.output(place).key());
+        self.outputs.iter().enumerate().map(key)
+    }
+}
+
+impl Read {
+    /// Returns the files, without `outputs` and with the `planned` ones that are not there yet.
+    pub fn files(&self, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<PathBuf>, TableError> {
+        let outputs: Vec<PathBuf> = outputs.iter().map(|path| resolved(path)).collect();
+        let mut files = Vec::new();
+        for path in &self.paths {
+            let folder = path.canonicalize().unwrap_or(resolved(path));
+            let mut below = match path.is_dir() {
+                true if self.whole_folders => files_below(path)?,
+                true => file::tables(path)?,
+                false => Vec::new(),
+            };
+            let is_read =
+                |file: &Path| self.whole_folders || is_table(file) && file.parent() == Some(&folder);
+            let to_come = planned.keys().filter(|file| !file.exists() && **file != folder);
+            below.extend(to_come.filter(|file| file.starts_with(&folder) && is_read(file)).cloned());
+            // What the stage itself wrote into the folder is not read.
+            below.retain(|file| !outputs.contains(&resolved(file)));
+            below.sort_unstable();
+            let is_there = path.exists() || planned.contains_key(&resolved(path));
+            match path.is_dir() || !below.is_empty() {
+                true => files.append(&mut below),
+                false if self.optional && !is_there => {}
+                false => files.push(path.clone()),
+            }
+        }
+        Ok(files)
     }
 }

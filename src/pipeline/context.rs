@@ -9,13 +9,15 @@ use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::call::{Plan, PlannedFile, modified_at};
 use super::options::number;
 use crate::keyword::keywords;
 use crate::table::TableError;
-use crate::table::keys::key_of;
+use crate::table::keys::read_file;
+use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
-use crate::table::writer::TableWriter;
+use crate::table::writer::{TableWriter, write_file};
 use crate::warning::Warnings;
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
@@ -66,9 +68,7 @@ pub struct Observed {
 pub struct Context {
     pub common: Common,
     pub observed: Arc<Observed>,
-    pub made: Provenance,
-    /// Input files and their keys.
-    inputs: Vec<(PathBuf, String)>,
+    plan: Arc<Plan>,
     warnings: Arc<Mutex<Warnings>>,
 }
 
@@ -77,12 +77,14 @@ impl Context {
         Context { common, ..Context::default() }
     }
 
-    /// Returns the context of a call that reads these files and makes files of this provenance.
-    pub fn of_call<'a>(&self, inputs: impl Iterator<Item = &'a PathBuf>, made: Provenance) -> Context {
-        let keys = made.inputs.values().flat_map(|keys| keys.split(' '));
-        let files = inputs.cloned().zip(keys.map(str::to_string));
-        let inputs = files.filter(|(path, _)| path.exists()).collect();
-        Context { made, inputs, warnings: Arc::default(), ..self.clone() }
+    /// Returns the context of a planned call.
+    pub fn begin(&self, plan: Plan) -> Context {
+        Context { plan: Arc::new(plan), warnings: Arc::default(), ..self.clone() }
+    }
+
+    /// Returns what is made, before it has a text.
+    pub fn made(&self) -> &Provenance {
+        &self.plan.made
     }
 
     pub fn warn(&self, warnings: Warnings) {
@@ -101,17 +103,38 @@ impl Context {
 
     /// Ends a table with its [`Context::provenance`].
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
-        writer.finish(&self.provenance(summary)?)
+        let made = self.provenance(writer.path(), summary)?;
+        writer.finish(&made)
     }
 
-    /// Returns the provenance of a finished file. A changed input is an error.
-    pub fn provenance(&self, summary: &str) -> Result<Provenance, TableError> {
-        for (path, key) in &self.inputs {
-            if key_of(path)? != *key {
+    /// Returns the provenance of a finished output. A changed input is an error.
+    pub fn provenance(&self, out: &Path, summary: &str) -> Result<Provenance, TableError> {
+        self.expect_unchanged()?;
+        let output = self.plan.outputs.iter().position(|output| output == out).unwrap_or_default();
+        let made = self.plan.output(output);
+        Ok(Provenance { summary: summary.to_string(), warnings: self.warnings(), ..made })
+    }
+
+    /// Checks that no input was changed since the plan was made.
+    pub fn expect_unchanged(&self) -> Result<(), TableError> {
+        for PlannedFile { path, key, modified } in &self.plan.files {
+            if modified_at(path) != *modified && read_file(path, String::new())?.key != *key {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
-        Ok(Provenance { summary: summary.to_string(), warnings: self.warnings(), ..self.made.clone() })
+        Ok(())
+    }
+
+    /// Writes a file that is no table, unless one of another program is there. One with the same content stays
+    /// untouched.
+    pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
+        if path.exists() && !self.common.force && !is_ours(path, content) {
+            return Err(TableError::not_ours(path).into());
+        }
+        match std::fs::read(path) {
+            Ok(there) if there == content => Ok(()),
+            _ => Ok(write_file(path, content)?),
+        }
     }
 
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
@@ -129,7 +152,7 @@ impl Context {
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
         let bar = ProgressBar::with_draw_target(Some(total as u64), target)
             .with_style(style.expect("a template of indicatif"))
-            .with_message(self.made.stage.clone());
+            .with_message(self.plan.made.stage.clone());
         Progress { bar, observed: self.observed.clone() }
     }
 }

@@ -1,9 +1,9 @@
 //! The frame of all stages: options, up-to-date check, output, progress.
 //!
 //! ```text
-//! call      one call of a stage: its options, inputs and key
+//! paths     what a path is to a stage: a type for each kind
+//! call      one call of a stage: its options, and the files and keys that it reads and makes
 //! cache     runs a call unless its files are up to date
-//! files     which arguments are files, and where they are by default
 //! context   output, progress and warnings of a running stage
 //! stream    concurrent reading, work and writing
 //! options   option types of several stages
@@ -12,19 +12,37 @@
 pub mod cache;
 pub mod call;
 pub mod context;
-pub mod files;
 pub mod options;
+pub mod paths;
 pub mod stream;
 
 use std::path::PathBuf;
 
 use self::context::Context;
+use self::paths::Read;
 
-/// A struct of options, parsed by clap, and a function that runs it. What its arguments are, says
-/// [`files::role`].
+/// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the paths, the
+/// options enter the key of what is made.
 pub trait Stage {
-    /// Returns the files that it writes, the last one written last; none if it only prints.
+    /// Returns the files of options in a run that gives none, by flag, in the folder of the run. Options with a
+    /// default have it there too, and need no word.
+    fn in_run(_: &InRun) -> Vec<(&'static str, &'static str)>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
+    /// Returns all files that it reads.
+    fn inputs(&self) -> Vec<Read>;
+
+    /// Returns all files that it writes, the last one written last; none if it only prints.
     fn outputs(&self) -> Vec<PathBuf>;
+
+    /// Returns whether the text of the stage is what people make a folder for.
+    fn is_answer(&self) -> bool {
+        false
+    }
 
     /// Checks the options, before any stage of a run begins.
     fn check(&self) -> anyhow::Result<()> {
@@ -33,6 +51,28 @@ pub trait Stage {
 
     /// Runs the stage. Returns the text to print.
     fn run(&self, context: &Context) -> anyhow::Result<String>;
+}
+
+/// A run as one of its stages sees it.
+pub struct InRun<'a> {
+    pub stages: &'a dyn Fn(&str) -> bool,
+    /// Whether the section of the stage gives an option.
+    pub given: &'a dyn Fn(&str) -> bool,
+}
+
+impl InRun<'_> {
+    pub fn has(&self, stage: &str) -> bool {
+        (self.stages)(stage)
+    }
+
+    pub fn gives(&self, flag: &str) -> bool {
+        (self.given)(flag)
+    }
+
+    /// Returns the motions that all stages take: those of a floor if there are any.
+    pub fn motions(&self) -> &'static str {
+        if self.has("floor-motions") { "floor.parquet" } else { "motions.parquet" }
+    }
 }
 
 /// A mistake in a call, rather than in a file: the command exits with 2.

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use clap::error::{ContextKind, ErrorKind};
+use serde::Serialize;
 
 use crate::number::count;
 
@@ -23,7 +24,7 @@ pub fn number<T: FromStr + PartialOrd + Clone>(
 }
 
 /// Ascending numbers: one, several separated by commas, or first:last:step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Steps(pub Vec<f64>);
 
 /// Largest number of values.

@@ -144,12 +144,14 @@ fn median(ascending: &[f64]) -> f64 {
 }
 
 /// Target direction of a pair.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// An azimuth, degrees.
-    Azimuth(f64),
     /// Azimuth of the strongest wavelet (Shahi & Baker 2014).
     StrongestPulse,
+    /// An azimuth, degrees.
+    #[serde(untagged)]
+    Azimuth(f64),
 }
 
 impl FromStr for Direction {

@@ -1,43 +1,55 @@
 //! compare-paper: each published number beside that of this run.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Command, ValueHint};
+use clap::Args;
+use serde::Serialize;
 
-use super::sample_scenarios::SampleScenarios;
-use super::simulate::Simulate;
-use super::synthesize_motions::SynthesizeMotions;
+use super::Stages;
 use crate::fragility::DemandFit;
 use crate::number::{aligned, counted, fixed};
 use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
+use crate::pipeline::paths::{Input, Output, Read};
 use crate::rocking::Structure;
 use crate::studies::paper::{Comparison, compare};
 use crate::table::frame::{self, Format};
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
 
 /// Compare fits of the paper's set-up with the published numbers
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct ComparePaper {
     /// Fits of fit-pex
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "pex.parquet")]
-    pex: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
+    pex: Input,
     /// Fits of fit-pro
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "pro.parquet")]
-    pro: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
+    pro: Input,
     /// Comparison to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "paper.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "paper.parquet")]
+    out: Output,
     /// Print every number, not only the planes of Table II and the worked example
     #[arg(long)]
     all: bool,
 }
 
 impl Stage for ComparePaper {
+    fn is_answer(&self) -> bool {
+        true
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        let fits = [("pex", &self.pex), ("pro", &self.pro)].map(|(flag, file)| Read::new(flag, [&**file]));
+        let beside = BEFORE.map(|name| self.pex.with_file_name(name)).to_vec();
+        fits.into_iter().chain([Read { optional: true, ..Read::new("beside", beside) }]).collect()
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+        vec![self.out.to_path_buf()]
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -93,31 +105,28 @@ fn other_structures(demand: &[DemandFit]) -> Vec<String> {
 }
 
 /// Options that do not change what is compared.
-const NEUTRAL: [&str; 6] = ["seed", "partition", "housner", "sa", "structure", "trace"];
+const NEUTRAL: [&str; 7] = ["seed", "partition", "housner", "sa", "structure", "structures", "trace"];
+
+/// The tables of the stages before the fits, the last first.
+const BEFORE: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.parquet"];
 
 /// What options of the stages before the fits are not the paper's, which are the defaults; as far as the files
 /// of these stages are beside the fits.
 fn other_options(fits: &Path) -> Vec<String> {
-    let stages: [(&str, Command); 3] = [
-        ("responses.parquet", Simulate::augment_args(Command::new("simulate"))),
-        ("motions.parquet", SynthesizeMotions::augment_args(Command::new("synthesize-motions"))),
-        ("scenarios.parquet", SampleScenarios::augment_args(Command::new("sample-scenarios"))),
-    ];
     let (mut differences, mut child) = (Vec::new(), Provenance::of_file(fits).ok().flatten());
-    for (file, command) in stages {
+    for file in BEFORE {
         let made = Provenance::of_file(&fits.with_file_name(file)).ok().flatten();
         let (Some(made), Some(of_child)) = (made, child) else { break };
-        if of_child.inputs.get("in") != Some(&made.key()) {
+        if of_child.input("in") != Some(made.key()) {
             break;
         }
-        for arg in command.get_arguments() {
-            let flag = arg.get_long().unwrap_or_default();
-            let values = made.arguments.get(flag).map(|values| values.join(","));
-            let Some(now) = values.or_else(|| made.inputs.get(flag).cloned()) else { continue };
-            let default: Vec<_> =
-                arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
-            let then = if default.is_empty() { "none".to_string() } else { default.join(",") };
-            if flag != "in" && now != then && !NEUTRAL.contains(&flag) {
+        let paper = Stages::defaults(&made.stage);
+        let flags: BTreeSet<&String> = made.arguments.keys().chain(paper.keys()).collect();
+        for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
+            let file = || made.names(flag).unwrap_or("none".to_string());
+            let now = made.arguments.get(flag).map_or_else(file, text_of);
+            let then = paper.get(flag).map_or("none".to_string(), text_of);
+            if now != then {
                 differences.push(format!("{} --{flag} {now}, not {then}", made.stage));
             }
         }

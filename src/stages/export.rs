@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::Serialize;
 
 use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::objects::{StructureArgs, named};
@@ -14,12 +15,14 @@ use crate::inputs::Renames;
 use crate::keyword::keywords;
 use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
-use crate::pipeline::{Stage, UsageError};
-use crate::table::writer::write_file;
+use crate::pipeline::paths::{FragilityOutput, Read};
+use crate::pipeline::{InRun, Stage, UsageError};
+use crate::table::marks::xml_mark;
 use crate::warning::Warnings;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Export {
     /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]
@@ -28,11 +31,13 @@ pub struct Export {
     #[arg(long, value_name = "PEAK", default_value = "pga")]
     im: Peak,
     /// File to write: .xml, for pelicun .csv [default: fragility.xml or fragility.csv]
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    out: Option<FragilityOutput>,
     #[command(flatten)]
+    #[serde(flatten)]
     model: ModelArgs,
     #[command(flatten)]
+    #[serde(flatten)]
     structures: StructureArgs,
 }
 
@@ -44,19 +49,31 @@ keywords! {
     }
 }
 
+/// The file, without its ending, if none is given.
+const UNNAMED: &str = "fragility";
 /// Largest error of straight lines between the levels for OpenQuake.
 const TOLERANCE: f64 = 4e-6;
 
 impl Stage for Export {
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        [vec![("out", UNNAMED)], ModelArgs::in_run(run)].concat()
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![self.model.input(), self.structures.input()]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        let out = self.out.clone().unwrap_or_else(|| Path::new("fragility").with_extension(self.ending()));
+        let out = self.out.as_deref().unwrap_or(Path::new(UNNAMED));
+        let out =
+            if out.extension().is_none() { out.with_extension(self.ending()) } else { out.to_path_buf() };
         let json = (self.to == Program::Pelicun).then(|| out.with_extension("json"));
         json.into_iter().chain([out]).collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let ending = self.ending();
-        if let Some(out) = self.out.as_ref().filter(|out| out.extension() != Some(ending.as_ref())) {
+        let (ending, out) = (self.ending(), self.outputs().pop().unwrap_or_default());
+        if out.extension() != Some(ending.as_ref()) {
             let out = out.display();
             return Err(UsageError::because(format!("out is {out}; expected a name that ends in .{ending}")));
         }
@@ -85,11 +102,14 @@ impl Stage for Export {
         };
         let files = self.outputs();
         match self.to {
-            Program::OpenQuake => write_file(&files[0], discrete(&model, &functions).as_bytes())?,
+            Program::OpenQuake => {
+                let marked = discrete(&model, &functions).replacen('\n', &format!("\n{}\n", xml_mark()), 1);
+                context.write_file(&files[0], marked.as_bytes())?;
+            }
             Program::Pelicun => {
                 let json = serde_json::to_string_pretty(&metadata(&model, &functions))? + "\n";
-                write_file(&files[0], json.as_bytes())?;
-                write_file(&files[1], parameters(&functions)?.as_bytes())?;
+                context.write_file(&files[0], json.as_bytes())?;
+                context.write_file(&files[1], parameters(&functions)?.as_bytes())?;
             }
         }
         let (file, number, im) = (files[files.len() - 1].display(), functions.len(), self.im);

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::{Serialize, Serializer};
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
@@ -13,20 +14,20 @@ use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::files::part;
 use crate::pipeline::options::number;
+use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::statistics::FitStatus;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct FitPex {
     /// Responses to read
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
-          default_value = "responses.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    input: Input,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pex.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
+    out: Output,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
           value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
@@ -51,6 +52,15 @@ pub struct FitPex {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Transition(Option<f64>);
 
+impl Serialize for Transition {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Some(im4) => serializer.serialize_f64(im4),
+            None => serializer.serialize_str("found"),
+        }
+    }
+}
+
 impl FromStr for Transition {
     type Err = String;
 
@@ -64,8 +74,12 @@ impl FromStr for Transition {
 }
 
 impl Stage for FitPex {
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::new("in", [&*self.input])]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.clone()]
+        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.to_path_buf()]
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

@@ -2,27 +2,28 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::Serialize;
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::{observed, responses};
 use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, ParameterRow, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
-use crate::pipeline::files::part;
 use crate::pipeline::options::number;
+use crate::pipeline::paths::{Output, Read, RowsInput, part};
 use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct FitPro {
     /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath,
-          default_value = "responses.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    input: RowsInput,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "pro.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
+    out: Output,
     /// Event of the probability: overturning (given rocking) or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
     event: Event,
@@ -39,8 +40,16 @@ pub struct FitPro {
 }
 
 impl Stage for FitPro {
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::new("in", [&*self.input])]
+    }
+
+    fn is_answer(&self) -> bool {
+        true
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.clone()]
+        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.to_path_buf()]
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
 use arrow_schema::Schema;
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::number;
+use crate::pipeline::paths::{Input, Output, Read, out_of_partition};
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::table::TableError;
 use crate::table::columns::Batch;
@@ -27,14 +27,15 @@ const AT_ONCE: usize = 32;
 const PARTS_A_THREAD: usize = 2;
 
 /// Filter motions through a linear building to one of its floors
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct FloorMotions {
     /// Motions of the ground to read: motion_id, dt_s and acceleration_m_s2
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    input: Input,
     /// Motions of the floor to write, with all other columns
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "floor.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "floor.parquet")]
+    out: Output,
     /// First period of the building, s
     #[arg(long, value_name = "S", value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
     period: f64,
@@ -58,6 +59,10 @@ struct FloorRow {
 }
 
 impl Stage for FloorMotions {
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::partition("in", &self.input, self.partition)]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
         vec![out_of_partition(&self.out, self.partition)]
     }
@@ -70,7 +75,7 @@ impl Stage for FloorMotions {
             );
         }
         let no_rows = RecordBatch::new_empty(table.schema().clone());
-        let none = Batch { path: self.input.as_path().into(), first_row: 0, rows: no_rows };
+        let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
         let schema = self.filter(&none, &[], &mut MeasureScratch::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         let pool = Pool::new(MeasureScratch::default);

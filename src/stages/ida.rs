@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::RecordBatch;
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -15,10 +15,10 @@ use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
 use crate::motion::{IntensityMeasures, MeasureScratch};
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
-use crate::pipeline::files::part;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
+use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::stream::{Pool, batches, pipelined};
-use crate::pipeline::{Stage, UsageError};
+use crate::pipeline::{InRun, Stage, UsageError};
 use crate::plausibility::MOST_SCALED;
 use crate::rocking::{
     CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
@@ -39,14 +39,15 @@ const CHUNK: usize = 8;
 const MOST_SAMPLES: usize = 1 << 20;
 
 /// Scale motions until they overturn each structure (incremental dynamic analysis)
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Ida {
     /// Motions to read, as in simulate
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    input: Input,
     /// Overturning intensities to write, with NAME.stripes.parquet and NAME.fragility.parquet beside
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ida.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "ida.parquet")]
+    out: Output,
     /// Intensity to scale by: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
@@ -60,6 +61,7 @@ pub struct Ida {
     #[arg(long, default_value = "60", value_name = "N", value_parser = number(1..=10_000_usize, "1 to 10,000"))]
     steps: usize,
     #[command(flatten)]
+    #[serde(flatten)]
     structures: StructureArgs,
 }
 
@@ -94,8 +96,20 @@ struct Case<'a> {
 }
 
 impl Stage for Ida {
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        vec![("in", run.motions())]
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::new("in", [&*self.input]), self.structures.input()]
+    }
+
+    fn is_answer(&self) -> bool {
+        true
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "stripes"), part(&self.out, "fragility"), self.out.clone()]
+        vec![part(&self.out, "stripes"), part(&self.out, "fragility"), self.out.to_path_buf()]
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -1,15 +1,13 @@
 //! init: a folder to start from. It replaces nothing.
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::Write as _;
 use std::path::Path;
 
-use anyhow::Context;
 use chrono::Local;
 use clap::ValueEnum;
 
 use crate::pipeline::UsageError;
+use crate::table::writer::write_new;
 
 /// What a folder starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -52,11 +50,9 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     }
     let mut text = String::new();
     for (path, content) in &files {
-        let place = || path.display().to_string();
-        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).with_context(place)?;
         // A file that came meanwhile is left as it is.
         let content = content.replace("TODAY", &Local::now().date_naive().to_string());
-        File::create_new(path).and_then(|mut file| file.write_all(content.as_bytes())).with_context(place)?;
+        write_new(path, content.as_bytes())?;
         writeln!(text, "wrote {}", path.display())?;
     }
     let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use crate::table::file::Table;
 use crate::table::frame::{self, Format};
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, text_of};
 use crate::table::{dictionary, rows};
 
 /// Show what a file holds and where it came from
@@ -68,7 +68,7 @@ impl Inspect {
             Some(made) => {
                 writeln!(text, "made by {}, rockfrag {}", made.stage, made.version)?;
                 for (name, values) in &made.arguments {
-                    writeln!(text, "  --{name} {}", values.join(","))?;
+                    writeln!(text, "  --{name} {}", text_of(values))?;
                 }
                 made.warnings
                     .lines()

@@ -5,9 +5,13 @@ pub mod inspect;
 pub mod run;
 pub mod shared;
 
-use clap::Subcommand;
+use std::collections::BTreeMap;
 
-use crate::pipeline::Stage;
+use clap::{Command, FromArgMatches, Subcommand};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::pipeline::{InRun, Stage};
 
 /// Declares the stages, in the order of a run: the file and the struct of each.
 macro_rules! stages {
@@ -15,7 +19,8 @@ macro_rules! stages {
         $(pub mod $module;)*
 
         /// All stages.
-        #[derive(Debug, Subcommand)]
+        #[derive(Debug, Subcommand, Serialize)]
+        #[serde(untagged)]
         #[expect(clippy::large_enum_variant, reason = "clap makes one for each call")]
         pub enum Stages {
             $($stage($module::$stage)),*
@@ -27,6 +32,14 @@ macro_rules! stages {
                 match self {
                     $(Stages::$stage(stage) => Box::new(stage)),*
                 }
+            }
+
+            /// The files of a stage in a run.
+            pub fn in_run(stage: &str, run: &InRun) -> Vec<(&'static str, &'static str)> {
+                let files = [$(<$module::$stage as Stage>::in_run),*];
+                let names = Stages::augment_subcommands(Command::new("stages"));
+                let place = names.get_subcommands().position(|command| command.get_name() == stage);
+                place.map_or(Vec::new(), |place| files[place](run))
             }
         }
     };
@@ -47,4 +60,36 @@ stages! {
     export::Export,
     validate::Validate,
     report::Report,
+}
+
+impl Stages {
+    /// The options of a stage that is given none.
+    pub fn defaults(stage: &str) -> BTreeMap<String, Value> {
+        let parser = Stages::augment_subcommands(Command::new("rockfrag"));
+        let parsed = parser.try_get_matches_from(["rockfrag", stage]);
+        let stage = parsed.and_then(|matches| Stages::from_arg_matches(&matches));
+        stage.map_or(BTreeMap::new(), |stage| stage.options())
+    }
+
+    /// The options of the stage by flag, without files and what is not given.
+    pub fn options(&self) -> BTreeMap<String, Value> {
+        let all = serde_json::to_value(self).unwrap_or_default();
+        let options = all.as_object().into_iter().flatten().map(|(flag, value)| (flag.clone(), given(value)));
+        options.filter(|(_, value)| !value.is_null()).collect()
+    }
+}
+
+/// A value without what is null in it; null if nothing is left.
+fn given(value: &Value) -> Value {
+    match value {
+        Value::Array(items) => {
+            let items: Vec<Value> = items.iter().map(given).filter(|item| !item.is_null()).collect();
+            if items.is_empty() { Value::Null } else { Value::Array(items) }
+        }
+        Value::Object(fields) => {
+            let given = fields.iter().map(|(name, value)| (name.clone(), given(value)));
+            Value::Object(given.filter(|(_, value)| !value.is_null()).collect())
+        }
+        value => value.clone(),
+    }
 }

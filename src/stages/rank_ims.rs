@@ -5,15 +5,17 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use clap::{Args, ValueHint};
+use clap::Args;
 use polars::prelude::SortMultipleOptions;
+use serde::Serialize;
 
 use super::shared::responses::{self, Candidates};
 use crate::motion::Dimension;
 use crate::paper;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
-use crate::pipeline::{Stage, UsageError};
+use crate::pipeline::paths::{Input, Output, Read};
+use crate::pipeline::{InRun, Stage, UsageError};
 use crate::rocking::Structure;
 use crate::studies::{RankedSet, RankingRules, Target, rank_measures};
 use crate::table::file::Table;
@@ -33,17 +35,18 @@ const UNITS: [(&str, Dimension); 4] = [
 const SHOWN: i64 = 5;
 
 /// Rank intensity measures, singly and in sets, by how well they predict held-out cells or earthquakes
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct RankIms {
     /// Responses to read
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    input: Input,
     /// Ranking to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "ranking.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "ranking.parquet")]
+    out: Output,
     /// Motions of these responses, whose measures are made dimensionless with p and g tan alpha
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    motions: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    motions: Option<Input>,
     /// Further columns of --motions, with their unit at the end of the name (_m_s2, _m_s, _m, _s)
     #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "motions")]
     candidate: Vec<String>,
@@ -59,8 +62,17 @@ pub struct RankIms {
 }
 
 impl Stage for RankIms {
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        let has_motions = run.has("synthesize-motions") || run.has("import-motions");
+        has_motions.then(|| ("motions", run.motions())).into_iter().collect()
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+        vec![self.out.to_path_buf()]
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -3,26 +3,24 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::io::Write as _;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::Context as _;
 
 use crate::pipeline::cache;
-use crate::pipeline::call::Call;
+use crate::pipeline::call::{Call, Planned};
 use crate::pipeline::context::Context;
+use crate::pipeline::paths::Read;
+use crate::table::provenance::text_of;
 use crate::warning::Warnings;
 
-/// Stages whose result is the purpose of a folder; the first one that runs is printed at the end.
-const ANSWERS: [&str; 4] = ["evaluate", "compare-paper", "ida", "fit-pro"];
 /// Warnings that are printed.
 const SHOWN: usize = 3;
 
-/// Runs the stages that are not up to date. Returns the text of the stage above, or of the last stage.
+/// Runs the stages that are not up to date. Returns the text of the last answer, or else of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), HashMap::new());
-    let place_of = |name: &&str| calls.iter().position(|call| call.name == *name);
-    let answer = ANSWERS.iter().find_map(place_of).unwrap_or(calls.len() - 1);
+    let answer = calls.iter().rposition(|call| call.stage.is_answer()).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
         let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
@@ -34,7 +32,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
             };
             let _ = writeln!(std::io::stderr(), "{:20} {took}", call.name);
         }
-        made.extend(call.stage.outputs().into_iter().map(|path| (path, done.key.clone())));
+        made.extend(done.keys);
         warnings.join(&done.warnings);
         if place == answer {
             printed = done.summary;
@@ -61,22 +59,22 @@ pub fn warn(warnings: &Warnings) {
 /// Lists what each stage would do, with its options, and why.
 pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
     let mut text = String::new();
-    let mut planned: HashMap<PathBuf, String> = HashMap::new();
+    let mut planned = Planned::new();
     for call in calls {
-        let made = call.provenance(&planned)?;
-        let would = match cache::freshness(call, &made) {
+        let plan = call.plan(&planned)?;
+        let would = match cache::freshness(&plan) {
             Ok(_) => "up to date".to_string(),
             Err(reason) => format!("run: {reason}"),
         };
         writeln!(text, "{}: {would}", call.name)?;
-        for (name, values) in &made.arguments {
-            writeln!(text, "    --{name} {}", values.join(","))?;
+        for (name, value) in &call.options {
+            writeln!(text, "    --{name} {}", text_of(value))?;
         }
-        for (name, paths) in &call.inputs {
+        for Read { flag, paths, .. } in call.stage.inputs().iter().filter(|read| !read.paths.is_empty()) {
             let paths: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-            writeln!(text, "    --{name} {}", paths.join(" "))?;
+            writeln!(text, "    --{flag} {}", paths.join(" "))?;
         }
-        planned.extend(call.stage.outputs().into_iter().map(|path| (path, made.key())));
+        planned.extend(plan.keys());
     }
     Ok(text)
 }

@@ -2,20 +2,23 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::motion::{Design, Grid, Scenario};
 use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number};
+use crate::pipeline::paths::{Output, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::table::rows;
 use crate::warning::Warning;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct SampleScenarios {
     /// Seed of the random parameters
     #[arg(long, default_value = "42")]
@@ -33,8 +36,8 @@ pub struct SampleScenarios {
     #[arg(long, default_value = "lhs")]
     design: Design,
     /// Scenarios to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "scenarios.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "scenarios.parquet")]
+    out: Output,
 }
 
 /// Scenarios that are in memory at once.
@@ -45,8 +48,12 @@ const PAPER_MW: [f64; 2] = [5.5, 7.5];
 const PAPER_RE_KM: [f64; 2] = [0.0, 20.0];
 
 impl Stage for SampleScenarios {
+    fn inputs(&self) -> Vec<Read> {
+        Vec::new()
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+        vec![self.out.to_path_buf()]
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -5,18 +5,19 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::shared::motions::{Measures, expect_distinct, warnings};
 use super::shared::objects::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
-use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::files::{out_of_partition, part};
 use crate::pipeline::options::{MOST_LINES, first_lines, listed};
+use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
 use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::pipeline::{InRun, Stage};
 use crate::rocking::{Ground, Outcome, Problem, Record, Structure, TracePoint};
 use crate::rocking::{simulate_all, trace, with_tail};
 use crate::table::TableError;
@@ -42,15 +43,17 @@ const NAMED: usize = 8;
 const OF_PAPER: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
 
 /// Simulate the rocking response of structures to motions: the paper's two structures, or your own
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Simulate {
     /// Motions to read: motion_id, dt_s and acceleration_m_s2
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "motions.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    input: Input,
     /// Responses to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "responses.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "responses.parquet")]
+    out: Output,
     #[command(flatten)]
+    #[serde(flatten)]
     structures: StructureArgs,
     /// Also write the response to these motions over time, or to all, to NAME.trace.parquet: by a plain
     /// solver, which may disagree with the outcome when a structure nearly overturns
@@ -62,6 +65,14 @@ pub struct Simulate {
 }
 
 impl Stage for Simulate {
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        vec![("in", run.motions())]
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::partition("in", &self.input, self.partition), self.structures.input()]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
         let traced = (!self.trace.is_empty()).then(|| part(&self.out, "trace"));
         traced.into_iter().chain([out_of_partition(&self.out, self.partition)]).collect()

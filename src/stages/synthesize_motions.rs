@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +14,8 @@ use crate::motion::{
 };
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
-use crate::pipeline::files::out_of_partition;
 use crate::pipeline::options::{Steps, number, periods};
+use crate::pipeline::paths::{Input, Output, Read, SiteInput, out_of_partition};
 use crate::pipeline::stream::{Pool, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{Partition, Table};
@@ -26,14 +26,15 @@ const AT_ONCE: usize = 128;
 const MOST_SAMPLES: usize = 1 << 23;
 
 /// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct SynthesizeMotions {
     /// Scenarios to read
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "scenarios.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "scenarios.parquet")]
+    input: Input,
     /// Motions to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "motions.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "motions.parquet")]
+    out: Output,
     /// Seed of the noise
     #[arg(long, default_value = "42")]
     seed: u64,
@@ -51,8 +52,8 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "envelope-peak")]
     epoch: Epoch,
     /// Site: rock, soil, none, or a CSV file of frequencies (Hz) and factors
-    #[arg(long, default_value = "rock", value_hint = ValueHint::FilePath)]
-    site: PathBuf,
+    #[arg(long, default_value = "rock")]
+    site: SiteInput,
     /// Near-surface attenuation kappa, s
     #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
     kappa: f64,
@@ -90,6 +91,13 @@ struct Motion {
 }
 
 impl Stage for SynthesizeMotions {
+    fn inputs(&self) -> Vec<Read> {
+        vec![
+            Read::new("in", [&*self.input]),
+            Read::new("site", Some(&*self.site).filter(|_| self.site.word().is_none())),
+        ]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
         vec![out_of_partition(&self.out, self.partition)]
     }

@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
-use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::files::part;
+use crate::pipeline::paths::{Input, Output, Read, part};
+use crate::pipeline::{InRun, Stage};
 use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
 use crate::table::keys::key_of;
@@ -18,23 +19,33 @@ use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Validate {
     /// Responses to test on
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, default_value = "responses.parquet")]
-    input: PathBuf,
+    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    input: Input,
     /// Scores to write, with NAME.reliability.parquet beside
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "validation.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "validation.parquet")]
+    out: Output,
     #[command(flatten)]
+    #[serde(flatten)]
     fits: ModelArgs,
 }
 
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        ModelArgs::in_run(run)
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![Read::new("in", [&*self.input]), self.fits.input()]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "reliability"), self.out.clone()]
+        vec![part(&self.out, "reliability"), self.out.to_path_buf()]
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -75,7 +86,7 @@ impl Validate {
         let Some(made) = Provenance::of_file(&folder.join("pro.calibration.parquet"))? else {
             return Ok(false);
         };
-        Ok(made.inputs.get("in") == Some(&key_of(&self.input)?))
+        Ok(made.input("in") == Some(key_of(&self.input)?))
     }
 }
 

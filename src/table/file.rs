@@ -21,6 +21,7 @@ use super::TableError;
 use super::columns::Batch;
 use super::pages::Pages;
 use super::provenance::Provenance;
+use crate::source::is_pipe;
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
@@ -44,6 +45,12 @@ impl FromStr for Partition {
             Some((index, of)) if index < of => Ok(Partition { index, of }),
             _ => Err("expected i/n with i from 0 to n - 1, such as 0/4".to_string()),
         }
+    }
+}
+
+impl serde::Serialize for Partition {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 
@@ -234,10 +241,13 @@ impl TableFile {
         self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as usize).sum()
     }
 
+    fn made(&self) -> Option<Provenance> {
+        Provenance::of_footer(self.metadata.metadata())
+    }
+
     /// Returns which partition it is; none if it is a whole table.
     fn partition(&self) -> Option<Partition> {
-        let made = Provenance::of_footer(self.metadata.metadata())?;
-        made.arguments.get("partition")?.first()?.parse().ok()
+        self.made()?.partition()
     }
 }
 
@@ -254,6 +264,10 @@ pub fn or_error<T, E>(
 
 /// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
 pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
+    // A pipe would wait for its writer.
+    if is_pipe(path) {
+        return Err(TableError::table(path, "a pipe or device; expected a Parquet file"));
+    }
     let file = File::open(path).map_err(|source| TableError::io(path, source))?;
     if path.is_dir() {
         return Err(TableError::table(path, "a folder; expected a Parquet file"));
@@ -290,14 +304,35 @@ fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError
     if files.is_empty() {
         return refuse("a folder without Parquet files".to_string());
     }
-    let parts: Option<Vec<Partition>> = files.iter().map(TableFile::partition).collect();
-    let parts = parts.unwrap_or_default();
-    let Some(of) = parts.first().map(|part| part.of) else { return Ok(()) };
-    let missing = (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(part));
-    match missing {
-        Some(part) => refuse(format!("partition {part} is missing; make it with --partition {part}")),
-        None if parts.len() == of => Ok(()),
-        None => refuse(format!("{} files; expected the {of} partitions of one table", parts.len())),
+    let made: Vec<Option<Provenance>> = files.iter().map(TableFile::made).collect();
+    let parts: Vec<Option<Partition>> = made.iter().map(|made| made.as_ref()?.partition()).collect();
+    let Some(first) = parts.iter().position(Option::is_some) else { return Ok(()) };
+    let of = parts[first].map_or(0, |part| part.of);
+    let whole = |place: usize| made[place].as_ref().map(Provenance::whole);
+    let is_other =
+        |&place: &usize| parts[place].is_none_or(|part| part.of != of) || whole(place) != whole(first);
+    if let Some(other) = (0..files.len()).find(is_other) {
+        let [first, other] =
+            [first, other].map(|place| files[place].path.file_name().unwrap_or_default().to_string_lossy());
+        return refuse(format!(
+            "{first} and {other} are no parts of one table: they were made by other options, of other files or by \
+             another program"
+        ));
+    }
+    let part = |index: usize| Partition { index, of };
+    if let Some(index) = (0..of).find(|&index| !parts.contains(&Some(part(index)))) {
+        let part = part(index);
+        return refuse(format!("partition {part} is missing; make it with --partition {part}"));
+    }
+    match (0..files.len()).find(|&place| parts[place] != Some(part(place))) {
+        None => Ok(()),
+        Some(_) if files.len() > of => {
+            refuse(format!("{} files; expected the {of} partitions of one table", files.len()))
+        }
+        Some(place) => {
+            let name = files[place].path.file_name().unwrap_or_default().to_string_lossy();
+            refuse(format!("{name} is not partition {}; the order of names is that of rows", part(place)))
+        }
     }
 }
 

@@ -1,80 +1,83 @@
-//! The key of a file, which shows whether what is made of it is up to date.
+//! The key of the content of a file, which shows whether what is made of it is up to date.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::TableError;
 use super::file::{self, is_table};
-use super::provenance::Provenance;
+use super::provenance::{InputFile, Provenance, joined};
+use crate::source;
 
-/// The bytes of a page or figure that are searched for its provenance.
-const HEAD: u64 = 8192;
-
-impl Provenance {
-    /// Reads the provenance of a table, page or figure; `None` if another program wrote it.
-    pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("html" | "svg") => Ok(Provenance::of_text(&head(path)?)),
-            Some("png" | "xlsx") => {
-                let bytes = std::fs::read(path).map_err(|source| TableError::io(path, source))?;
-                Ok(Provenance::of_picture(&bytes).or_else(|| Provenance::of_workbook(bytes)))
-            }
-            _ => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
-        }
-    }
-}
-
-/// Returns all files, those in folders included, in the order of their names, without hidden files.
-pub fn files_below(paths: &[PathBuf]) -> Result<Vec<PathBuf>, TableError> {
+/// Returns all files in a folder and the folders in it, in the order of their names, without hidden files,
+/// pipes and devices. A folder to which several links lead is read once.
+pub fn files_below(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     let mut files = Vec::new();
-    for path in paths {
-        match path.is_dir() {
-            true => files.extend(files_below(&file::entries(path)?)?),
-            false => files.push(path.clone()),
-        }
-    }
+    add_files(&mut files, &mut HashSet::new(), folder)?;
     Ok(files)
 }
 
-/// Reads the beginning of a file as text.
-pub fn head(path: &Path) -> Result<String, TableError> {
-    let mut head = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    read.map_err(|source| TableError::io(path, source))?;
-    Ok(String::from_utf8_lossy(&head).into_owned())
-}
-
-/// Computes the key of an input: the one in the file if rockfrag wrote it, otherwise the hash of its bytes;
-/// for a folder, the hash of the keys of its tables, or of all files if there is no table.
-pub fn key_of(path: &Path) -> Result<String, TableError> {
-    key_with(path, &HashMap::new())
-}
-
-/// Computes the same with the keys of files that are not made yet.
-pub fn key_with(path: &Path, planned: &HashMap<PathBuf, String>) -> Result<String, TableError> {
-    if let Some(key) = planned.get(path) {
-        return Ok(key.clone());
+fn add_files(files: &mut Vec<PathBuf>, seen: &mut HashSet<PathBuf>, folder: &Path) -> Result<(), TableError> {
+    if !seen.insert(folder.canonicalize().map_err(|source| TableError::io(folder, source))?) {
+        return Ok(());
     }
-    if path.is_dir() {
-        let mut files = files_below(&[path.to_path_buf()])?;
-        let to_come = planned.keys().filter(|file| file.starts_with(path) && !file.exists());
-        files.extend(to_come.cloned());
-        files.sort_unstable();
-        if files.iter().any(|file| is_table(file)) {
-            files.retain(|file| is_table(file));
+    for path in file::entries(folder)? {
+        match path.metadata() {
+            Ok(found) if found.is_dir() => add_files(files, seen, &path)?,
+            // A broken link is a file that cannot be read.
+            Ok(found) if !found.is_file() => {}
+            _ => files.push(path),
         }
-        let keys = files.iter().map(|file| key_with(file, planned)).collect::<Result<Vec<_>, _>>()?;
-        return Ok(blake3::hash(keys.join(" ").as_bytes()).to_hex().to_string());
     }
+    Ok(())
+}
+
+/// Returns the names of files below the innermost folder that has all of them.
+pub fn names_below(paths: &[PathBuf]) -> Vec<String> {
+    let full: Vec<PathBuf> = paths.iter().map(|path| resolved(path)).collect();
+    let mut folder = full.first().and_then(|path| path.parent()).unwrap_or(Path::new("")).to_path_buf();
+    while !full.iter().all(|path| path.starts_with(&folder)) && folder.pop() {}
+    let name = |path: &PathBuf| path.strip_prefix(&folder).unwrap_or(path).to_string_lossy().into_owned();
+    full.iter().map(name).collect()
+}
+
+/// Returns the one way of writing a path that need not exist.
+pub fn resolved(path: &Path) -> PathBuf {
+    let mut resolved = PathBuf::new();
+    for part in std::path::absolute(path).unwrap_or(path.to_path_buf()).components() {
+        match part {
+            std::path::Component::ParentDir => drop(resolved.pop()),
+            part => resolved.push(part),
+        }
+    }
+    match resolved.parent().map(Path::canonicalize) {
+        Some(Ok(folder)) => folder.join(resolved.file_name().unwrap_or_default()),
+        _ => resolved,
+    }
+}
+
+/// Computes the key of a table, or of the tables in a folder.
+pub fn key_of(path: &Path) -> Result<String, TableError> {
+    let files = if path.is_dir() { file::tables(path)? } else { vec![path.to_path_buf()] };
+    let read = files.iter().zip(names_below(&files)).map(|(file, name)| read_file(file, name));
+    Ok(joined(&read.collect::<Result<Vec<_>, _>>()?))
+}
+
+/// Computes the key of the content of a file that has this name among those read: the one in its footer if
+/// rockfrag wrote it, else the hash of its bytes.
+pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
     if is_table(path)
         && let Ok(Some(made)) = Provenance::of_file(path)
     {
-        return Ok(made.key());
+        return Ok(InputFile { name, key: made.key(), whole: made.partition().map(|_| made.whole()) });
     }
     let mut hasher = blake3::Hasher::new();
-    let read = File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ()));
-    read.map_err(|source| TableError::io(path, source))?;
-    Ok(hasher.finalize().to_hex().to_string())
+    let hashed = match source::is_pipe(path) || path == Path::new("-") {
+        true => source::read(path).and_then(|bytes| hasher.update_reader(&*bytes).map(|_| ())),
+        false => {
+            File::open(source::split_sheet(path).0).and_then(|file| hasher.update_reader(file).map(|_| ()))
+        }
+    };
+    hashed.map_err(|error| TableError::io(path, error))?;
+    Ok(InputFile { name, key: hasher.finalize().to_hex().to_string(), whole: None })
 }

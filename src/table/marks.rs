@@ -1,11 +1,21 @@
-//! Provenance in files that are neither tables nor text: pictures and workbooks.
+//! Marks of our own files, by which one is told from a file of another program before it is replaced, and found
+//! up to date: provenance in pages, pictures and workbooks; headings and keys of CSV and JSON.
 
 use std::io::{Cursor, Read};
+use std::path::Path;
 
+use serde_json::Value;
+
+use super::TableError;
+use super::file;
 use super::provenance::Provenance;
 
 /// The words before the JSON in a PNG: the kind of the chunk, our name, no compression, no language.
 const IN_PICTURE: &[u8] = b"iTXtrockfrag\0\0\0\0\0";
+/// The text before the JSON in a page or figure, and after it.
+const META: [&str; 2] = ["name=\"rockfrag\" content=\"", "\""];
+/// The start of a second line of XML.
+const XML: &str = "<!-- rockfrag ";
 /// Where a PNG has its first chunk behind the head, and where the file of a workbook has our properties.
 const BEHIND_HEAD: usize = 33;
 const PROPERTIES: &str = "docProps/custom.xml";
@@ -15,7 +25,7 @@ impl Provenance {
     pub fn of_picture(png: &[u8]) -> Option<Provenance> {
         let (length, rest) = png.get(BEHIND_HEAD..)?.split_first_chunk::<4>()?;
         let chunk = rest.get(..u32::from_be_bytes(*length) as usize + 4)?;
-        serde_json::from_slice(chunk.strip_prefix(IN_PICTURE)?).ok()
+        Provenance::of_json(&String::from_utf8_lossy(chunk.strip_prefix(IN_PICTURE)?))
     }
 
     /// Reads the provenance in a workbook, which is written in parts; `None` if another program wrote it.
@@ -27,8 +37,61 @@ impl Provenance {
         let part =
             |part: &str| Some(part.split_once("<vt:lpwstr>")?.1.split_once("</vt:lpwstr>")?.0.to_string());
         let json = parts.map(part).collect::<Option<String>>()?;
-        let json =
-            json.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
-        serde_json::from_str(&json).ok()
+        Provenance::of_json(&unescaped(&json))
     }
+
+    /// Reads the provenance in a file; `None` if another program wrote it, or if files of its kind have none.
+    pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
+        let read = || std::fs::read(path).map_err(|source| TableError::io(path, source));
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("html" | "svg") => {
+                let text = read()?;
+                let json = between(&String::from_utf8_lossy(&text), META).map(unescaped);
+                Ok(json.and_then(|json| Provenance::of_json(&json)))
+            }
+            Some("png") => Ok(Provenance::of_picture(&read()?)),
+            Some("xlsx") => Ok(Provenance::of_workbook(read()?)),
+            Some("csv" | "json" | "xml") => read().map(|_| None),
+            _ => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
+        }
+    }
+}
+
+/// The comment that marks XML as ours, on its second line.
+pub fn xml_mark() -> String {
+    format!("{XML}{} -->", env!("CARGO_PKG_VERSION"))
+}
+
+/// Returns whether the file at `path` is ours, or has the headings or keys of what would be written there.
+pub fn is_ours(path: &Path, content: &[u8]) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let there = || std::fs::read(path).unwrap_or_default();
+    match ending {
+        Some("csv") => heading(&there()) == heading(content),
+        Some("json") => keys(&there()).is_some_and(|found| Some(found) == keys(content)),
+        Some("xml") => {
+            String::from_utf8_lossy(&there()).lines().nth(1).is_some_and(|line| line.starts_with(XML))
+        }
+        _ => Provenance::of_file(path).is_ok_and(|made| made.is_some()),
+    }
+}
+
+fn heading(csv: &[u8]) -> &[u8] {
+    csv.split(|byte| *byte == b'\n').next().unwrap_or_default().trim_ascii_end()
+}
+
+/// The keys of an object, or of the first of a list.
+fn keys(json: &[u8]) -> Option<Vec<String>> {
+    let value: Value = serde_json::from_slice(json).ok()?;
+    let object = value.as_array().map_or(Some(&value), |items| items.first())?;
+    Some(object.as_object()?.keys().cloned().collect())
+}
+
+fn between<'a>(text: &'a str, [before, after]: [&str; 2]) -> Option<&'a str> {
+    text.split_once(before)?.1.split_once(after).map(|(inside, _)| inside)
+}
+
+fn unescaped(text: &str) -> String {
+    let text = text.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">");
+    text.replace("&apos;", "'").replace("&amp;", "&")
 }

@@ -8,9 +8,9 @@
 //! pages       pages and their checksums
 //! lists       a column of lists of numbers, read without building lists
 //! writer      atomic writing
-//! marks       provenance in pictures and workbooks
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
+//! marks       what shows that a file is ours
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
 //! capacities  intensities that overturn, one row for each motion and structure
@@ -24,7 +24,7 @@ pub mod file;
 pub mod frame;
 pub mod keys;
 pub mod lists;
-mod marks;
+pub mod marks;
 pub mod motions;
 mod pages;
 pub mod provenance;
@@ -72,6 +72,10 @@ impl TableError {
     pub fn value(path: &Path, row: usize, column: &str, problem: impl ToString) -> TableError {
         let problem = problem.to_string();
         TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
+    }
+
+    pub fn not_ours(path: &Path) -> TableError {
+        TableError::table(path, "not written by rockfrag, or damaged; --force replaces it")
     }
 
     /// Any other problem with a table.

@@ -4,28 +4,38 @@ use std::collections::BTreeMap;
 
 use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
+use super::file::Partition;
 use crate::warning::Warnings;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
-/// The text before the JSON in a page or figure.
-const META: &str = "name=\"rockfrag\" content=\"";
+/// Files of an input that are named.
+const MOST_NAMED: usize = 4;
 /// Writer of the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
+/// A hash of the sources and data of this program.
+const PROGRAM: &str = env!("ROCKFRAG_PROGRAM");
+
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Provenance {
     pub stage: String,
     /// Version of rockfrag.
     pub version: String,
-    /// All arguments except files, defaults included.
-    pub arguments: BTreeMap<String, Vec<String>>,
-    /// Keys of its inputs.
-    pub inputs: BTreeMap<String, String>,
-    /// Names of the files of its inputs, which are not part of the key.
-    #[serde(default)]
-    pub files: BTreeMap<String, String>,
+    /// Hash of its sources and data.
+    pub program: String,
+    /// All options except files, defaults included, by flag.
+    pub arguments: BTreeMap<String, Value>,
+    /// The files that were read, by flag.
+    pub inputs: BTreeMap<String, Vec<InputFile>>,
+    /// Which of the files of the stage it is, from 0.
+    pub output: usize,
+    /// Hashes of further files that belong to it, by their names beside it.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub further: BTreeMap<String, String>,
     /// Text printed by the stage.
     pub summary: String,
     pub warnings: Warnings,
@@ -36,18 +46,81 @@ pub fn is_ours(footer: &FileMetaData) -> bool {
     footer.created_by().is_some_and(|program| program.starts_with("rockfrag "))
 }
 
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InputFile {
+    /// Its name, below the innermost folder that has all files of its flag.
+    pub name: String,
+    /// The key of its content.
+    pub key: String,
+    /// If it is a part of a table, the key of the whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub whole: Option<String>,
+}
+
+/// Returns the key of the files that are one input: that of a single file, else a hash of all.
+pub fn joined(files: &[InputFile]) -> String {
+    match files {
+        [one] => one.key.clone(),
+        _ => hash(&serde_json::json!(files)),
+    }
+}
+
+fn hash(value: &Value) -> String {
+    blake3::hash(value.to_string().as_bytes()).to_hex().to_string()
+}
+
+/// Returns the text of a value on a command line; a mapping becomes `name=frame,p=1`.
+pub fn text_of(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Object(pairs) => {
+            let pairs = pairs.iter().map(|(key, value)| format!("{key}={}", text_of(value)));
+            pairs.collect::<Vec<_>>().join(",")
+        }
+        Value::Array(items) => items.iter().map(text_of).collect::<Vec<_>>().join(","),
+        other => other.to_string(),
+    }
+}
+
 impl Provenance {
-    /// Computes the hash of stage, version, arguments and keys of the inputs.
-    pub fn key(&self) -> String {
-        let text = serde_json::json!([self.stage, self.version, self.arguments, self.inputs]).to_string();
-        blake3::hash(text.as_bytes()).to_hex().to_string()
+    /// Begins the provenance of what a stage of this program makes.
+    pub fn new(stage: &str, arguments: BTreeMap<String, Value>) -> Provenance {
+        let [version, program] = [env!("CARGO_PKG_VERSION"), PROGRAM].map(str::to_string);
+        Provenance { stage: stage.to_string(), version, program, arguments, ..Provenance::default() }
     }
 
-    /// Reads the provenance at the beginning of a page or figure; `None` if another program wrote it.
-    pub fn of_text(text: &str) -> Option<Provenance> {
-        let (_, rest) = text.split_once(META)?;
-        let json = rest.split_once('"')?.0.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">");
-        serde_json::from_str(&json.replace("&amp;", "&")).ok()
+    /// Computes the hash of stage, program, options, names and keys of the inputs, and which output it is.
+    pub fn key(&self) -> String {
+        let Provenance { stage, program, arguments, inputs, output, .. } = self;
+        hash(&serde_json::json!([stage, program, arguments, inputs, output]))
+    }
+
+    /// Returns which part of a table it is; none if it is a whole one.
+    pub fn partition(&self) -> Option<Partition> {
+        self.arguments.get("partition")?.as_str()?.parse().ok()
+    }
+
+    /// Returns the key that all parts of one table share.
+    pub fn whole(&self) -> String {
+        let options = self.arguments.iter().filter(|(flag, _)| *flag != "partition");
+        let whole =
+            |file: &InputFile| file.whole.clone().unwrap_or_else(|| format!("{} {}", file.name, file.key));
+        let inputs =
+            self.inputs.iter().map(|(flag, files)| (flag, files.iter().map(whole).collect::<Vec<_>>()));
+        let (options, inputs) = (options.collect::<Vec<_>>(), inputs.collect::<Vec<_>>());
+        hash(&serde_json::json!([self.stage, self.program, options, inputs]))
+    }
+
+    /// Returns the key of what was read under a flag.
+    pub fn input(&self, flag: &str) -> Option<String> {
+        self.inputs.get(flag).map(|files| joined(files))
+    }
+
+    /// Returns the names of the first files that were read under a flag.
+    pub fn names(&self, flag: &str) -> Option<String> {
+        let names = self.inputs.get(flag)?.iter().take(MOST_NAMED).map(|file| file.name.as_str());
+        Some(names.collect::<Vec<_>>().join(", "))
     }
 
     /// Reads the provenance in a footer; `None` if another program wrote it.
@@ -55,7 +128,16 @@ impl Provenance {
         let footer = metadata.file_metadata();
         let pairs = footer.key_value_metadata().filter(|_| is_ours(footer))?;
         let pair = pairs.iter().find(|pair| pair.key == KEY)?;
-        serde_json::from_str(pair.value.as_ref()?).ok()
+        Provenance::of_json(pair.value.as_ref()?)
+    }
+
+    /// Reads JSON; of another version it has stage, version and summary at least.
+    pub fn of_json(json: &str) -> Option<Provenance> {
+        let value: Value = serde_json::from_str(json).ok()?;
+        let text = |name: &str| value[name].as_str().unwrap_or_default().to_string();
+        let [stage, version, summary] = ["stage", "version", "summary"].map(text);
+        let known = serde_json::from_value(value).ok();
+        known.or(Some(Provenance { stage, version, summary, ..Provenance::default() }))
     }
 
     /// Returns the entry of the footer.
@@ -72,17 +154,17 @@ impl Provenance {
         if self.stage != now.stage {
             return Some(format!("the file was made by {}", self.stage));
         }
-        if self.version != now.version {
-            return Some(format!("it is of rockfrag {}", self.version));
+        if (&self.version, &self.program) != (&now.version, &now.program) {
+            return Some(format!("it was made by another build of rockfrag ({})", self.version));
         }
-        let text =
-            |values: Option<&Vec<String>>| values.map_or("nothing".to_string(), |values| values.join(","));
+        let text = |value: Option<&Value>| value.map_or("nothing".to_string(), text_of);
         let is_other = |name: &&String| self.arguments.get(*name) != now.arguments.get(*name);
         if let Some(name) = now.arguments.keys().chain(self.arguments.keys()).find(is_other) {
             let [before, now] = [self, now].map(|made| text(made.arguments.get(name)));
             return Some(format!("--{name} changed from {before} to {now}"));
         }
-        let other = now.inputs.iter().find(|(name, key)| self.inputs.get(*name) != Some(key));
-        other.map(|(name, _)| format!("what --{name} reads changed"))
+        let names = now.inputs.keys().chain(self.inputs.keys());
+        let other = names.into_iter().find(|name| self.inputs.get(*name) != now.inputs.get(*name));
+        other.map(|name| format!("what --{name} reads changed"))
     }
 }

@@ -37,6 +37,10 @@ impl TableWriter {
         Ok(TableWriter { path: path.to_path_buf(), writer })
     }
 
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
         self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
     }
@@ -60,15 +64,36 @@ impl TableWriter {
 
 /// Writes a small file atomically.
 pub fn write_file(path: &Path, content: &[u8]) -> Result<(), TableError> {
+    persist(partial_with(path, content)?, path)
+}
+
+/// Writes a small file atomically, unless something is there already.
+pub fn write_new(path: &Path, content: &[u8]) -> Result<(), TableError> {
+    let partial = partial_with(path, content)?;
+    partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
+    partial.persist_noclobber(path).map_err(|refused| cannot_write(path, refused.error))?;
+    Ok(())
+}
+
+fn partial_with(path: &Path, content: &[u8]) -> Result<NamedTempFile, TableError> {
     let mut partial = partial_beside(path)?;
     partial.write_all(content).map_err(|source| cannot_write(path, source))?;
-    persist(partial, path)
+    Ok(partial)
 }
 
 fn persist(partial: NamedTempFile, path: &Path) -> Result<(), TableError> {
     partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
-    partial.persist(path).map_err(|refused| cannot_write(path, refused.error))?;
+    partial.persist(linked(path)).map_err(|refused| cannot_write(path, refused.error))?;
     Ok(())
+}
+
+/// Returns what a link points to, whether it is there or not; any other path as it is.
+fn linked(path: &Path) -> PathBuf {
+    match (path.canonicalize(), path.read_link()) {
+        (Ok(real), Ok(_)) => real,
+        (Err(_), Ok(target)) => path.with_file_name(target),
+        _ => path.to_path_buf(),
+    }
 }
 
 fn cannot_write(path: &Path, cause: impl ToString) -> TableError {
@@ -77,9 +102,15 @@ fn cannot_write(path: &Path, cause: impl ToString) -> TableError {
 
 /// Creates a temporary file beside `path`, locked while it is written, so that other runs do not remove it.
 fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().ok_or_else(|| cannot_write(path, "that is not a file name"))?;
-    let prefix = format!(".{}.", name.to_string_lossy());
+    let target = linked(path);
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = target.file_name().ok_or_else(|| cannot_write(path, "that is not a file name"))?;
+    let name = name.to_string_lossy();
+    // A name may have 255 bytes, of which the random letters and the suffix take some.
+    let prefix = match name.len() {
+        0..=200 => format!(".{name}."),
+        _ => format!(".{}.", blake3::hash(name.as_bytes()).to_hex()),
+    };
     std::fs::create_dir_all(folder).map_err(|source| cannot_write(path, source))?;
     remove_strays(folder, &prefix);
     let mut builder = tempfile::Builder::new();
@@ -87,9 +118,13 @@ fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
     // Default permissions, in place of the private ones of a temporary file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let partial = builder.tempfile_in(folder).map_err(|source| cannot_write(path, source))?;
-    partial.as_file().try_lock().map_err(|source| cannot_write(path, source))?;
-    Ok(partial)
+    loop {
+        let partial = builder.tempfile_in(folder).map_err(|source| cannot_write(path, source))?;
+        // Until it is locked, another run may take it for one of a killed run.
+        if partial.as_file().try_lock().is_ok() && partial.path().exists() {
+            return Ok(partial);
+        }
+    }
 }
 
 /// Removes files of killed runs. One that cannot be removed does no harm.

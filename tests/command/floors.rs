@@ -78,7 +78,7 @@ fn a_run_with_a_floor_simulates_on_it() {
     succeed(folder.path(), "run");
     let [floor, responses] =
         ["floor", "responses"].map(|name| folder.path().join(format!("out/{name}.parquet")));
-    assert_eq!(made(&responses).inputs["in"], key_of(&floor).unwrap());
+    assert_eq!(made(&responses).input("in"), key_of(&floor).ok());
     fail(
         folder.path(),
         "evaluate --fits out --suite csgm --p 1 --alpha 0.15 --eta 0.92 --pga 0.5 --pgv 0.5 --period 0.8 --level 1",

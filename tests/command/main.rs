@@ -8,6 +8,7 @@ mod floors;
 mod foreign;
 mod hazard;
 mod interruption;
+mod keys;
 mod objects;
 mod outcomes;
 mod paper;

@@ -30,7 +30,9 @@ fn archive(path: &Path, files: &[(&str, &str)]) {
 }
 
 /// Text and numbers of columns of the motions, row by row.
-fn motions(folder: &Path) -> Vec<(String, f64, Option<f64>, Option<f64>, Option<String>)> {
+type Row = (String, f64, Option<f64>, Option<f64>, Option<String>);
+
+fn motions(folder: &Path) -> Vec<Row> {
     let table = Table::open(&folder.join("motions.parquet")).unwrap();
     let mut all = Vec::new();
     for batch in table.batches(&|_| true) {

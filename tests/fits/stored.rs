@@ -4,6 +4,7 @@ use std::path::Path;
 
 use rockfrag::fragility::{Calibration, Cases, Event, Kind, Measure, Model, Pair, fit_curves, fit_demand};
 use rockfrag::pipeline::context::Context;
+use rockfrag::pipeline::paths::FitsFolder;
 use rockfrag::rocking::Structure;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
 use rockfrag::table::rows::Row;
@@ -40,7 +41,7 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
 
 fn args(folder: &tempfile::TempDir) -> ModelArgs {
     ModelArgs {
-        fits: Some(folder.path().to_path_buf()),
+        fits: Some(FitsFolder(folder.path().to_path_buf())),
         name: None,
         suite: None,
         model: ModelName::Calibrated,

@@ -28,12 +28,13 @@ class Option(NamedTuple):
     """An option of a stage, as the command describes it."""
 
     name: str
-    help: str
+    #: flag, number, text, or of paths: input, folder, fits, output.
+    kind: str
+    #: How the names of its files may end, the best first.
+    formats: list[str]
     default: str
-    #: Whether it is true or false.
-    flag: bool
-    #: Whether it names something to read.
-    file: bool
+    help: str
+    heading: str
     positional: bool
     #: Whether all stages have it.
     common: bool
@@ -57,8 +58,7 @@ class Stage(NamedTuple):
 
     @property
     def makes_table(self) -> bool:
-        outs = [option for option in self.options if option.name == "out"]
-        return any(".parquet" in out.default or ".parquet" in out.help for out in outs)
+        return any(option.kind == "output" and "parquet" in option.formats for option in self.options)
 
     @property
     def named(self) -> list[Option]:
@@ -70,8 +70,14 @@ def described() -> list[Stage]:
     """All stages, in the order of a run."""
     stages = json.loads(_rockfrag.describe())
     return [
-        Stage(each["name"], each["help"], [Option(**option) for option in each["options"]]) for each in stages
+        Stage(each["name"], each["help"], [described_option(option) for option in each["options"]])
+        for each in stages
     ]
+
+
+def described_option(option: dict[str, Any]) -> Option:
+    """An option under its name in Python."""
+    return Option(**{**option, "name": option["name"].replace("-", "_")})
 
 
 def call(
@@ -96,7 +102,7 @@ def call(
         words["out"] = folder / f"{stage.command}.parquet"
     if threads is not None:
         words["threads"] = threads
-    files = {flag(option.name): option for option in stage.options if option.file}
+    files = {flag(option.name): option for option in stage.options if option.kind in ("input", "folder", "fits")}
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch, contextlib.ExitStack() as failed:
         if folder is not None:
             failed.callback(shutil.rmtree, folder)
@@ -154,7 +160,7 @@ def written(table: Any, path: Path, option: Option) -> Path:
     """The file of a table: a result has one, others are written to one."""
     if isinstance(table, Result):
         return table._table()
-    path = path.with_suffix(".csv" if "CSV" in option.help and "Parquet" not in option.help else ".parquet")
+    path = path.with_suffix(f".{option.formats[0] if option.formats else 'parquet'}")
     _rockfrag.write_table(table.__arrow_c_stream__(), path)
     return path
 
@@ -172,7 +178,7 @@ def plain(value: Any) -> Any:
     if value is None or isinstance(value, (str, bool, int, float)):
         return value
     if isinstance(value, Mapping):
-        return ",".join(f"{name}={item}" for name, item in value.items() if item is not None)
+        return {name: plain(item) for name, item in value.items()}
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if hasattr(value, "tolist"):
@@ -186,7 +192,7 @@ def plain(value: Any) -> Any:
 
 def line(option: Option) -> str:
     """An option with its default and meaning, on one line."""
-    default = " = False" if option.flag else f" = {option.default}" if option.default else ""
+    default = " = False" if option.kind == "flag" else f" = {option.default}" if option.default else ""
     return textwrap.shorten(f"{option.name}{default}: {option.help}", WIDTH, placeholder=" ...")
 
 
@@ -222,7 +228,7 @@ def stub() -> str:
     """The functions with all their options, for editors and type checkers; the wheel has it as ``_stages.pyi``."""
     text = ["from os import PathLike", "from typing import Any, Callable", "from ._result import Result", ""]
     for stage in described():
-        options = [f"{option.name}: {'bool' if option.flag else 'Any'} = ..." for option in stage.named]
+        options = [f"{option.name}: {'bool' if option.kind == "flag" else 'Any'} = ..." for option in stage.named]
         options += [
             "threads: int | None = ...",
             "force: bool = ...",

@@ -23,7 +23,8 @@ mod words;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
-use clap::{ArgGroup, Args, ValueHint};
+use clap::{ArgGroup, Args};
+use serde::Serialize;
 
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{PlaceArgs, StructureArgs, named};
@@ -33,14 +34,14 @@ use crate::inputs::{Rename, Renames, hazard};
 use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
-use crate::pipeline::{Stage, UsageError};
+use crate::pipeline::paths::{self, AnswersOutput, Input, Read, RowsInput, SheetInputs};
+use crate::pipeline::{InRun, Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::implausibility::rarity;
 use crate::report::rated::Evaluation;
 use crate::report::{DPI, Page, made_in_words, png, svg, workbook};
 use crate::table::frame::{self, Format};
 use crate::table::rows;
-use crate::table::writer::write_file;
 use crate::units::G_M_S2;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
@@ -51,7 +52,8 @@ pub use self::words::{model_of_all, size, too_far};
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[command(group(ArgGroup::new("site").multiple(true)))]
 pub struct Evaluate {
     /// Peak ground acceleration, g
@@ -64,12 +66,12 @@ pub struct Evaluate {
     pgv: Option<f64>,
     /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
     /// eta where they vary
-    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "site")]
-    input: Option<PathBuf>,
+    #[arg(long = "in", id = "in", value_name = "FILE", conflicts_with = "site")]
+    input: Option<RowsInput>,
     /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
-    #[arg(long, value_name = "FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',', group = "site")]
-    hazard: Vec<PathBuf>,
+    #[arg(long, value_name = "FILE,...", group = "site")]
+    hazard: Vec<SheetInputs>,
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
@@ -95,8 +97,8 @@ pub struct Evaluate {
     #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]
     target: Option<f64>,
     /// Responses to count overturning in, beside the rate
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "hazard", group = "site")]
-    responses: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", requires = "hazard", group = "site")]
+    responses: Option<Input>,
     /// Continue the hazard curve with its last slope
     #[arg(long, requires = "hazard", group = "site")]
     extrapolate: bool,
@@ -107,20 +109,44 @@ pub struct Evaluate {
     #[arg(long, default_value = "text")]
     format: Format,
     /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default: none; with --in, evaluated.parquet beside it]
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    out: Option<AnswersOutput>,
     #[command(flatten)]
+    #[serde(flatten)]
     model: ModelArgs,
     #[command(flatten)]
+    #[serde(flatten)]
     structures: StructureArgs,
     #[command(flatten)]
+    #[serde(flatten)]
     place: PlaceArgs,
 }
 
 impl Stage for Evaluate {
+    fn is_answer(&self) -> bool {
+        true
+    }
+
+    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        let counts = run.has("simulate") && run.gives("hazard");
+        let responses = counts.then_some(("responses", "responses.parquet"));
+        let own = responses.into_iter().chain([("out", "evaluated.parquet")]);
+        own.chain(ModelArgs::in_run(run)).collect()
+    }
+
+    fn inputs(&self) -> Vec<Read> {
+        vec![
+            Read::new("in", self.input.iter().map(|path| &**path)),
+            Read::new("hazard", self.hazard_files()),
+            Read::new("responses", self.responses.iter().map(|path| &**path)),
+            self.model.input(),
+            self.structures.input(),
+        ]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
         let beside = || Some(self.input.as_ref()?.with_file_name("evaluated.parquet"));
-        self.out.clone().or_else(beside).into_iter().collect()
+        self.out.as_deref().map(Path::to_path_buf).or_else(beside).into_iter().collect()
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -157,6 +183,11 @@ impl Stage for Evaluate {
 }
 
 impl Evaluate {
+    fn hazard_files(&self) -> Vec<PathBuf> {
+        let lists = self.hazard.iter().map(|list| paths::listed(Path::new(""), &list.to_string_lossy()));
+        lists.flatten().map(PathBuf::from).collect()
+    }
+
     /// The motion that is given.
     fn motion(&self) -> anyhow::Result<Motion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
@@ -211,7 +242,7 @@ impl Evaluate {
             context.warn(expect_counted(&all, &site, path)?);
         }
         let picture = || {
-            let mut evaluation = pages::over_hazard(&all, &context.made);
+            let mut evaluation = pages::over_hazard(&all, context.made());
             evaluation.target = self.target;
             if let Some(object) = alone.as_ref().filter(|object| object.sides().is_ok()) {
                 evaluation.portrait = pages::portrait(object, models, &site, self.years)?;
@@ -224,7 +255,7 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, renames: &mut Renames, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&self.hazard, renames, self.effective_years)?;
+        let (mut hazard, unused) = hazard::read(&self.hazard_files(), renames, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
@@ -314,18 +345,20 @@ impl Evaluate {
         };
         let printed = if self.format == Format::Text { text } else { show(self.format)? };
         for out in self.outputs() {
-            let key = || anyhow::Ok(context.provenance(&printed)?.json());
+            let key = || anyhow::Ok(context.provenance(&out, &printed)?.json());
             match file_format(&out)? {
-                FileFormat::Text(format) => write_file(&out, show(format)?.as_bytes())?,
-                FileFormat::Workbook => write_file(&out, &workbook(rows, &key()?)?)?,
+                FileFormat::Text(format) => context.write_file(&out, show(format)?.as_bytes())?,
+                FileFormat::Workbook => context.write_file(&out, &workbook(rows, &key()?)?)?,
                 FileFormat::Page => {
                     let page = Page { key: key()?, made: made_in_words(), ..pages::page(&picture()?) };
-                    write_file(&out, page.html().as_bytes())?;
+                    context.write_file(&out, page.html().as_bytes())?;
                 }
-                FileFormat::Svg => write_file(&out, svg(&pages::figure(&picture()?), &key()?).as_bytes())?,
+                FileFormat::Svg => {
+                    context.write_file(&out, svg(&pages::figure(&picture()?), &key()?).as_bytes())?;
+                }
                 FileFormat::Png => {
                     let drawing = svg(&pages::figure(&picture()?), "");
-                    write_file(&out, &png(&drawing, DPI, &key()?)?)?;
+                    context.write_file(&out, &png(&drawing, DPI, &key()?)?)?;
                 }
                 FileFormat::Parquet => {
                     let mut writer = context.create(&out, &rows[0].schema())?;

@@ -3,6 +3,8 @@
 use super::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 use super::point::{self, TreeRow};
 use super::rates::RatesRow;
+use serde_json::Value;
+
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Site, exceedance, probability_in_years};
 use crate::keyword::Keyword;
@@ -19,15 +21,13 @@ use crate::warning::UNNAMED;
 
 /// Answers over a hazard as a page shows them, and what their call tells.
 pub fn over_hazard(answers: &[Answer<RatesRow>], made: &Provenance) -> Evaluation {
-    let target = made.arguments.get("target").and_then(|values| values.first());
-    let target = target.and_then(|text| text.trim_end_matches([' ', '%']).parse::<f64>().ok());
     let years = answers.iter().find_map(|answer| answer.row.years);
     Evaluation {
         years,
         when: years.map_or(String::new(), in_years),
-        target: target.map(|percent| 0.01 * percent),
-        hazard: made.files.get("hazard").cloned().unwrap_or("of another program".to_string()),
-        hazard_key: made.inputs.get("hazard").cloned().unwrap_or_default(),
+        target: made.arguments.get("target").and_then(Value::as_f64),
+        hazard: made.names("hazard").unwrap_or("of another program".to_string()),
+        hazard_key: made.input("hazard").unwrap_or_default(),
         limit_state: answers.iter().find_map(|answer| answer.object.limit_state).unwrap_or(0.1),
         rows: answers.iter().map(rated).collect(),
         ..Evaluation::default()

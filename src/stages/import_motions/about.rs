@@ -7,6 +7,7 @@ use crate::inputs::{Grid, Heading, InputError, decode};
 use crate::pipeline::UsageError;
 use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::records::RecordedMotion;
+use crate::source;
 
 /// The line above the table of records in PEER's search results, which have others.
 const PEER: &str = "Summary of Metadata of Selected Records";
@@ -92,7 +93,7 @@ impl About {
 
 /// The table, of which other tables in a file of PEER are no part.
 fn grid(path: &Path) -> Result<Grid, InputError> {
-    let text = std::fs::read(path).ok().and_then(|bytes| Some(decode(&bytes).ok()?.into_owned()));
+    let text = source::read(path).ok().and_then(|bytes| Some(decode(&bytes).ok()?.into_owned()));
     let Some((before, after)) = text.as_deref().and_then(|text| text.split_once(PEER)) else {
         return Grid::read(path);
     };

@@ -17,13 +17,16 @@ use crate::records::processing::{ImportedMotion, NamedRecord, Processing, Proces
 use crate::records::rotation::{Component, pairs};
 use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use crate::rocking::Record;
-use crate::table::keys;
+use crate::source;
+use crate::table::keys::names_below;
 use crate::warning::Warning;
 
 pub struct Importer {
     pub files: Vec<PathBuf>,
     /// How many files share a stem or a name.
     names: HashMap<String, usize>,
+    /// The path of each file below the folder that has all.
+    paths: HashMap<PathBuf, String>,
     reading: ReadOptions,
     processing: Processing,
     pub about: About,
@@ -57,25 +60,21 @@ pub enum Work {
 }
 
 impl Importer {
-    /// Of files and folders; `out` is no record, if an earlier run wrote it among them.
     pub fn new(
-        given: &[PathBuf],
-        out: &Path,
+        files: Vec<PathBuf>,
         reading: ReadOptions,
         processing: Processing,
         about: About,
         vertical: bool,
     ) -> anyhow::Result<Importer> {
-        let mut files = keys::files_below(given)?;
-        let out = std::path::absolute(out)?;
-        files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != out));
+        let paths = files.iter().cloned().zip(names_below(&files)).collect();
         let mut names = HashMap::new();
         for file in &files {
             let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
             both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
         }
         let left_out = LeftOut::default();
-        Ok(Importer { files, names, reading, processing, about, vertical, left_out })
+        Ok(Importer { files, names, paths, reading, processing, about, vertical, left_out })
     }
 
     /// All work in order, and what cannot be read already.
@@ -150,7 +149,7 @@ impl Importer {
 
     /// Reads the records of a file, or of those in an archive; in words what is wrong with some.
     fn read(&self, file: &Path) -> Vec<Result<NamedRecord, String>> {
-        let members = std::fs::read(file).map_err(|error| refusal(file, &error));
+        let members = source::read(file).map_err(|error| refusal(file, &error));
         let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(file, &error)));
         let members = match members {
             Ok(members) => members,
@@ -161,7 +160,10 @@ impl Importer {
             let within = file.join(member.name.as_deref().unwrap_or_default());
             let path = if member.name.is_some() { &within } else { file };
             let name = name.map_or_else(|| self.name(file), |name| format!("{}/{name}", self.name(file)));
-            match self.read_one(path, &name, &member.bytes) {
+            let below = Path::new(&self.paths[file]).join(member.name.as_deref().unwrap_or_default());
+            let below =
+                if member.name.is_some() { below } else { Path::new(&self.paths[file]).to_path_buf() };
+            match self.read_one(path, &below, &name, &member.bytes) {
                 Ok(records) => records.into_iter().map(Ok).collect(),
                 Err(refusal) => vec![Err(refusal)],
             }
@@ -169,10 +171,16 @@ impl Importer {
         members.into_iter().zip(names).flat_map(read).collect()
     }
 
-    /// Reads the records in the bytes of a file.
-    fn read_one(&self, file: &Path, name: &str, bytes: &[u8]) -> Result<Vec<NamedRecord>, String> {
-        let source =
-            SourceFile { path: file.display().to_string(), blake3: blake3::hash(bytes).to_hex().to_string() };
+    /// Reads the records in the bytes of a file; `below` is its path below the folder that has all.
+    fn read_one(
+        &self,
+        file: &Path,
+        below: &Path,
+        name: &str,
+        bytes: &[u8],
+    ) -> Result<Vec<NamedRecord>, String> {
+        let (path, blake3) = (below.display().to_string(), blake3::hash(bytes).to_hex().to_string());
+        let source = SourceFile { path, blake3 };
         let motions = read_records(bytes, &self.reading).map_err(|error| unread(file, &error))?;
         let several = motions.len() > 1;
         let named = |(index, mut motion): (usize, RecordedMotion)| {
@@ -197,7 +205,7 @@ impl Importer {
     fn name(&self, file: &Path) -> String {
         let names = [file.file_stem(), file.file_name()].map(text);
         let unique = names.into_iter().find(|name| self.names.get(name) == Some(&1));
-        unique.unwrap_or_else(|| file.display().to_string())
+        unique.unwrap_or_else(|| self.paths[file].clone())
     }
 }
 

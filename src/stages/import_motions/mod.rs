@@ -8,8 +8,9 @@ mod summary;
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use self::about::About;
 use self::columns::batch;
@@ -17,8 +18,10 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::motion::MeasurePlan;
 use crate::number::significant;
+use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
+use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
 use crate::records::processing::{ImportedMotion, Processing, PulseSearch};
@@ -32,14 +35,15 @@ use crate::warning::Warning;
 const AT_ONCE: usize = 32;
 
 /// Import recorded ground motions from the files of strong-motion networks, or CSV
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct ImportMotions {
     /// Files and folders of records
-    #[arg(value_name = "FILE|DIR", value_hint = ValueHint::FilePath)]
-    files: Vec<PathBuf>,
+    #[arg(value_name = "FILE|DIR")]
+    files: Vec<RecordsInput>,
     /// Motions to write
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath, default_value = "motions.parquet")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", default_value = "motions.parquet")]
+    out: Output,
     /// Format: at2, cosmos, esm, knet or csv [default: by content]
     #[arg(long)]
     format: Option<Format>,
@@ -86,8 +90,8 @@ pub struct ImportMotions {
     housner: bool,
     /// Table with the magnitude, distance (km) or earthquake of each file (columns file, magnitude,
     /// distance, earthquake), or PEER's search results or flatfile
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    about: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    about: Option<SheetInput>,
     /// Import vertical components too
     #[arg(long)]
     vertical: bool,
@@ -100,8 +104,12 @@ pub struct ImportMotions {
 }
 
 impl Stage for ImportMotions {
+    fn inputs(&self) -> Vec<Read> {
+        vec![self.records(), Read::new("about", self.about.iter().map(|path| &**path))]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.clone()]
+        vec![self.out.to_path_buf()]
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -119,10 +127,11 @@ impl Stage for ImportMotions {
         context.warn(unused.collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
-        let mut importer = Importer::new(&self.files, &self.out, reading, processing, about, self.vertical)?;
+        let files = self.records().files(&self.outputs(), &Planned::new())?;
+        let mut importer = Importer::new(files, reading, processing, about, self.vertical)?;
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
-            let about = std::path::absolute(path)?;
+            let about = std::path::absolute(&**path)?;
             importer.files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != about));
             importer.about.expect_any(path, &importer.files)?;
         }
@@ -178,6 +187,10 @@ fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> 
 }
 
 impl ImportMotions {
+    fn records(&self) -> Read {
+        Read { whole_folders: true, ..Read::new("files", self.files.iter().map(|path| &**path)) }
+    }
+
     fn processing(&self) -> anyhow::Result<Processing> {
         let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
             (Some(factors), ..) if factors.0.iter().any(|factor| *factor <= 0.0) => {

@@ -5,29 +5,35 @@ mod figures;
 mod page;
 pub mod tables;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use clap::{Args, ValueHint};
+use clap::Args;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::number::counted;
-use crate::pipeline::cache::is_ours;
 use crate::pipeline::context::Context;
+use crate::pipeline::paths::{InputFolder, PageOutput, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::report::{DPI, Figure, Page, made_in_words, png, svg};
+use crate::table::TableError;
+use crate::table::marks::is_ours;
+use crate::table::provenance::Provenance;
 use crate::table::writer::write_file;
 use tables::Tables;
 
 /// Write a page with tables and figures of everything in a folder, or of files
-#[derive(Debug, Args)]
+#[derive(Debug, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Report {
     /// Folder or files of other commands; two evaluations of the same objects are before and after
-    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_hint = ValueHint::FilePath, value_delimiter = ',', default_value = ".")]
-    input: Vec<PathBuf>,
+    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_delimiter = ',', default_value = ".")]
+    input: Vec<InputFolder>,
     /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::AnyPath)]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE")]
+    out: Option<PageOutput>,
     /// Title of the page [default: from what it shows]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
@@ -41,16 +47,27 @@ pub struct Report {
 
 impl Report {
     fn page(&self) -> PathBuf {
-        let beside = |first: &PathBuf| match first.is_dir() {
+        let beside = |first: &InputFolder| match first.is_dir() {
             true => first.join("report.html"),
             false => first.with_file_name("report.html"),
         };
         let default = || self.input.first().map_or(PathBuf::from("report.html"), beside);
-        self.out.clone().unwrap_or_else(default)
+        self.out.as_deref().map_or_else(default, Path::to_path_buf)
     }
 }
 
 impl Stage for Report {
+    fn inputs(&self) -> Vec<Read> {
+        // Partitions stand in folders in the folder.
+        let folders = |path: &Path| {
+            let below = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+            let mut folders: Vec<PathBuf> = below.filter(|path| path.is_dir()).collect();
+            folders.sort_unstable();
+            [vec![path.to_path_buf()], folders].concat()
+        };
+        vec![Read::new("in", self.input.iter().flat_map(|path| folders(path)))]
+    }
+
     fn outputs(&self) -> Vec<PathBuf> {
         vec![self.page()]
     }
@@ -70,38 +87,54 @@ impl Stage for Report {
         if let Some(missing) = self.input.iter().find(|path| !path.exists()) {
             bail!("{}: no such file or folder; expected tables of other commands", missing.display());
         }
-        let tables = Tables::read(&self.input)?;
+        let paths: Vec<PathBuf> = self.input.iter().map(|path| path.to_path_buf()).collect();
+        let tables = Tables::read(&paths)?;
         let mut notes = Vec::new();
         let figures = figures::all(&tables, &mut notes)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().chain(&notes).map(|note| format!("{note}\n")).collect();
         let summary = format!("{}: {}\n{left_out}", page.display(), counted(figures.len(), "figure"));
-        let key = context.provenance(&summary)?.json();
-        let stems: Vec<PathBuf> = figures.iter().map(|figure| folder.join(&figure.name)).collect();
-        if let Some(other) = stems.iter().find_map(|stem| foreign(stem)).filter(|_| !context.common.force) {
-            bail!("{}: not written by rockfrag; --force replaces it", other.display());
-        }
-        let paths = figures.par_iter().zip(&stems);
-        paths.try_for_each(|(figure, stem)| write_figure(figure, stem, &key))?;
+        let mut made = context.provenance(&page, &summary)?;
+        let files =
+            figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
+        let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();
+        write_figures(&page, &files, context)?;
+        made.further = hashes(&page, &files);
         let whole = page::page(&tables, figures, notes)?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
         let title = self.title.clone().unwrap_or(whole.title);
+        let key = made.json();
         let html = Page { title, byline, key, made: made_in_words(), ..whole }.html();
-        write_file(&page, html.as_bytes())?;
+        context.write_file(&page, html.as_bytes())?;
         Ok(summary)
     }
 }
 
-/// Its files are ours if the SVG has our provenance.
-fn foreign(stem: &Path) -> Option<PathBuf> {
-    let files = ["svg", "png", "csv"].map(|ending| stem.with_added_extension(ending));
-    let there = files.iter().find(|file| file.exists())?;
-    (!is_ours(&files[0])).then(|| there.clone())
+type Files = Vec<(PathBuf, Vec<u8>)>;
+
+fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::Result<Files> {
+    let svg = svg(figure, &made.json());
+    let png = png(&svg, DPI, &made.json())?;
+    let files = [("svg", svg.into_bytes()), ("csv", figure.csv()?.into_bytes()), ("png", png)];
+    Ok(files.map(|(ending, content)| (stem.with_added_extension(ending), content)).to_vec())
 }
 
-fn write_figure(figure: &Figure, stem: &Path, key: &str) -> anyhow::Result<()> {
-    let svg = svg(figure, key);
-    write_file(&stem.with_added_extension("svg"), svg.as_bytes())?;
-    write_file(&stem.with_added_extension("csv"), figure.csv()?.as_bytes())?;
-    Ok(write_file(&stem.with_added_extension("png"), &png(&svg, DPI, key)?)?)
+/// Writes the files of the figures, unless one is there that neither the page has written nor rockfrag.
+fn write_figures(page: &Path, files: &Files, context: &Context) -> anyhow::Result<()> {
+    let known = Provenance::of_file(page).ok().flatten().map(|made| made.further).unwrap_or_default();
+    for (path, content) in files {
+        let there = std::fs::read(path).map(|there| (path.clone(), there)).into_iter().collect();
+        let is_known = hashes(page, &there).iter().all(|(name, hash)| known.get(name) == Some(hash));
+        if !context.common.force && !is_known && !is_ours(path, content) {
+            return Err(TableError::not_ours(path).into());
+        }
+    }
+    files.par_iter().try_for_each(|(path, content)| Ok(write_file(path, content)?))
+}
+
+/// The hashes of files by their names beside the page.
+fn hashes(page: &Path, files: &Files) -> BTreeMap<String, String> {
+    let folder = page.parent().unwrap_or(Path::new(""));
+    let name = |path: &Path| path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
+    files.iter().map(|(path, content)| (name(path), blake3::hash(content).to_hex().to_string())).collect()
 }

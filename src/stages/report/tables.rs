@@ -15,7 +15,7 @@ use crate::table::TableError;
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
 use crate::table::motions::{self, Motion};
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{Provenance, joined};
 use crate::table::rows::{self, Row};
 use crate::table::writer::MOTIONS_IN_GROUP;
 
@@ -86,8 +86,9 @@ impl Item {
     }
 
     /// The key of the first file that an option of its stage has read.
-    fn input(&self, flag: &str) -> Option<&str> {
-        self.made.as_ref()?.inputs.get(flag)?.split(' ').next()
+    fn input(&self, flag: &str) -> Option<String> {
+        let files = self.made.as_ref()?.inputs.get(flag)?;
+        Some(if flag == "fits" { files.first()?.key.clone() } else { joined(files) })
     }
 
     pub fn name(&self) -> String {
@@ -194,12 +195,12 @@ impl Tables {
     fn leave_out_strangers(&mut self) {
         let keys = |kind: Kind| -> Vec<String> { self.of(kind).map(|item| item.key.clone()).collect() };
         let of_flag = |kind: Kind, flag: &str| -> Vec<String> {
-            self.of(kind).filter_map(|item| item.input(flag)).map(str::to_string).collect()
+            self.of(kind).filter_map(|item| item.input(flag)).collect()
         };
         let or = |first: Vec<String>, second: Vec<String>| if first.is_empty() { second } else { first };
         let responses = or(keys(Kind::Responses), of_flag(Kind::Curves, "in").into_iter().take(1).collect());
         let motions = or(of_flag(Kind::Responses, "in"), keys(Kind::Motions));
-        let fits = keys(Kind::Curves);
+        let (fits, calibrations) = (keys(Kind::Curves), keys(Kind::Calibrations));
         let rules: [(&[Kind], &str, &[String], &str); 5] = [
             (
                 &[Kind::Planes, Kind::Curves, Kind::Calibrations, Kind::Parameters, Kind::Ranking],
@@ -209,18 +210,17 @@ impl Tables {
             ),
             (&[Kind::Capacities, Kind::CapacityFits, Kind::Stripes], "in", &motions, "motions"),
             (&[Kind::Paper], "pro", &fits, "fits"),
-            (&[Kind::Validation, Kind::Reliability, Kind::Rates], "fits", &fits, "fits"),
+            (&[Kind::Validation, Kind::Reliability, Kind::Rates], "fits", &calibrations, "fits"),
             (&[Kind::Motions], "", &motions, "responses"),
         ];
         let mut left_out = Vec::new();
         let stranger = |item: &Item| -> Option<&str> {
             let (.., flag, expected, what) = rules.iter().find(|(kinds, ..)| kinds.contains(&item.kind))?;
-            let has = if flag.is_empty() { Some(item.key.as_str()) } else { item.input(flag) };
+            let has = if flag.is_empty() { Some(item.key.clone()) } else { item.input(flag) };
             // The motions of the ground may stand beside those of a floor that were made of them.
             let is_ground =
                 item.kind == Kind::Motions && keys(Kind::Motions).iter().any(|key| motions.contains(key));
-            let is_stranger =
-                !expected.is_empty() && has.is_some_and(|has| !expected.iter().any(|key| key == has));
+            let is_stranger = !expected.is_empty() && has.is_some_and(|has| !expected.contains(&has));
             (is_stranger && !is_ground).then_some(*what)
         };
         let mut kept = Vec::new();

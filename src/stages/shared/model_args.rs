@@ -1,17 +1,17 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
-use std::collections::HashSet;
-use std::path::PathBuf;
-
 use anyhow::bail;
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::Serialize;
+use std::collections::HashSet;
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
 use crate::number::counted;
 use crate::object::{Object, Subject};
-use crate::pipeline::UsageError;
 use crate::pipeline::options::{listed, number};
+use crate::pipeline::paths::{FitsFolder, Read};
+use crate::pipeline::{InRun, UsageError};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
@@ -30,12 +30,13 @@ keywords! {
     }
 }
 
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Model")]
 pub struct ModelArgs {
     /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
-    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
-    pub fits: Option<PathBuf>,
+    #[arg(long, value_name = "DIR")]
+    pub fits: Option<FitsFolder>,
     /// Which structure of the fits to use [default: the one with the same p, alpha and eta]
     #[arg(long, value_name = "NAME", requires = "fits")]
     pub name: Option<String>,
@@ -62,13 +63,31 @@ pub struct Models {
 }
 
 impl ModelArgs {
+    /// The files of the fits that the model reads.
+    fn files(&self) -> &'static [&'static str] {
+        const FILES: [&str; 4] =
+            ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
+        if self.model == ModelName::Paper { &FILES } else { &FILES[..2] }
+    }
+
+    pub fn input(&self) -> Read {
+        let files = |folder: &FitsFolder| self.files().iter().map(|name| folder.join(name)).collect();
+        // Fits to what stood and what fell have none of demands.
+        Read { optional: true, ..Read::new("fits", self.fits.as_ref().map_or(Vec::new(), files)) }
+    }
+
+    /// The fits of a run that makes some.
+    pub fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
+        run.has("fit-pro").then_some(("fits", ".")).into_iter().collect()
+    }
+
     /// Reads the fits, if there are any.
     pub fn read(&self) -> anyhow::Result<Models> {
         let is_paper = self.model == ModelName::Paper;
         if is_paper && self.fits.is_none() {
             return Err(UsageError::because("--model paper needs --fits, the folder of fit-pex and fit-pro"));
         }
-        fn read<R: Row>(folder: Option<&PathBuf>, name: &str) -> Result<Vec<R>, TableError> {
+        fn read<R: Row>(folder: Option<&FitsFolder>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
         let (fits, of_paper) = (self.fits.as_ref(), self.fits.as_ref().filter(|_| is_paper));

@@ -1,8 +1,7 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
-use std::path::PathBuf;
-
-use clap::{Args, ValueHint};
+use clap::Args;
+use serde::Serialize;
 
 use crate::inputs::Renames;
 use crate::inputs::objects::{self, Common};
@@ -10,6 +9,7 @@ use crate::object::{Field, Object, Place, Restitution, Shape, structure_warnings
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
+use crate::pipeline::paths::{Read, StructuresInput};
 use crate::rocking::Structure;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
@@ -19,7 +19,8 @@ fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
 }
 
 /// A structure: its dimensions, or p, alpha and eta.
-#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[group(id = "one", multiple = true)]
 pub struct ShapeArgs {
     /// Width of the base of a block, body or column, m; the smaller side unless --depth is given
@@ -74,7 +75,8 @@ impl ShapeArgs {
 }
 
 /// Where an object stands, and how well it is known; of all objects of a list that do not say so themselves.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Args)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Object")]
 pub struct PlaceArgs {
     /// First period of the building, s [default: the object stands on the ground]
@@ -115,10 +117,12 @@ impl PlaceArgs {
 }
 
 /// The structures of a call.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, Default, Args, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Structure")]
 pub struct StructureArgs {
     #[command(flatten)]
+    #[serde(flatten)]
     one: ShapeArgs,
     /// A structure; may be repeated: name=frame,p=1.0,alpha=0.15,eta=0.92 or
     /// name=cabinet,width=0.8,height=2.2
@@ -126,21 +130,26 @@ pub struct StructureArgs {
     structure: Vec<Object>,
     /// List with a name and these options as columns (m, cm or mm by the heading): CSV or a workbook
     /// (list.xlsx#SHEET), or the word paper for the paper's two
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["one", "structure"])]
-    pub structures: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["one", "structure"])]
+    pub structures: Option<StructuresInput>,
     /// Number that the floors of --structures give the ground floor: 0 or 1
     #[arg(long, value_name = "N", requires = "structures", value_parser = number(0..=1_u32, "0 or 1"))]
     ground_floor: Option<u32>,
 }
 
 impl StructureArgs {
+    pub fn input(&self) -> Read {
+        let list = self.structures.as_ref().filter(|list| list.word().is_none());
+        Read::new("structures", list.map(|path| &**path))
+    }
+
     pub fn is_given(&self) -> bool {
         self.structures.is_some() || !self.structure.is_empty() || self.one != ShapeArgs::default()
     }
 
     /// Takes the paper's two structures where none is given.
     pub fn or_paper(&self) -> StructureArgs {
-        let paper = (!self.is_given()).then(|| PathBuf::from("paper"));
+        let paper = (!self.is_given()).then(|| StructuresInput("paper".into()));
         StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
     }
 
@@ -187,7 +196,7 @@ impl StructureArgs {
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (mut all, mut unused): (Vec<Object>, _) = Default::default();
         match &self.structures {
-            Some(path) if path.as_os_str() == "paper" => {
+            Some(list) if list.word().is_some() => {
                 let known = |structure| Object::with_parameters(structure, Restitution::Number);
                 all.extend(paper::structures().into_iter().map(known));
             }

@@ -30,7 +30,7 @@ fn is_text(path: &Path) -> bool {
 /// Reads outcomes from CSV or Parquet.
 pub fn read(path: &Path) -> anyhow::Result<Vec<ObservedOutcome>> {
     let bytes = match is_text(path) {
-        true => std::fs::read(path).with_context(|| path.display().to_string())?,
+        true => crate::source::read(path).with_context(|| path.display().to_string())?,
         false => frame::show(&frame::read(&Table::open(path)?, usize::MAX)?, Format::Csv)?.into_bytes(),
     };
     let outcomes = || outcomes(&Grid::parse(&bytes, None)?);

@@ -1,0 +1,48 @@
+//! The bytes of people's files, of which a pipe gives its own only once.
+
+use std::collections::HashMap;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex};
+
+/// What pipes have given so far.
+static PIPES: LazyLock<Mutex<HashMap<PathBuf, Vec<u8>>>> = LazyLock::new(Mutex::default);
+
+/// Reads a file, or `-` from stdin. What a pipe gave is kept for whoever reads it again.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let is_stdin = path == Path::new("-");
+    if !is_stdin && !is_pipe(path) {
+        return std::fs::read(path);
+    }
+    let mut pipes = PIPES.lock().map_err(|_| io::Error::other("reading it failed before"))?;
+    if let Some(bytes) = pipes.get(path) {
+        return Ok(bytes.clone());
+    }
+    let mut bytes = Vec::new();
+    match is_stdin {
+        true => io::stdin().read_to_end(&mut bytes)?,
+        false => std::fs::File::open(path)?.read_to_end(&mut bytes)?,
+    };
+    pipes.insert(path.to_path_buf(), bytes.clone());
+    Ok(bytes)
+}
+
+/// Splits the path of a sheet of a workbook, `list.xlsx#Sheet2`.
+pub fn split_sheet(path: &Path) -> (PathBuf, Option<String>) {
+    match path.to_str().and_then(|text| text.rsplit_once('#')).filter(|_| !path.exists()) {
+        Some((file, sheet)) => (PathBuf::from(file), Some(sheet.to_string())),
+        None => (path.to_path_buf(), None),
+    }
+}
+
+/// Returns whether a path is there and neither a file nor a folder.
+pub fn is_pipe(path: &Path) -> bool {
+    path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+/// Forgets what pipes gave: a later call may find other bytes in them.
+pub fn forget_pipes() {
+    if let Ok(mut pipes) = PIPES.lock() {
+        pipes.clear();
+    }
+}
