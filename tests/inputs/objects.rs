@@ -140,6 +140,11 @@ fn fifteen_objects_are_the_same_in_every_form() {
         let found = read(name, &bytes, "", None).unwrap_or_else(|why| panic!("{name}: {why}"));
         for (found, expected) in found.iter().zip(&expected) {
             let mut found = found.clone();
+            // A period in a file has 15 digits.
+            let period = found.place.period.zip(expected.place.period);
+            if period.is_some_and(|(found, expected)| (found / expected - 1.0).abs() < 1e-12) {
+                found.place.period = expected.place.period;
+            }
             // What is not free has a reason in the words of its list.
             found.refused = found.refused.and(expected.refused.clone());
             assert_eq!(&found, expected, "{name}");
