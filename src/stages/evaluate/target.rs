@@ -16,6 +16,7 @@ pub fn parse(text: &str) -> Result<f64, String> {
 const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
 /// Relative accuracy of a width, and the most steps of a search.
 const ACCURACY: f64 = 2e-5;
+const LAST_STEP: f64 = 1e-3;
 const MOST_STEPS: usize = 40;
 /// The most full rates of a search by the upper limit, and the change of ln width after which a line suffices.
 const MOST_SPREADS: usize = 3;
@@ -155,14 +156,17 @@ impl Search<'_> {
                 continue;
             };
             let excess = rate.max(LEAST).ln() - wanted(at);
-            if let Some((before, excess_before)) = last.filter(|(before, _)| *before != at) {
+            let slope_from = last.filter(|(before, _)| *before != at);
+            if let Some((before, excess_before)) = slope_from {
                 fall = ((excess_before - excess) / (at - before)).max(LEAST_FALL);
             }
             last = Some((at, excess));
-            let next = (at + excess / fall).clamp(self.least, self.most);
-            if (next - at).abs() < ACCURACY {
-                let is_met = excess <= ACCURACY * fall || at < self.most;
-                return is_met.then_some(next);
+            let free = at + excess / fall;
+            let next = free.clamp(self.least, self.most);
+            // A step by a fall that was measured nearby is right to a few per cent of itself.
+            let enough = if slope_from.is_some() { LAST_STEP } else { ACCURACY };
+            if (next - at).abs() < enough {
+                return (free <= self.most + enough).then_some(next);
             }
             at = next;
         }
