@@ -74,6 +74,7 @@ pub(super) struct ReadyDirection<'a> {
 }
 
 /// What predicts: P_ro and P_ex of the calibrated surface, or the paper's fits.
+#[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
 enum By<'a> {
     Ground([Branch<'a>; 2]),
     Floor([Branch<'a>; 2], OnFloor),
