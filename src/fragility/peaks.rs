@@ -2,6 +2,7 @@
 
 use crate::keyword::keywords;
 use crate::statistics::least_squares;
+use crate::units::G_M_S2;
 
 keywords! {
     /// A peak of the ground motion.
@@ -10,6 +11,16 @@ keywords! {
         Pga = "pga",
         /// Peak ground velocity, m/s.
         Pgv = "pgv",
+    }
+}
+
+impl Peak {
+    /// The short name, the unit in which it is written, in SI units, and its symbol.
+    pub fn words(self) -> (&'static str, f64, &'static str) {
+        match self {
+            Peak::Pga => ("PGA", G_M_S2, "g"),
+            Peak::Pgv => ("PGV", 1.0, "m/s"),
+        }
     }
 }
 

@@ -7,10 +7,10 @@
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
-//! fragility  probabilities given one peak at a site
 //! ratio     the rate after a change over that before
 //! share     the shares of a rate by intensity
 //! site      the rates of a structure at a site, with limits and warnings
+//! fragility the probabilities of an object over one peak, with limits
 //! ```
 
 mod budget;
@@ -27,6 +27,7 @@ mod site;
 pub use budget::Budget;
 pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
+pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
 pub use rates::{AnnualRate, PairOfPeaks, Rate, exceedance, mean_annual_rates, rates_over_curve};

@@ -144,8 +144,10 @@ impl Site {
         let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(of_model);
         let given = self.mw.filter(|_| hazard.peak == Peak::Pga);
-        let (median, unknown) = magnitude(given, Some(velocity.above_mean()[1]));
-        Motions { peak: hazard.peak, velocity, given, median, unknown }
+        let [above, sd] = velocity.above_mean();
+        let (median, unknown) = magnitude(given, Some(sd));
+        let above = given.map_or(0.0, |_| above);
+        Motions { peak: hazard.peak, velocity, given, above, median, unknown }
     }
 
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
@@ -223,20 +225,21 @@ pub(super) fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
 
 /// The motions of a curve of one peak.
 pub(super) struct Motions {
-    peak: Peak,
-    pub(super) velocity: PgvPgaRatio,
-    /// The mean magnitude, if it is given; its median, and what is not known of it.
-    given: Option<f64>,
-    median: f64,
-    pub(super) unknown: Unknown<f64>,
+    pub peak: Peak,
+    pub velocity: PgvPgaRatio,
+    /// The mean magnitude, if it is given, and how far that of the motions is above; the median of the mean, and what
+    /// is not known of it.
+    pub given: Option<f64>,
+    pub above: f64,
+    pub median: f64,
+    pub unknown: Unknown<f64>,
 }
 
 impl Motions {
     /// The motions with this error of ln(PGV / PGA), of this magnitude or the median one.
-    pub(super) fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
+    pub fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
         let mw = mw.unwrap_or(self.median);
-        let above = self.given.map_or(0.0, |_| self.velocity.above_mean()[0]);
-        let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + above);
+        let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + self.above);
         GivenPeak::new(directions, self.peak, self.velocity.at(mw, ln), known)
     }
 }

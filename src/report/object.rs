@@ -2,9 +2,10 @@
 
 use super::figure::{Axis, Dash, Estimate, Figure, Frame, Ink, Layer, Panel, Side, Words};
 use super::page::{Column, Page, Section, Table, Tile};
-use super::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
+use super::portrait::{HazardCurve, Outline, Portrait};
 use super::rated::{Evaluation, Rated, percent_in_row};
-use crate::fragility::Z_95;
+use crate::fragility::{LimitState, Z_95};
+use crate::hazard::{Fragility, FragilityPoint, intensity_in_words};
 use crate::number::{self, Limited, PERCENT, RATE};
 use crate::object::Part;
 
@@ -83,39 +84,37 @@ fn sketch(outline: &Outline, rated: &Rated) -> Panel {
     Panel { frame: Frame::ToScale, ..Panel::new("The object", x, y, layers).explained(caption) }
 }
 
-fn fragility(curve: &FragilityCurve, evaluation: &Evaluation, hazard: Option<&HazardCurve>) -> Panel {
-    let line = |value: &dyn Fn(&FragilityPoint) -> f64| -> Vec<[f64; 2]> {
-        curve.points.iter().map(|point| [point.intensity, 100.0 * value(point)]).collect()
+fn fragility(of: &Fragility, evaluation: &Evaluation, hazard: Option<&HazardCurve>) -> Panel {
+    let (what, unit, symbol) = of.over.words();
+    let label = format!("{what} ({symbol})");
+    let line = |state: LimitState| -> Vec<[f64; 2]> {
+        of.points.iter().map(|point| [point.intensity / unit, 100.0 * point.p.get(state).value]).collect()
     };
-    let band = curve
-        .points
-        .iter()
-        .map(|point| [100.0 * point.overturning.low, 100.0 * point.overturning.high])
-        .collect();
+    let limits =
+        |point: &FragilityPoint| [point.p.overturning.low, point.p.overturning.high].map(|p| 100.0 * p);
+    let overturning = line(LimitState::Overturning);
     let too_far = format!("rocks beyond {} of *α*, or overturns", PERCENT.one(evaluation.limit_state));
-    let overturning = line(&|point| point.overturning.value);
-    let ends = [curve.points.first(), curve.points.last()].map(|point| point.map_or(1.0, |p| p.intensity));
+    let ends = [overturning.first(), overturning.last()].map(|point| point.map_or(1.0, |[x, _]| *x));
+    let band = of.points.iter().map(limits).collect();
     let mut layers = vec![
-        Layer::line("rocks", Ink::Muted, line(&|point| point.rocking)),
-        Layer::line(&too_far, Ink::Data(0), line(&|point| point.failure)),
+        Layer::line("rocks", Ink::Muted, line(LimitState::Rocking)),
+        Layer::line(&too_far, Ink::Data(0), line(LimitState::Failure)),
         Layer::curve("overturns, with 95 % limits", Ink::Data(1), Dash::Solid, overturning, band),
     ];
     for (intensity, years) in hazard.map_or(&[][..], |hazard| &hazard.usual) {
-        let inside =
-            (ends[0]..=ends[1]).contains(intensity) && hazard.is_some_and(|h| h.label == curve.label);
+        let inside = (ends[0]..=ends[1]).contains(intensity) && hazard.is_some_and(|h| h.label == label);
         if inside {
             let words = format!("once in {} years", number::count(*years as usize));
             layers.extend(Layer::upright(*intensity, [0.0, 100.0], &words, Side::Along));
         }
     }
-    let half = curve.half.as_ref().map_or(String::new(), |half| format!(" One in two: {half}."));
-    let what = curve.label.split(' ').next().unwrap_or_default();
+    let place = if hazard.is_some() { " at the site" } else { "" };
     let caption = format!(
-        "Probability under a motion of this {what} at the site, averaged over what such motions have \
-         besides.{half}"
+        "Probability under a motion of this {what}{place}, averaged over what such motions have besides. One in two: \
+         {}.",
+        intensity_in_words(of.over, of.overturning.theta.value)
     );
-    let (x, y) =
-        (Axis::log(&curve.label).over(ends[0], ends[1]), Axis::linear("probability, %").over(0.0, 101.0));
+    let (x, y) = (Axis::log(&label).over(ends[0], ends[1]), Axis::linear("probability, %").over(0.0, 101.0));
     Panel::new("Fragility", x, y, layers).explained(caption)
 }
 
@@ -313,8 +312,9 @@ fn tiles(evaluation: &Evaluation, rated: &Rated, portrait: &Portrait) -> Vec<Til
             format!("rocks beyond {} of its slenderness, or overturns", PERCENT.one(evaluation.limit_state)),
         ),
     ];
-    if let Some(half) = portrait.fragility.as_ref().and_then(|curve| curve.half.clone()) {
-        tiles.push(tile(half, "PGA at which half of the motions overturn it".to_string()));
+    if let Some(Fragility { over, overturning, .. }) = &portrait.fragility {
+        let words = format!("{} at which half of the motions overturn it", over.words().0);
+        tiles.push(tile(intensity_in_words(*over, overturning.theta.value), words));
     }
     let by_value = |a: &&(String, Limited), b: &&(String, Limited)| {
         a.1.value.unwrap_or(1.0).total_cmp(&b.1.value.unwrap_or(1.0))

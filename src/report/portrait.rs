@@ -1,13 +1,13 @@
 //! What the page of one object shows beside its row: data alone.
 
+use crate::hazard::Fragility;
 use crate::number::Limited;
-use crate::statistics::Estimate;
 
 /// What a page of one object shows beside its row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Portrait {
     pub outline: Option<Outline>,
-    pub fragility: Option<FragilityCurve>,
+    pub fragility: Option<Fragility>,
     pub hazard: Option<HazardCurve>,
     /// What would change the answer, with the probability of overturning; as it is first.
     pub changes: Vec<(String, Limited)>,
@@ -21,24 +21,6 @@ pub struct Outline {
     pub centre_height: f64,
     pub centre_offset: f64,
     pub alpha_rad: f64,
-}
-
-/// Probabilities under a motion of an intensity.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct FragilityCurve {
-    /// What the intensity is, with its unit.
-    pub label: String,
-    pub points: Vec<FragilityPoint>,
-    /// The intensity of one in two, with limits, in words.
-    pub half: Option<String>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FragilityPoint {
-    pub intensity: f64,
-    pub rocking: f64,
-    pub failure: f64,
-    pub overturning: Estimate,
 }
 
 /// Annual rates of exceedance, and where the rate of overturning comes from.

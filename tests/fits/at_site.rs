@@ -3,9 +3,13 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use rockfrag::fragility::{Kind, Model, Peak, Z_95};
-use rockfrag::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, RateByParts, Site, ratio_of_rates};
+use rockfrag::fragility::{Kind, LimitState, Model, Peak, Z_95};
+use rockfrag::hazard::{
+    Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, RateByParts, Site, SitesInGeneral,
+    intensity_in_words, ratio_of_rates,
+};
 use rockfrag::keyword::Keyword;
+use rockfrag::number::Limited;
 use rockfrag::object::{Object, Part, Restitution, Subject};
 
 /// A curve that ends where nothing is stronger.
@@ -47,17 +51,55 @@ fn the_parts_of_a_rate_sum_to_the_rate() {
 #[test]
 fn the_fragility_at_a_site_integrates_to_its_rate() {
     let (site, subject) = (over_pga(), block(0.5));
-    let rate = site.rates(&subject);
-    let at = |im: f64| site.fragility(&subject, &[im]).unwrap()[0];
-    let [overturning, failure] = curve().mean_annual_rates(&[9.81 * 0.5 / 1.9], 0.2, |im| {
-        let states = at(im);
-        assert!(states.overturning.low <= states.overturning.value);
-        assert!(states.overturning.value <= states.overturning.high && states.overturning.high <= 1.0);
-        [states.overturning.value, states.failure.value]
-    });
-    for (sum, rate) in [(overturning, rate.overturning), (failure, rate.failure)] {
+    let (rate, points) = (site.rates(&subject), site.fragility(&subject).unwrap().points);
+    assert!(
+        points
+            .iter()
+            .flat_map(|point| [point.p.failure, point.p.overturning])
+            .all(|p| { (0.0..=p.value).contains(&p.low) && (p.value..=1.0).contains(&p.high) })
+    );
+    let at = |im: f64, state: LimitState| {
+        let after = points.partition_point(|point| point.intensity < im).min(points.len() - 1);
+        let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
+        let share =
+            if after == 0 { 0.0 } else { (im / low.intensity).ln() / (high.intensity / low.intensity).ln() };
+        let [a, b] = [low, high].map(|point| point.p.get(state).value);
+        if im < points[0].intensity { 0.0 } else { a + (b - a) * share.min(1.0) }
+    };
+    let states = [LimitState::Overturning, LimitState::Failure];
+    let sums =
+        curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
+    for (sum, rate) in sums.into_iter().zip([rate.overturning, rate.failure]) {
         assert!((sum / rate.unwrap().value().unwrap() - 1.0).abs() < 1e-3);
     }
+}
+
+#[test]
+fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
+    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    for (over, mw) in [(Peak::Pga, None), (Peak::Pga, Some(7.0)), (Peak::Pgv, None), (Peak::Pgv, Some(5.5))] {
+        let Lognormal { at_16, theta, beta, largest_error, .. } =
+            SitesInGeneral { over, mw, ..general }.fragility(&block(0.5)).overturning;
+        let still = Motion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
+        for (level, Limited { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
+            let motion = match over {
+                Peak::Pga => Motion { pga_m_s2: value, ..still },
+                Peak::Pgv => Motion { pgv_m_s: value, ..still },
+            };
+            let p = motion.probabilities(&block(0.5)).states.overturning.value;
+            assert!((p - level).abs() < 1e-6, "{p} for {level}");
+            assert!(low < value && high.is_none_or(|high| high > value.unwrap()));
+        }
+        assert!(beta.unwrap() > 0.1 && largest_error.unwrap() < 0.1);
+    }
+}
+
+#[test]
+fn what_no_recorded_motion_overturns_has_no_median() {
+    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    let overturning = general.fragility(&block(3.0)).overturning;
+    assert_eq!((overturning.theta.value, overturning.beta), (None, None));
+    assert_eq!(intensity_in_words(Peak::Pga, None), "> 4.5 g");
 }
 
 /// A block with its restitution, the model's parameters and the magnitude at these standard deviations.

@@ -1,14 +1,17 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
 use resvg::{tiny_skia::Pixmap, usvg};
-use rockfrag::fragility::{Cases, DemandFit, Event, Measure, fit_curve, fit_planes, fit_power_law};
+use rockfrag::fragility::{
+    Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
+};
+use rockfrag::hazard::{Budget, Fragility, FragilityPoint, Lognormal};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::number::{self, Limited};
 use rockfrag::object::Part;
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
 use rockfrag::report::object;
-use rockfrag::report::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
+use rockfrag::report::portrait::{HazardCurve, Outline, Portrait};
 use rockfrag::report::rated::{Evaluation, Rated};
 use rockfrag::report::response::{self, TracedPoint, TracedResponse};
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
@@ -78,10 +81,16 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         ..Rated::default()
     };
     let point = |k: usize| FragilityPoint {
-        intensity: 0.1 * (1 + k) as f64,
-        rocking: 1.0,
-        failure: 0.5,
-        overturning: Estimate::around(0.4, 0.1),
+        intensity: 0.981 * (1 + k) as f64,
+        p: LimitStates::from([1.0, 0.5, 0.4].map(|p| Estimate::around(p, 0.1))),
+    };
+    let fragility = Fragility {
+        over: Peak::Pga,
+        points: (0..count).map(point).collect(),
+        failure: Lognormal::default(),
+        overturning: Lognormal::default(),
+        errors: Budget::default(),
+        motion: [1.0, 0.1],
     };
     let outline =
         Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
@@ -92,11 +101,7 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         rows: (0..count).map(rated).collect(),
         portrait: Portrait {
             outline: Some(outline),
-            fragility: Some(FragilityCurve {
-                label: "PGA (g)".to_string(),
-                points: (0..count).map(point).collect(),
-                half: None,
-            }),
+            fragility: Some(fragility),
             hazard: Some(HazardCurve {
                 label: "PGA (g)".to_string(),
                 points: vec![[0.01, 0.1], [1.0, 1e-4]],

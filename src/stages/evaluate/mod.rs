@@ -4,6 +4,7 @@
 //! object       what is predicted for each object of a call, the worst first
 //! point        probabilities at a PGA, a PGV or both
 //! rates        annual rates at a site
+//! fragility    the intensities that half of the motions need, without a motion or over the hazard of a site
 //! target       the width of a base that meets a target
 //! pages        what pages and figures show of the answers
 //! table        probabilities at each intensity of a table
@@ -12,6 +13,7 @@
 //! ```
 
 mod explain;
+mod fragility;
 mod object;
 pub mod pages;
 mod point;
@@ -29,8 +31,10 @@ use serde::Serialize;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{PlaceArgs, StructureArgs, named};
 use super::shared::responses;
-use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site};
+use crate::fragility::Peak;
+use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use crate::inputs::{Rename, Renames, hazard};
+use crate::keyword::Keyword;
 use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
@@ -45,6 +49,7 @@ use crate::table::rows;
 use crate::units::G_M_S2;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
+use self::fragility::FragilityRow;
 pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 pub use self::point::TreeRow;
 pub use self::rates::{RatesRow, expected_number};
@@ -90,12 +95,15 @@ pub struct Evaluate {
     #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
-    #[arg(long, value_name = "S", requires = "hazard", group = "site",
+    #[arg(long, value_name = "S", group = "site",
           value_parser = number(PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]
     target: Option<f64>,
+    /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its site
+    #[arg(long, value_name = "PEAK", conflicts_with_all = ["in", "pga", "pgv", "target", "responses", "extrapolate"])]
+    over: Option<Peak>,
     /// Responses to count overturning in, beside the rate
     #[arg(long, value_name = "FILE", requires = "hazard", group = "site")]
     responses: Option<Input>,
@@ -151,7 +159,7 @@ impl Stage for Evaluate {
 
     fn check(&self) -> anyhow::Result<()> {
         self.out.as_deref().map(file_format).transpose()?;
-        if self.input.is_none() && self.hazard.is_empty() {
+        if self.pga.or(self.pgv).is_some() {
             self.motion()?;
         }
         Ok(())
@@ -169,13 +177,16 @@ impl Stage for Evaluate {
             };
             let (rows, text) = table::evaluate(path, &mut renames, &call, context)?;
             renames.expect_used()?;
-            self.write(&rows, text, context, || {
+            let printed = self.printed(&rows, text)?;
+            self.write(&rows, printed, context, || {
                 let problem =
                     "out: a page or figure is of objects at a site or under a motion, not of a table";
                 Err(UsageError::because(problem))
             })
-        } else if self.hazard.is_empty() {
+        } else if self.pga.or(self.pgv).is_some() {
             self.under_motion(&self.motion()?, &models, context)
+        } else if self.hazard.is_empty() || self.over.is_some() {
+            self.over_peak(&models, context)
         } else {
             self.over_hazard(&models, context)
         }
@@ -192,11 +203,6 @@ impl Evaluate {
     fn motion(&self) -> anyhow::Result<Motion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
         match (pga_m_s2, pgv_m_s) {
-            (None, None) => {
-                return Err(UsageError::because(
-                    "expected --pga (g) and --pgv (m/s), a table of intensities (--in) or the hazard of a site (--hazard)",
-                ));
-            }
             (Some(_), Some(_)) if self.vs30.is_some() => {
                 return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
             }
@@ -220,6 +226,44 @@ impl Evaluate {
         let all = object::answers(objects, models, self.explain, &bar, predict)?;
         let text = point::text(&all, self.out.as_deref());
         self.finish(&all, text, context, || Ok(pages::under_motion(&all)))
+    }
+
+    /// The fragility over one peak, of motions in general or at the site of a hazard curve.
+    fn over_peak(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
+        models.expect_ground()?;
+        let over = self.over.unwrap_or(Peak::Pga);
+        let mut renames = Renames::new(&self.columns);
+        let site = if self.hazard.is_empty() { None } else { Some(self.site(&mut renames, context)?) };
+        match site.as_ref().map(|site| &site.hazard) {
+            Some(Hazard::Curve(curve)) if curve.peak == over => {}
+            Some(Hazard::Curve(curve)) => {
+                let (over, peak) = (over.as_str(), curve.peak.as_str());
+                let problem = format!("over {over}: the hazard curve is over {peak}; expected --over {peak}");
+                return Err(UsageError::because(problem));
+            }
+            Some(Hazard::Joint(_)) => {
+                return Err(UsageError::because("over: expected a hazard curve of one peak"));
+            }
+            None => {}
+        }
+        let objects = self.objects(&mut renames, models, context)?;
+        renames.expect_used()?;
+        if self.out.as_deref().map(file_format).transpose()? == Some(FileFormat::Page) {
+            return Err(UsageError::because("out: a page is of a site or a motion; expected .svg or .png"));
+        }
+        let general = SitesInGeneral { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
+        let predict = |_: &Object, subject: &Subject| {
+            let at_site = site.as_ref().and_then(|site| site.fragility(subject));
+            let fragility = at_site.unwrap_or_else(|| general.fragility(subject));
+            let (errors, motion) = (fragility.errors, fragility.motion);
+            (FragilityRow::new(fragility), errors, motion, Vec::new())
+        };
+        let (first, bar) = (objects[0].clone(), context.bar(objects.len()));
+        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+        let text = fragility::text(&all, self.out.as_deref());
+        let printed = self.printed(&[answer_rows(&all, context)?], text)?;
+        let picture = || pages::of_fragility(&all, &first, models);
+        self.write(&[rows::batch(&fragility::curves(&all))?], printed, context, picture)
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
@@ -307,7 +351,7 @@ impl Evaluate {
         }
     }
 
-    /// Writes and prints the answers for all objects, and warns of what their text does not state.
+    /// Writes and prints the answers for all objects.
     fn finish<R: Predicted>(
         &self,
         all: &[Answer<R>],
@@ -315,39 +359,28 @@ impl Evaluate {
         context: &Context,
         picture: impl Fn() -> anyhow::Result<Evaluation>,
     ) -> anyhow::Result<String> {
-        let is_stated = |of: &Warning| matches!(of, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
-        for answer in all {
-            let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
-            context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
-        }
-        let rows = rows::side_by_side(&[
-            rows::batch(all.iter().map(|answer| &answer.object))?,
-            rows::batch(all.iter().map(|answer| &answer.row))?,
-            rows::batch(all.iter().map(|answer| &answer.doubts))?,
-        ])?;
-        self.write(&[rows], text, context, picture)
+        let rows = [answer_rows(all, context)?];
+        let printed = self.printed(&rows, text)?;
+        self.write(&rows, printed, context, picture)
+    }
+
+    /// Returns a text, or rows of one schema in the form that is asked for.
+    fn printed(&self, rows: &[RecordBatch], text: String) -> anyhow::Result<String> {
+        if self.format == Format::Text { Ok(text) } else { shown(rows, self.format) }
     }
 
     /// Writes rows of one schema, or a picture of them, if they go to a file, and returns what to print.
     fn write(
         &self,
         rows: &[RecordBatch],
-        text: String,
+        printed: String,
         context: &Context,
         picture: impl Fn() -> anyhow::Result<Evaluation>,
     ) -> anyhow::Result<String> {
-        let show = |format: Format| -> anyhow::Result<String> {
-            let mut whole = frame::of_batch(&rows[0])?;
-            for more in &rows[1..] {
-                whole.vstack_mut(&frame::of_batch(more)?)?;
-            }
-            frame::show(&whole, format)
-        };
-        let printed = if self.format == Format::Text { text } else { show(self.format)? };
         for out in self.outputs() {
             let key = || anyhow::Ok(context.provenance(&out, &printed)?.json());
             match file_format(&out)? {
-                FileFormat::Text(format) => context.write_file(&out, show(format)?.as_bytes())?,
+                FileFormat::Text(format) => context.write_file(&out, shown(rows, format)?.as_bytes())?,
                 FileFormat::Workbook => context.write_file(&out, &workbook(rows, &key()?)?)?,
                 FileFormat::Page => {
                     let page = Page { key: key()?, made: made_in_words(), ..pages::page(&picture()?) };
@@ -369,6 +402,29 @@ impl Evaluate {
         }
         Ok(printed)
     }
+}
+
+/// Gathers the rows of answers, and warns of what their text does not state.
+fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Result<RecordBatch> {
+    let is_stated = |of: &Warning| matches!(of, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
+    for answer in all {
+        let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
+        context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
+    }
+    Ok(rows::side_by_side(&[
+        rows::batch(all.iter().map(|answer| &answer.object))?,
+        rows::batch(all.iter().map(|answer| &answer.row))?,
+        rows::batch(all.iter().map(|answer| &answer.doubts))?,
+    ])?)
+}
+
+/// Shows rows of one schema.
+fn shown(rows: &[RecordBatch], format: Format) -> anyhow::Result<String> {
+    let mut whole = frame::of_batch(&rows[0])?;
+    for more in &rows[1..] {
+        whole.vstack_mut(&frame::of_batch(more)?)?;
+    }
+    frame::show(&whole, format)
 }
 
 /// Checks that responses were of an object; a warning where all have a depth, for they are to one component.

@@ -1,5 +1,6 @@
 //! Answers as pages and figures show them, and what the page of one object shows besides.
 
+use super::fragility::FragilityRow;
 use super::object::{Answer, DoubtsRow, ObjectRow, Predicted};
 use super::point::{self, TreeRow};
 use super::rates::RatesRow;
@@ -10,13 +11,12 @@ use crate::hazard::{Hazard, Site, exceedance, probability_in_years};
 use crate::keyword::Keyword;
 use crate::number::{self, Limited};
 use crate::object::{Object, Part, Subject};
-use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::report::portrait::{FragilityCurve, FragilityPoint, HazardCurve, Outline, Portrait};
+use crate::pipeline::UsageError;
+use crate::report::portrait::{HazardCurve, Outline, Portrait};
 use crate::report::rated::{Evaluation, Rated};
 use crate::report::{Figure, Page, list, object};
 use crate::stages::shared::model_args::Models;
 use crate::table::provenance::Provenance;
-use crate::units::G_M_S2;
 use crate::warning::UNNAMED;
 
 /// Answers over a hazard as a page shows them, and what their call tells.
@@ -89,6 +89,24 @@ pub fn under_motion(answers: &[Answer<TreeRow>]) -> Evaluation {
     }
 }
 
+/// The fragility of one object as a figure shows it.
+pub fn of_fragility(
+    answers: &[Answer<FragilityRow>],
+    object: &Object,
+    models: &Models,
+) -> anyhow::Result<Evaluation> {
+    let [Answer { object: row, row: FragilityRow { curve, .. }, doubts, .. }] = answers else {
+        return Err(UsageError::because("out: expected one object for a figure of its fragility"));
+    };
+    let outline = outline(object, &models.subject(object)?.0);
+    Ok(Evaluation {
+        limit_state: row.limit_state.unwrap_or(0.1),
+        rows: vec![described(row, doubts)],
+        portrait: Portrait { outline, fragility: curve.clone(), ..Portrait::default() },
+        ..Evaluation::default()
+    })
+}
+
 /// Width, depth and height, else p and alpha.
 fn size(object: &ObjectRow) -> String {
     let sides = [object.width_m, object.depth_m, object.height_m].into_iter().flatten().map(number::length);
@@ -103,9 +121,8 @@ fn size(object: &ObjectRow) -> String {
 
 /// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and consider.
 const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
-/// Bins of intensity, and points of a curve of fragility.
+/// Bins of intensity.
 const BINS: usize = 60;
-const POINTS: usize = 90;
 
 /// The page of answers: of one object its portrait, of several a list.
 pub fn page(evaluation: &Evaluation) -> Page {
@@ -135,7 +152,7 @@ pub fn portrait(object: &Object, models: &Models, site: &Site, years: f64) -> an
     }
     Ok(Portrait {
         outline: outline(object, &subject),
-        fragility: fragility(&subject, site),
+        fragility: site.fragility(&subject),
         hazard: Some(hazard(&subject, site)),
         changes,
     })
@@ -162,52 +179,11 @@ fn outline(object: &Object, subject: &Subject) -> Option<Outline> {
     Some(Outline { width, height, centre_height, centre_offset, alpha_rad })
 }
 
-/// The unit of a peak and its label.
-fn scale(site: &Site) -> (f64, &'static str) {
-    match &site.hazard {
-        Hazard::Curve(hazard) if hazard.peak == Peak::Pgv => (1.0, "PGV (m/s)"),
-        _ => (G_M_S2, "PGA (g)"),
-    }
-}
-
-/// The curve of fragility at the site, from where nothing rocks to the strongest motions.
-fn fragility(subject: &Subject, site: &Site) -> Option<FragilityCurve> {
-    let (unit, label) = scale(site);
-    let most = if unit == 1.0 { STRONGEST_PGV_M_S } else { STRONGEST_PGA_G };
-    let intensities = |low: f64| -> Vec<f64> {
-        (0..=POINTS).map(|k| unit * low * (most / low).powf(k as f64 / POINTS as f64)).collect()
-    };
-    let coarse = intensities(0.01);
-    let states = site.fragility(subject, &coarse)?;
-    let first = states.iter().position(|states| states.rocking.value > 0.01).unwrap_or(0);
-    let fine = intensities(coarse[first.saturating_sub(2)] / unit);
-    let states = site.fragility(subject, &fine)?;
-    let points: Vec<FragilityPoint> = fine
-        .iter()
-        .zip(&states)
-        .map(|(intensity, states)| FragilityPoint {
-            intensity: intensity / unit,
-            rocking: states.rocking.value,
-            failure: states.failure.value,
-            overturning: states.overturning,
-        })
-        .collect();
-    let name_of_unit = if unit == 1.0 { "m/s" } else { "g" };
-    let crossing = points.windows(2).find(|pair| pair[1].overturning.value >= 0.5);
-    let half = match crossing {
-        Some([low, high]) => {
-            let [p, q] = [low.overturning.value, high.overturning.value];
-            let share = (0.5 - p) / (q - p);
-            let intensity = low.intensity * (high.intensity / low.intensity).powf(share);
-            format!("{} {name_of_unit}", number::significant(intensity, 2))
-        }
-        _ => format!("above {most} {name_of_unit}"),
-    };
-    Some(FragilityCurve { label: label.to_string(), points, half: Some(half) })
-}
-
 fn hazard(subject: &Subject, site: &Site) -> HazardCurve {
-    let (unit, label) = scale(site);
+    let (name, unit, symbol) = match &site.hazard {
+        Hazard::Curve(hazard) => hazard.peak.words(),
+        Hazard::Joint(_) => Peak::Pga.words(),
+    };
     let points: Vec<(f64, f64)> = match &site.hazard {
         Hazard::Curve(hazard) => hazard.curve.points().to_vec(),
         Hazard::Joint(pairs) => exceedance(pairs, |pair| pair.pga_m_s2),
@@ -225,7 +201,7 @@ fn hazard(subject: &Subject, site: &Site) -> HazardCurve {
     let bins = parts.edges.windows(2).zip(&parts.rates);
     let share = |(edge, rate): (&[f64], &f64)| ([edge[0] / unit, edge[1] / unit], rate / all);
     HazardCurve {
-        label: label.to_string(),
+        label: format!("{name} ({symbol})"),
         points: points.iter().map(|(intensity, rate)| [intensity / unit, *rate]).collect(),
         usual,
         shares: if all > 0.0 { bins.map(share).collect() } else { Vec::new() },
