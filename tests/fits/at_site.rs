@@ -5,8 +5,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag::fragility::{Kind, LimitState, Model, Peak, Z_95};
 use rockfrag::hazard::{
-    Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, RateByParts, Site, SitesInGeneral,
-    intensity_in_words, ratio_of_rates,
+    Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
+    SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::number::Limited;
@@ -97,7 +97,7 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 #[test]
 fn what_no_recorded_motion_overturns_has_no_median() {
     let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
-    let overturning = general.fragility(&block(3.0)).overturning;
+    let overturning = general.fragility(&block(1.8)).overturning;
     assert_eq!((overturning.theta.value, overturning.beta), (None, None));
     assert_eq!(intensity_in_words(Peak::Pga, None), "> 4.5 g");
 }
@@ -122,16 +122,24 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
         overturning.ln_s += step * (high.ln_s - low.ln_s);
         overturning.m += step * (high.m - low.m);
     }
-    Site { mw: Some(6.35 + 0.6 * z[1]), ..over_pga() }.overturning(&subject).unwrap()
+    // That of motions is above a mean of the disaggregation.
+    let mean = 6.35 + 0.6 * z[1] - PgvPgaRatio::given(RATIO_S).above_mean()[0];
+    Site { mw: Some(mean), ..of_one_ratio() }.overturning(&subject).unwrap()
+}
+
+/// PGV / PGA that does not depend on magnitude.
+const RATIO_S: f64 = 0.1;
+
+fn of_one_ratio() -> Site {
+    let (peak, curve, velocity) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
+    site(Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity }))
 }
 
 #[test]
 fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
     let [before, after] = [0.5, 0.6].map(|width| {
-        let rates = over_pga().rates(&block(width));
-        let known = |part: &Part| {
-            Some((*part, rates.errors.part_sd(*part)?)).filter(|(part, _)| *part != Part::Velocity)
-        };
+        let rates = of_one_ratio().rates(&block(width));
+        let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?));
         RateByParts {
             rate: rates.overturning.unwrap().value().unwrap(),
             sds: Part::ALL.iter().filter_map(known).collect(),

@@ -123,8 +123,9 @@ fn of_one(answer: &Answer<FragilityRow>) -> String {
 /// The intensity at which half of the motions overturn an object.
 fn half(Answer { object, row, .. }: &Answer<FragilityRow>) -> String {
     let Some(Fragility { over, overturning, .. }) = &row.curve else { return title(object) };
+    let of = if overturning.theta.value.is_some() { "of " } else { "" };
     let half = intensity_in_words(*over, overturning.theta.value);
-    format!("{}: half of the motions overturn it at a {} of {half}", title(object), over.words().0)
+    format!("{}: half of the motions overturn it at a {} {of}{half}", title(object), over.words().0)
 }
 
 /// The intensity of one half, its limits, and those of 16 and 84 %.

@@ -101,7 +101,7 @@ pub fn of_fragility(
     let outline = outline(object, &models.subject(object)?.0);
     Ok(Evaluation {
         limit_state: row.limit_state.unwrap_or(0.1),
-        rows: vec![described(row, doubts)],
+        rows: vec![Rated { sds: Vec::new(), ..described(row, doubts) }],
         portrait: Portrait { outline, fragility: curve.clone(), ..Portrait::default() },
         ..Evaluation::default()
     })
