@@ -17,7 +17,7 @@ const STEP_ON_FLOORS: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
 /// which reach down to uplift.
 const PANEL_OF_PGA: f64 = 3.0;
-const PANEL_OF_PGV: f64 = 1.6;
+const PANEL_OF_PGV: f64 = 1.0;
 /// Times the PGA of uplift, up to which probabilities rise steeply.
 const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
