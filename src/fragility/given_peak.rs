@@ -17,7 +17,7 @@ const STEP_ON_FLOORS: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
 /// which reach down to uplift.
 const PANEL_OF_PGA: f64 = 3.0;
-const PANEL_OF_PGV: f64 = 1.0;
+const PANEL_OF_PGV: f64 = 0.7;
 /// Times the PGA of uplift, up to which probabilities rise steeply.
 const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
@@ -191,10 +191,10 @@ impl<'a> GivenPeak<'a> {
         let mut last = FARTHEST;
         if self.peak == Peak::Pgv {
             // Those with less PGA than uplifts the structure, behind the last jump, do not count.
-            let jumps = self.jumps_of_pga().into_iter().map(|pga| deviations((intensity / pga).ln()));
-            let jumps: Vec<f64> = jumps.collect();
-            last = jumps.iter().copied().fold(-FARTHEST, f64::max).min(FARTHEST);
-            edges.extend(jumps);
+            let at = |pga: f64| deviations((intensity / pga).ln());
+            let jumps = self.jumps_of_pga();
+            last = jumps.iter().map(|pga| at(*pga)).fold(-FARTHEST, f64::max).min(FARTHEST);
+            edges.extend(jumps.iter().flat_map(|pga| [at(*pga), at(STEEP * pga)]));
         }
         edges.push(last);
         edges.retain(|edge| (-FARTHEST..=last).contains(edge));
