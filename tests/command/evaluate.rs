@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use rockfrag::hazard::PgvPgaRatio;
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
 use rockfrag::warning::Warning;
@@ -52,10 +53,12 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     let rocking = 1e-3 / 0.25_f64.powi(2);
     assert!(near(number(row, "rocking_per_year"), rocking, 1e-9));
     assert!(near(number(row, "p_rocking"), -(-rocking * 100.0).exp_m1(), 1e-9));
-    // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5 g.
+    // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5 g. The
+    // motions' magnitude is above the mean of the disaggregation.
+    let mw = 6.5 + PgvPgaRatio::given(0.1).above_mean()[0];
     let edges: Vec<f64> = (0..=400).map(|k| 0.25 * 18_f64.powf(f64::from(k) / 400.0)).collect();
     let middles = edges.windows(2).map(|edge| (edge[0] * edge[1]).sqrt()).chain([4.5]);
-    let lines = middles.map(|pga| format!("{pga},{},6.5\n", 0.1 * pga * G_M_S2));
+    let lines = middles.map(|pga| format!("{pga},{},{mw}\n", 0.1 * pga * G_M_S2));
     let table = format!("pga_g,pgv_m_s,mw\n{}", lines.collect::<String>());
     std::fs::write(folder.path().join("table.csv"), table).unwrap();
     let p: Vec<f64> = evaluated(folder.path(), &format!("{BLOCK} --in table.csv --out t.csv"))
@@ -142,7 +145,8 @@ fn slips_are_refused_or_warned() {
         (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
         (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
-        (BLOCK, 2, vec!["--pga", "--hazard"]),
+        (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["pgv", "pga"]),
+        (&format!("{BLOCK} --over pga --out answer.html"), 2, vec!["svg"]),
     ] {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
     }
@@ -269,16 +273,34 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
     let rows = |arguments: &str| evaluated(folder.path(), &format!("{BLOCK} --in {arguments} --force"));
     let (found, expected) = (rows("table.csv"), rows("rim.csv"));
     for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        assert!(near(number(found, "p_overturning"), number(expected, "p_overturning"), 1e-6), "row {row}");
+        assert!(near(number(found, "p_f"), number(expected, "p_f"), 1e-6), "row {row}");
         assert_eq!(has(found, Warning::AtRim), (2..5).contains(&row), "row {row}");
     }
     fail(folder.path(), &format!("evaluate {BLOCK} --in units.csv"), 1, &["units.csv", "m/s2"]);
     // A magnitude holds for rows without one.
     let with = evaluated(folder.path(), &format!("{BLOCK} --pga 0.4 --pgv 0.5 --magnitude 7.5"));
-    let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_overturning");
-    assert!(
-        near(of_row, number(&with[0], "p_overturning"), 1e-9)
-            && !near(of_row, number(&found[0], "p_overturning"), 1e-3)
-    );
+    let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_f");
+    assert!(near(of_row, number(&with[0], "p_f"), 1e-9) && !near(of_row, number(&found[0], "p_f"), 1e-3));
     fail(folder.path(), &format!("evaluate {BLOCK} --pga 0.4 --columns pga_g=PGA"), 1, &["PGA"]);
+}
+
+#[test]
+fn a_block_without_motion_or_hazard_has_a_fragility() {
+    let list = "name,width_m,height_m\nthin,0.3,1.9\nsquat,1.5,1.9\n";
+    let folder = folder(&[("list.csv", list), ("hazard.csv", CURVE)]);
+    let row = &evaluated(folder.path(), BLOCK)[0];
+    let theta = number(row, "overturning_theta");
+    let at = &evaluated(folder.path(), &format!("{BLOCK} --pga {theta}"))[0];
+    assert!((number(at, "p_ro") - 0.5).abs() < 1e-6);
+    // A list has its curves by name, one below the other.
+    let (text, _) = succeed(folder.path(), "evaluate --structures list.csv --out curve.json");
+    assert!(text.contains("> 4.5 g"), "{text}");
+    let curve: Vec<Value> =
+        serde_json::from_slice(&std::fs::read(folder.path().join("curve.json")).unwrap()).unwrap();
+    let names: Vec<&str> = curve.iter().map(|point| point["structure"].as_str().unwrap()).collect();
+    assert_eq!([names[0], names[names.len() - 1]], ["thin", "squat"]);
+    assert!(curve.iter().all(|point| number(point, "p_overturns") <= number(point, "p_fails") + 1e-9));
+    // At a site, and as a figure.
+    succeed(folder.path(), &format!("evaluate {BLOCK} --hazard hazard.csv --over pga --out fragility.svg"));
+    assert!(std::fs::read_to_string(folder.path().join("fragility.svg")).unwrap().contains("Fragility"));
 }
