@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::UsageError;
-use super::call::{Call, Plan, Planned};
+use super::call::{Call, Planned};
 use super::context::Context;
+use super::plan::Plan;
 use crate::source::is_pipe;
 use crate::table::TableError;
 use crate::table::marks::is_ours;

@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use serde_json::Value;
 
 use super::Stage;
 use super::context::Common;
 use super::paths::Read;
+use super::plan::{Plan, PlannedFile, modified_at};
 use crate::table::TableError;
 use crate::table::file::{self, is_table};
 use crate::table::keys::{files_below, names_below, read_file, resolved};
@@ -23,27 +23,6 @@ pub struct Call {
     pub common: Common,
     /// All options of the stage but files, by flag.
     pub options: BTreeMap<String, Value>,
-}
-
-/// What a call would make.
-#[derive(Debug, Clone, Default)]
-pub struct Plan {
-    pub made: Provenance,
-    /// The files to read.
-    pub files: Vec<PlannedFile>,
-    pub outputs: Vec<PathBuf>,
-}
-
-/// A file to read, with the key of its content and when it was last changed.
-#[derive(Debug, Clone)]
-pub struct PlannedFile {
-    pub path: PathBuf,
-    pub key: String,
-    pub modified: Option<SystemTime>,
-}
-
-pub fn modified_at(path: &Path) -> Option<SystemTime> {
-    path.metadata().and_then(|found| found.modified()).ok()
 }
 
 impl Call {
@@ -69,19 +48,6 @@ impl Call {
         }
         plan.made.inputs.retain(|_, files| !files.is_empty());
         Ok(plan)
-    }
-}
-
-impl Plan {
-    /// Returns the provenance of one of the outputs.
-    pub fn output(&self, output: usize) -> Provenance {
-        Provenance { output, ..self.made.clone() }
-    }
-
-    /// Returns the keys of the outputs.
-    pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
-        let key = |(place, path): (usize, &PathBuf)| (resolved(path), self.output(place).key());
-        self.outputs.iter().enumerate().map(key)
     }
 }
 

@@ -9,8 +9,8 @@ use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::call::{Plan, PlannedFile, modified_at};
 use super::options::number;
+use super::plan::{Plan, PlannedFile, modified_at};
 use crate::keyword::keywords;
 use crate::table::TableError;
 use crate::table::keys::read_file;

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! paths     what a path is to a stage: a type for each kind
-//! call      one call of a stage: its options, and the files and keys that it reads and makes
+//! call      one call of a stage: its options, and the files that it reads
+//! plan      what a call would make of which files, with their keys
 //! cache     runs a call unless its files are up to date
 //! context   output, progress and warnings of a running stage
 //! stream    concurrent reading, work and writing
@@ -14,6 +15,7 @@ pub mod call;
 pub mod context;
 pub mod options;
 pub mod paths;
+pub mod plan;
 pub mod stream;
 
 use std::path::PathBuf;

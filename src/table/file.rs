@@ -247,7 +247,7 @@ impl TableFile {
 
     /// Returns which partition it is; none if it is a whole table.
     fn partition(&self) -> Option<Partition> {
-        self.made()?.partition()
+        self.made()?.partition()?.parse().ok()
     }
 }
 
@@ -305,7 +305,8 @@ fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError
         return refuse("a folder without Parquet files".to_string());
     }
     let made: Vec<Option<Provenance>> = files.iter().map(TableFile::made).collect();
-    let parts: Vec<Option<Partition>> = made.iter().map(|made| made.as_ref()?.partition()).collect();
+    let parts: Vec<Option<Partition>> =
+        made.iter().map(|made| made.as_ref()?.partition()?.parse().ok()).collect();
     let Some(first) = parts.iter().position(Option::is_some) else { return Ok(()) };
     let of = parts[first].map_or(0, |part| part.of);
     let whole = |place: usize| made[place].as_ref().map(Provenance::whole);

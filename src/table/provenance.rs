@@ -6,7 +6,6 @@ use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::file::Partition;
 use crate::warning::Warnings;
 
 /// Key of the JSON among the key-value metadata.
@@ -97,8 +96,8 @@ impl Provenance {
     }
 
     /// Returns which part of a table it is; none if it is a whole one.
-    pub fn partition(&self) -> Option<Partition> {
-        self.arguments.get("partition")?.as_str()?.parse().ok()
+    pub fn partition(&self) -> Option<&str> {
+        self.arguments.get("partition")?.as_str()
     }
 
     /// Returns the key that all parts of one table share.
