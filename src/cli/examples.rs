@@ -44,7 +44,8 @@ rockfrag rank-ims --motions motions.parquet --candidate energy_m",
     ),
     (
         "evaluate",
-        "rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6
+        "rockfrag evaluate --width 0.5 --height 2.0
+rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6
 rockfrag evaluate --width 0.5 --height 2.0 --depth 0.4 --hazard pga.csv,sa.csv
 rockfrag evaluate --structures objects.csv --hazard pga.csv --out objects.parquet
 rockfrag evaluate --width 0.5 --height 2.0 --period 0.6 --level 0.5 --hazard pga.csv",

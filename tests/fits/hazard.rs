@@ -4,8 +4,8 @@ use rockfrag::fragility::{
     Direction, Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    AnnualRate, Budget, Hazard, HazardCurve, HazardError, MatchError, Motion, PairOfPeaks, PeakHazard,
-    PgvPgaRatio, Site, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
+    AnnualRate, Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio,
+    Site, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
     velocity_of_spectrum,
 };
 use rockfrag::object::{Object, Part, Subject, Unknown};

@@ -19,7 +19,16 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import _bridge, _rockfrag
-from ._arrays import FragilityCurve, Probabilities, Response, fit_fragility, probability, simulate_motion
+from ._arrays import (
+    Fragility,
+    FragilityCurve,
+    Probabilities,
+    Response,
+    fit_fragility,
+    fragility,
+    probability,
+    simulate_motion,
+)
 from ._result import Result
 from ._rockfrag import Error, __version__
 from ._stages import *
@@ -31,12 +40,14 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Error",
+    "Fragility",
     "FragilityCurve",
     "Probabilities",
     "Response",
     "Result",
     "__version__",
     "fit_fragility",
+    "fragility",
     "inspect",
     "probability",
     "run",

@@ -5,6 +5,7 @@ Masked entries of a masked array are unknown: left out of fits, and refused else
 
 from __future__ import annotations
 
+import json
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -260,3 +261,64 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
         columns = _rockfrag.read_numbers(evaluated._table(), names)
     arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
     return Probabilities(**arrays, pga=given[0], pgv=given[1], warnings=evaluated.warnings)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fragility:
+    """Shares of the motions of one peak that rock an object, too far or until it overturns, with 95 % limits."""
+
+    #: The peak: pga, in g, or pgv, in m/s; and its values.
+    over: str
+    intensity: Floats
+    p_rocks: Floats
+    p_fails: Floats
+    p_fails_low: Floats
+    p_fails_high: Floats
+    p_overturns: Floats
+    p_overturns_low: Floats
+    p_overturns_high: Floats
+    #: Of the object, among them ``overturning_theta``, ``overturning_beta`` and their limits.
+    row: dict[str, Any]
+    warnings: list[str]
+
+    @property
+    def label(self) -> str:
+        return "PGA, g" if self.over == "pga" else "PGV, m/s"
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the probabilities with their limits by matplotlib; gives the axes."""
+        overturns = (self.p_overturns, self.p_overturns_low, self.p_overturns_high)
+        fails = (self.p_fails, self.p_fails_low, self.p_fails_high)
+        named = [("overturns", *overturns), ("overturns, or rocks too far", *fails)]
+        return _plots.curves(self.intensity, self.label, named, axes)
+
+    def _repr_html_(self) -> str:
+        return _plots.in_notebook(repr(self), self.plot)
+
+    def __repr__(self) -> str:
+        ends = ["overturning_theta", "overturning_theta_low", "overturning_theta_high"]
+        beyond = f"beyond {self.intensity.max():.3g}"
+        half, low, high = [beyond if self.row[end] is None else f"{self.row[end]:.3g}" for end in ends]
+        return f"Fragility: half of the motions overturn it at {self.label}: {half} (95 % limits {low} to {high})"
+
+
+def fragility(*, over: str | None = None, **options: Any) -> Fragility:
+    """The fragility of one object over ``pga`` or ``pgv``; of a list :func:`rockfrag.evaluate` has all curves.
+
+    Parameters
+    ----------
+    over : str, optional
+        The peak; pga if it is not given.
+    **options
+        Of :func:`rockfrag.evaluate`: the object, ``magnitude``, ``vs30``, ``ratio``, ``hazard``, ``limit_state`` ...
+    """
+    over = over or "pga"
+    evaluated = _bridge.functions["evaluate"](over=over, format="json", **options)
+    rows = json.loads(evaluated.summary)
+    if len(rows) != 1:
+        raise ValueError(f"{len(rows)} objects; expected one, or evaluate(over='{over}') for the curves of all")
+    names = [field.name for field in fields(Fragility) if field.name.startswith("p_")]
+    peak = "pga_g" if over == "pga" else "pgv_m_s"
+    columns = _rockfrag.read_numbers(evaluated._table(), [peak, *names])
+    arrays: dict[str, Any] = {name: np.frombuffer(columns[name]) for name in names}
+    return Fragility(over, np.frombuffer(columns[peak]), **arrays, row=rows[0], warnings=evaluated.warnings)
