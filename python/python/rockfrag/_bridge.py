@@ -228,7 +228,7 @@ def stub() -> str:
     """The functions with all their options, for editors and type checkers; the wheel has it as ``_stages.pyi``."""
     text = ["from os import PathLike", "from typing import Any, Callable", "from ._result import Result", ""]
     for stage in described():
-        options = [f"{option.name}: {'bool' if option.kind == "flag" else 'Any'} = ..." for option in stage.named]
+        options = [f"{option.name}: {'bool' if option.kind == 'flag' else 'Any'} = ..." for option in stage.named]
         options += [
             "threads: int | None = ...",
             "force: bool = ...",
