@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import _plots, _rockfrag
+from . import _rockfrag
 
 if TYPE_CHECKING:
     import pandas
@@ -99,6 +99,9 @@ class Result:
         return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *warnings])
 
     def _repr_html_(self) -> str:
+        # It needs numpy, which is not there when a wheel is built.
+        from . import _plots
+
         return _plots.in_notebook(repr(self))
 
 
