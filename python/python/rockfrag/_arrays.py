@@ -296,10 +296,11 @@ class Fragility:
         return _plots.in_notebook(repr(self), self.plot)
 
     def __repr__(self) -> str:
+        name, unit = self.label.split(", ")
         ends = ["overturning_theta", "overturning_theta_low", "overturning_theta_high"]
-        beyond = f"beyond {self.intensity.max():.3g}"
-        half, low, high = [beyond if self.row[end] is None else f"{self.row[end]:.3g}" for end in ends]
-        return f"Fragility: half of the motions overturn it at {self.label}: {half} (95 % limits {low} to {high})"
+        beyond = f"> {self.intensity[-1]:.3g} {unit}"
+        half, low, high = [beyond if self.row[end] is None else f"{self.row[end]:.3g} {unit}" for end in ends]
+        return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
 
 
 def fragility(*, over: str | None = None, **options: Any) -> Fragility:

@@ -43,7 +43,7 @@ pub enum Kind {
 }
 
 /// Columns by which each kind is known, and what it is called; the first that has all counts.
-const KINDS: [(Kind, &str, &str); 17] = [
+const KINDS: [(Kind, &str, &str); 18] = [
     (Kind::Motions, "acceleration_m_s2 dt_s", "motions"),
     (Kind::Traces, "theta_over_alpha time_s", "responses over time"),
     (Kind::Stripes, "outcome intensity scale", "stripes"),
@@ -52,6 +52,7 @@ const KINDS: [(Kind, &str, &str); 17] = [
     (Kind::CapacityFits, "theta beta n_safe", "distributions of overturning intensities"),
     (Kind::Rates, "overturning_per_year p_overturning", "annual rates"),
     (Kind::Probabilities, "p_ro", "probabilities under motions"),
+    (Kind::Probabilities, "p_overturns", "probabilities under motions"),
     (Kind::Calibrations, "ln_s tau n_clusters", "calibrations"),
     (Kind::Curves, "event coefficients aic", "curves of overturning"),
     (Kind::Planes, "model coefficients range_low", "regressions of the demand"),
