@@ -174,13 +174,20 @@ fn table(pairs: &[Pair], when: &str) -> Table {
     let heads =
         ["object", &format!("before, {when}"), "after", "95 % limits", "times as often", "95 % limits"];
     let row = |pair: &Pair| {
+        let [times, limits] = match (is_changed(pair), pair.ratio.value) {
+            (false, _) => ["as before".to_string(), String::new()],
+            (true, None) => [String::new(), String::new()],
+            (true, Some(_)) => {
+                [TWO_DIGITS.value(pair.ratio), TWO_DIGITS.limits(pair.ratio, "").replace(['(', ')'], "")]
+            }
+        };
         vec![
             pair.before.name.as_deref().map_or("unnamed".to_string(), literal),
             PERCENT.value(pair.before.overturning),
             PERCENT.value(pair.after.overturning),
             PERCENT.limits(pair.after.overturning, "").replace(['(', ')'], ""),
-            TWO_DIGITS.value(pair.ratio),
-            TWO_DIGITS.limits(pair.ratio, "").replace(['(', ')'], ""),
+            times,
+            limits,
         ]
     };
     Table { columns: columns(&heads), rows: pairs.iter().map(row).collect(), ..Table::default() }
@@ -205,14 +212,22 @@ fn what_changed(pairs: &[Pair]) -> Option<String> {
     (!lines.is_empty()).then(|| format!("What changed: {}.", lines.join("; ")))
 }
 
-/// Objects of one file alone.
+/// Objects of one file alone, and those without an answer in both.
 fn unpaired(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
-    let missing = |of: &Evaluation, is_in: &dyn Fn(&Pair, &Rated) -> bool| {
-        let alone = of.rows.iter().filter(|rated| !pairs.iter().any(|pair| is_in(pair, rated)));
-        let names: Vec<String> = alone.map(Rated::title).collect();
-        (!names.is_empty()).then(|| format!("Only in {}: {}.", literal(&of.file), names.join(", ")))
+    let line = |of: &Evaluation, words: String, is_told: &dyn Fn(&Rated) -> bool| {
+        let told = of.rows.iter().filter(|rated| is_told(rated));
+        let names: Vec<String> = told.map(Rated::title).collect();
+        (!names.is_empty()).then(|| format!("{words}: {}.", names.join(", ")))
     };
-    let first = missing(before, &|pair, rated| std::ptr::eq(pair.before, rated));
-    let second = missing(after, &|pair, rated| std::ptr::eq(pair.after, rated));
-    first.into_iter().chain(second).collect()
+    let in_both =
+        |rated: &Rated| [before, after].iter().all(|of| of.rows.iter().any(|o| o.name == rated.name));
+    let is_paired = |rated: &Rated| {
+        pairs.iter().any(|pair| std::ptr::eq(pair.before, rated) || std::ptr::eq(pair.after, rated))
+    };
+    let only = |of: &Evaluation| {
+        line(of, format!("Only in {}", literal(&of.file)), &|rated| !is_paired(rated) && !in_both(rated))
+    };
+    let silent =
+        line(before, "No answer before or after".to_string(), &|rated| !is_paired(rated) && in_both(rated));
+    [only(before), only(after), silent].into_iter().flatten().collect()
 }

@@ -99,7 +99,11 @@ pub fn html_of_panels(figure: &Figure) -> String {
         format!("<figure>\n{wide}{small}{legend}{caption}</figure>\n")
     };
     let above = if owner.is_some() { "" } else { legend.as_str() };
-    let class = if is_wide { "panels long" } else { "panels" };
+    let class = match figure.panels.len() {
+        _ if is_wide => "panels long",
+        4 => "panels four",
+        _ => "panels",
+    };
     let panels: String = figure.panels.iter().map(panel).collect();
     Ink::of_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
 }

@@ -186,7 +186,7 @@ fn table(all: &[(&Evaluation, &Rated)], several: bool) -> Table {
                 cells.extend(["no answer".to_string(), reason, String::new(), String::new(), String::new()]);
             }
         }
-        cells.push(rated.size.clone());
+        cells.push(rated.size.replace(' ', "\u{a0}"));
         cells.extend(counts.then(|| number(rated.count)));
         cells.extend(floors.then(|| rated.floor.clone().unwrap_or("on the ground".to_string())));
         cells.extend(several.then(|| literal(&of.file)));

@@ -322,7 +322,7 @@ fn tiles(evaluation: &Evaluation, rated: &Rated, portrait: &Portrait) -> Vec<Til
     let others = portrait.changes.get(1..).unwrap_or_default();
     if let Some((name, p)) = others.iter().filter(|(_, p)| p.value < rated.overturning.value).min_by(by_value)
     {
-        tiles.push(tile(PERCENT.value(*p), format!("what helps most of what is compared: {name}")));
+        tiles.push(tile(PERCENT.value(*p), format!("with what helps most of the changes compared: {name}")));
     }
     tiles
 }

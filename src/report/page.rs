@@ -25,7 +25,7 @@ pub struct Page {
     /// Warnings that change a decision, under the table.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
-    /// What moves: pictures of their own, as HTML.
+    /// What moves: pictures of their own, as HTML. One stands beside the first figure.
     pub moving: Vec<String>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
@@ -74,7 +74,15 @@ impl Page {
         let figures: Vec<String> = self.figures.iter().map(write_figure).collect();
         let (first, others) = figures.split_at(figures.len().min(1));
         let is_beside = self.figures.first().is_some_and(|figure| figure.panels.len() == 1);
-        let class = if is_beside && self.table.is_some() { "first" } else { "" };
+        let (beside, moving) = match &self.moving[..] {
+            [one] => (one.as_str(), &[][..]),
+            several => ("", several),
+        };
+        let class = match is_beside && self.table.is_some() {
+            true => "first",
+            false if !beside.is_empty() => "response",
+            false => "",
+        };
         let words =
             format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
         let words = if words.is_empty() { words } else { format!("<div>\n{words}</div>\n") };
@@ -92,7 +100,8 @@ impl Page {
             class = class,
             before = before,
             after = after,
-            moving = blocks(&self.moving),
+            beside = beside,
+            moving = blocks(moving),
             figures = others.concat(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             made = escape(&self.made),

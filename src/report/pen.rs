@@ -64,6 +64,7 @@ impl Pen {
                 ([-3.0, 0.0], format!(" text-anchor=\"end\" transform=\"rotate(-90 {} {})\"", at[0], at[1]))
             }
         };
+        let style = format!("{style} class=\"word\"");
         self.label([x + off[0] * unit, y + off[1] * unit], SMALL, &style, ink, text);
     }
 

@@ -78,7 +78,10 @@ impl TracedResponse {
     /// The block in words.
     fn size(&self) -> String {
         let [width, height] = [self.width_m, self.height_m].map(number::length);
-        format!("A block of {width} × {height} m rocks like it; it moves in real time.")
+        let [start, end] = self.span().map(|time_s| number::fixed(time_s, 1));
+        format!(
+            "A block of {width} × {height} m rocks like it. It moves in real time, from {start} to {end} s."
+        )
     }
 
     /// From when to when something happens, s.
@@ -143,7 +146,7 @@ pub fn figure(response: &TracedResponse) -> Figure {
 /// The page of responses: what moves, and what came of each.
 pub fn page(all: &[TracedResponse]) -> Page {
     let title = match all {
-        [one] => format!("{} under motion {}", one.structure, one.motion),
+        [one] => format!("Response of {} to motion {}", one.structure, one.motion),
         several => format!("{} over time", number::counted(several.len(), "response")),
     };
     let sentences: Vec<String> = all.iter().map(TracedResponse::sentence).collect();

@@ -50,10 +50,10 @@ pub fn literal(name: &str) -> String {
     name.chars().flat_map(letter).flatten().collect()
 }
 
-/// Writes marked text as HTML.
+/// Writes marked text as HTML, without a break between a number and its percent sign.
 pub fn html(marked: &str) -> String {
     let tagged = |run: Run| {
-        let words = escape(&run.words);
+        let words = escape(&run.words).replace(" %", "\u{a0}%");
         let words = if run.italic { format!("<i>{words}</i>") } else { words };
         match run.level {
             Level::Line => words,
