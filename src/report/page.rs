@@ -146,15 +146,17 @@ fn write_section(section: &Section) -> String {
 }
 
 fn write_figure(figure: &Figure) -> String {
-    let (title, panels) = (html(&figure.title), html_of_panels(figure));
+    let panels = html_of_panels(figure);
+    let title = match figure.title.as_str() {
+        "" => String::new(),
+        words => format!("<h2>{}</h2>\n", html(words)),
+    };
     let caption = match figure.caption.as_str() {
         "" => String::new(),
         words => format!("<p class=\"caption\">{}</p>\n", html(words)),
     };
     let across = figure.panels.len().min(3);
-    format!(
-        "<section class=\"figure\" style=\"--across:{across}\">\n<h2>{title}</h2>\n{panels}{caption}</section>\n"
-    )
+    format!("<section class=\"figure\" style=\"--across:{across}\">\n{title}{panels}{caption}</section>\n")
 }
 
 fn write_table(Table { caption, columns, rows }: &Table) -> String {

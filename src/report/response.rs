@@ -155,7 +155,10 @@ pub fn page(all: &[TracedResponse]) -> Page {
         title,
         place: all.first().map_or(String::new(), TracedResponse::size),
         sentence: first.concat(),
-        moving: all.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
+        moving: match all {
+            [one] => vec![format!("<div>\n{}</div>\n", moving(one, 0))],
+            several => several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
+        },
         ..Page::default()
     }
 }

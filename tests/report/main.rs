@@ -362,4 +362,65 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let page = std::fs::read_to_string(at("out/report.html")).unwrap();
     assert!(page.contains("pro.parquet is not shown") && page.contains("pex.parquet is not shown"));
     assert!(!call("report --in empty").0);
+    // A table is known by what it holds.
+    std::fs::create_dir(at("renamed")).unwrap();
+    std::fs::copy(at("out/responses.parquet"), at("renamed/x.parquet")).unwrap();
+    assert!(call("report --in renamed/x.parquet --out renamed/page.html").0);
+    let page = std::fs::read_to_string(at("renamed/page.html")).unwrap();
+    assert!(page.contains("<h1>What rocks and what overturns</h1>"));
+}
+
+#[test]
+fn values_beyond_all_axes_are_left_out() {
+    let hostile = [f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e-308, 0.0, f64::NAN];
+    let points: Vec<[f64; 2]> = hostile.iter().flat_map(|x| hostile.map(|y| [*x, y])).collect();
+    for axis in [Axis::linear("x"), Axis::log("x"), Axis::log("x").over(1e-308, 1e300)] {
+        let layers =
+            vec![Layer::line("", Ink::Data(0), points.clone()), Layer::points("", Ink::Text, points.clone())];
+        let panel = Panel { x: axis.clone(), y: axis, layers, ..Default::default() };
+        let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
+        let text = svg(&figure, "");
+        assert!(!text.contains("NaN") && !text.contains("inf") && text.len() < 20_000, "{}", text.len());
+        usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
+    }
+}
+
+#[test]
+fn names_of_responses_are_no_markup() {
+    let page = response::page(&[traced(100)]).html();
+    assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
+    let words = svg(&response::figure(&traced(100)), "");
+    assert!(words.contains("<title>fra*me*2 under motion m&lt;1&gt;</title>"));
+}
+
+#[test]
+fn answers_as_workbook_and_picture_are_read_back_and_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let hazard = concat!(env!("CARGO_MANIFEST_DIR"), "/data/hazard.csv");
+    std::fs::write(folder.path().join("list.csv"), "name,width,height\n=1+1,0.5,1.9\n@b,0.4,1.9\n").unwrap();
+    let evaluate = |options: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
+        command.current_dir(folder.path()).args(["evaluate", "--quiet", "--hazard", hazard]);
+        command.args(options.split(' ')).output().unwrap().status.success()
+    };
+    for out in ["a.xlsx", "a.png", "a.svg", "a.html"] {
+        let path = folder.path().join(out);
+        assert!(evaluate(&format!("--structures list.csv --out {out}")), "{out}");
+        let first = std::fs::read(&path).unwrap();
+        assert!(evaluate(&format!("--structures list.csv --years 100 --out {out}")), "{out}");
+        assert!(first != std::fs::read(&path).unwrap(), "{out} is replaced");
+        let foreign = if out == "a.png" { Pixmap::new(4, 4).unwrap().encode_png().unwrap() } else { vec![1] };
+        if out == "a.xlsx" {
+            let mut book: calamine::Xlsx<_> = calamine::open_workbook(&path).unwrap();
+            let sheet = calamine::Reader::worksheet_range_at(&mut book, 0).unwrap().unwrap();
+            let rows: Vec<_> = sheet.rows().collect();
+            let column = |name: &str| rows[0].iter().position(|head| *head == *name).unwrap();
+            assert!(rows.len() == 3 && rows[1..].iter().any(|row| row[column("structure")] == *"=1+1"));
+            let rates = rows[1..].iter().map(|row| &row[column("overturning_per_year")]);
+            assert!(rates.into_iter().all(|rate| matches!(rate, calamine::Data::Float(rate) if *rate > 0.0)));
+        }
+        std::fs::write(&path, &foreign).unwrap();
+        assert!(!evaluate(&format!("--structures list.csv --out {out}")), "{out} is another's");
+        assert!(std::fs::read(&path).unwrap() == foreign);
+    }
 }

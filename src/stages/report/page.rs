@@ -74,6 +74,10 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, notes: Vec<String>) -> anyhow
         // The head has its own, without a title that would say the same again.
         seen.retain(|other| other.name != figure.name);
     }
+    if let ([figure], [_]) = (&mut seen[..], &head.moving[..]) {
+        // The page of one response has its title.
+        figure.title.clear();
+    }
     let more = if is_client { Vec::new() } else { more };
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
