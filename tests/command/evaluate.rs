@@ -145,7 +145,7 @@ fn slips_are_refused_or_warned() {
         (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
         (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
-        (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["pgv", "pga"]),
+        (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["over", "pgv"]),
         (&format!("{BLOCK} --over pga --out answer.html"), 2, vec!["svg"]),
     ] {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);

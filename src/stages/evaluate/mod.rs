@@ -234,17 +234,12 @@ impl Evaluate {
         let over = self.over.unwrap_or(Peak::Pga);
         let mut renames = Renames::new(&self.columns);
         let site = if self.hazard.is_empty() { None } else { Some(self.site(&mut renames, context)?) };
-        match site.as_ref().map(|site| &site.hazard) {
-            Some(Hazard::Curve(curve)) if curve.peak == over => {}
-            Some(Hazard::Curve(curve)) => {
-                let (over, peak) = (over.as_str(), curve.peak.as_str());
-                let problem = format!("over {over}: the hazard curve is over {peak}; expected --over {peak}");
-                return Err(UsageError::because(problem));
-            }
-            Some(Hazard::Joint(_)) => {
-                return Err(UsageError::because("over: expected a hazard curve of one peak"));
-            }
-            None => {}
+        let is_over = |site: &Site| matches!(&site.hazard, Hazard::Curve(curve) if curve.peak == over);
+        if site.as_ref().is_some_and(|site| !is_over(site)) {
+            let over = over.as_str();
+            return Err(UsageError::because(format!(
+                "over {over}: expected a hazard curve of {over}, of no other peak"
+            )));
         }
         let objects = self.objects(&mut renames, models, context)?;
         renames.expect_used()?;
