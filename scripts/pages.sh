@@ -37,3 +37,6 @@ evaluate --structures objects.csv --out list.xlsx
 "$program" synthesize-motions --quiet --suite csgm --in scenarios.parquet --out motions.parquet > /dev/null
 "$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace all --out responses.parquet > /dev/null
 "$program" report --quiet --force --in responses.trace.parquet --out responses.html > /dev/null
+"$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace 1 --out response.parquet > /dev/null
+"$program" report --quiet --force --in response.trace.parquet --out response.html > /dev/null
+test "$(wc -c < response.html)" -le 200000
