@@ -3,9 +3,9 @@
 //!
 //! A cabinet, a statue or a frame on rocking columns stays on its base until the ground acceleration exceeds
 //! g tan *α*. Then it rocks, and either comes to rest or overturns. Its response depends on three parameters:
-//! the frequency parameter *p* (rad/s; smaller for larger blocks), the slenderness *α* (rad; width over height
-//! is tan *α*), and the coefficient of restitution *η* (the ratio of the velocities after and before an
-//! impact). PGA decides whether it rocks; PGA and PGV together, whether it overturns.
+//! the frequency parameter *p* (rad/s; smaller for larger blocks), the slenderness *α* (rad; width over
+//! height is tan *α*), and the coefficient of restitution *η* (the ratio of the velocities after and before
+//! an impact). PGA decides whether it rocks; PGA and PGV together, whether it overturns.
 //!
 //! The method is that of Dimitrakopoulos & Paraskeva (2015), *Dimensionless fragility curves for rocking
 //! response to near-fault excitations* (Earthquake Engineering & Structural Dynamics), extended to recorded
@@ -28,13 +28,14 @@
 //! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
 //! let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("the curve ends early") };
 //! let in_50_years = rate.map(|rate| probability_in_years(rate, 50.0));
-//! println!("{:.1} % ({:.1} to {:.1} %)", 100.0 * in_50_years.value, 100.0 * in_50_years.low, 100.0 * in_50_years.high);
+//! println!("{:.1} % ({:.1} to {:.1} %)", 100.0 * in_50_years.value, 100.0 * in_50_years.low, 100.0 *
+//! in_50_years.high);
 //! # assert!(0.0 < rate.low && rate.low < rate.value && rate.value < rate.high && rate.high < 0.1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The limits hold what is not known: of the model, the magnitude, PGV, the restitution, the object and its floor. An
-//! [`Object`](object::Object) has more to it:
+//! The limits hold what is not known: of the model, the magnitude, PGV, the restitution, the object and its
+//! floor. An [`Object`](object::Object) has more to it:
 //!
 //! ```
 //! # use rockfrag::fragility::Kind;
@@ -69,8 +70,8 @@
 //! ```
 //!
 //! [`rocking::trace`] gives the rotation over time. The folder `examples` has three programs: the rate and
-//! probability of a cabinet, the response to your own record, and the way from earthquake scenarios to a fragility
-//! curve.
+//! probability of a cabinet, the response to your own record, and the way from earthquake scenarios to a
+//! fragility curve.
 //!
 //! # What is where
 //!
@@ -89,9 +90,9 @@
 //! # Conventions
 //!
 //! Names end in their unit: `pga_m_s2`, `p_rad_s`. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
-//! Eq. 13. A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k × k,
-//! row by row. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
-//! numbers for any number of threads.
+//! Eq. 13. A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k ×
+//! k, row by row. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the
+//! same numbers for any number of threads.
 //!
 //! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
 //! Before 1.0, any version may change them.

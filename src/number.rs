@@ -72,7 +72,8 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Rounds off what a change of unit leaves in the last digits: 1.8 mm are 0.0018 m, not 0.0018000000000000002.
+/// Rounds off what a change of unit leaves in the last digits: 1.8 mm are 0.0018 m, not
+/// 0.0018000000000000002.
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }

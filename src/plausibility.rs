@@ -28,8 +28,8 @@ pub const MAGNITUDES: RangeInclusive<f64> = 1.0..=9.9;
 pub const DISTANCES_KM: RangeInclusive<f64> = 0.0..=1000.0;
 
 /// PGA, g, beyond which nothing was recorded, with a margin: the largest is 4278 cm/s2, the vector of three
-/// components at IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in high-acceleration
-/// records of large earthquakes, Seismological Research Letters 80).
+/// components at IWTH25 (Iwate-Miyagi 2008; Yamada, Mori & Heaton 2009, The slapdown phase in
+/// high-acceleration records of large earthquakes, Seismological Research Letters 80).
 pub const STRONGEST_PGA_G: f64 = 4.5;
 /// PGV, m/s, beyond which nothing was recorded, with a margin over the 3.18 m/s of TCU068 (Chi-Chi 1999).
 pub const STRONGEST_PGV_M_S: f64 = 5.0;

@@ -126,8 +126,8 @@ fn absolute(module: &str, path: &str) -> Option<String> {
     Some(base.into_iter().chain(path).filter(|part| *part != "self").collect::<Vec<_>>().join("::"))
 }
 
-/// Which files each file imports, by their modules. What a `mod.rs` hands on of its room with `pub use` is of the
-/// file that has it, and is no import of `mod.rs`.
+/// Which files each file imports, by their modules. What a `mod.rs` hands on of its room with `pub use` is
+/// of the file that has it, and is no import of `mod.rs`.
 fn imports_of_files() -> BTreeMap<String, BTreeSet<String>> {
     let (mut used, mut handed_on): (BTreeMap<String, Vec<String>>, BTreeMap<String, String>) =
         Default::default();

@@ -1,4 +1,5 @@
-//! YAML as JSON values, with numbers and the like as the texts that were written: a name may be `007` or `yes`.
+//! YAML as JSON values, with numbers and the like as the texts that were written: a name may be `007` or
+//! `yes`.
 
 use std::fmt;
 

@@ -1,8 +1,8 @@
 //! Fragility in the files and units of other risk programs: limit states over one intensity.
 //!
 //! ```text
-//! levels     intensities at which to tabulate a curve, so that lines between them err no more than a tolerance
-//! openquake  NRML 0.5 of OpenQuake
+//! levels     intensities at which to tabulate a curve, so that lines between them err no more than a
+//! tolerance openquake  NRML 0.5 of OpenQuake
 //! pelicun    the fragility parameters of pelicun, and their metadata
 //! ```
 
@@ -42,8 +42,8 @@ pub struct Function {
     pub range_of_data: [f64; 2],
 }
 
-/// Makes an id for each name, without the signs that have a meaning in these programs: names that are told apart by
-/// these alone get numbers.
+/// Makes an id for each name, without the signs that have a meaning in these programs: names that are told
+/// apart by these alone get numbers.
 pub fn distinct_ids(names: &[&str]) -> Vec<String> {
     let mut ids: Vec<String> = Vec::new();
     for name in names {

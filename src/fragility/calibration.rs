@@ -177,8 +177,8 @@ impl Calibration {
         }
     }
 
-    /// Fits c, ln s and m of P_ro to what stood and what fell in earthquakes. Objects that the motion does not
-    /// uplift do not count. The first object stands for all.
+    /// Fits c, ln s and m of P_ro to what stood and what fell in earthquakes. Objects that the motion does
+    /// not uplift do not count. The first object stands for all.
     pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
         let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
         let mut sample =

@@ -44,8 +44,8 @@ pub fn fit_plane(cases: &Cases) -> DemandFit {
     DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE)
 }
 
-/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases above uplift,
-/// beside those of the paper's two: demand falls to 0 at IM4 = 1, which no power of IM4 does.
+/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases
+/// above uplift, beside those of the paper's two: demand falls to 0 at IM4 = 1, which no power of IM4 does.
 pub fn sd_of_one_plane(cases: &Cases) -> Option<f64> {
     let Sample { ln_im, y, .. } = demands(cases, &PLANE, &(1.0 + f64::EPSILON..f64::INFINITY));
     let ln_ln_im4: Vec<f64> = ln_im[0].iter().map(|ln_im4| ln_im4.ln()).collect();

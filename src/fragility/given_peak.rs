@@ -46,8 +46,8 @@ struct Node {
 }
 
 impl<'a> GivenPeak<'a> {
-    /// Makes an object, in the directions in which it falls, ready for motions of which this peak is given and
-    /// PGV / PGA has this distribution. `mw` is their magnitude; `None`: inferred from PGV / PGA.
+    /// Makes an object, in the directions in which it falls, ready for motions of which this peak is given
+    /// and PGV / PGA has this distribution. `mw` is their magnitude; `None`: inferred from PGV / PGA.
     pub fn new(directions: &'a [Direction], peak: Peak, ratio: RatioGiven, mw: Option<f64>) -> GivenPeak<'a> {
         let bends = directions.iter().flat_map(|direction| direction.model.bends(mw)).collect();
         let uplifts = directions.iter().map(|Direction { structure, model }| model.uplift_m_s2(structure)[0]);

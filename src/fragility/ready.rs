@@ -201,8 +201,8 @@ impl<'a> ReadyObject<'a> {
 pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
 
 impl ObjectAtPga<'_> {
-    /// Probabilities of the limit states under motions with this ln(PGV / PGA), s: in either of its directions,
-    /// which fall independently under one motion. NaN where a model has none.
+    /// Probabilities of the limit states under motions with this ln(PGV / PGA), s: in either of its
+    /// directions, which fall independently under one motion. NaN where a model has none.
     pub fn limit_states(&self, ln_seconds: f64, level: Level) -> LimitStates<f64> {
         let mut of_floor = None;
         let mut all = LimitStates::all(0.0);

@@ -95,8 +95,8 @@ pub(super) struct Section {
 
 impl Section {
     /// Of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A magnitude that is
-    /// not known is that which PGV / PGA tells, which does not count where P would fall with it: P never falls
-    /// as PGV rises.
+    /// not known is that which PGV / PGA tells, which does not count where P would fall with it: P never
+    /// falls as PGV rises.
     pub fn new(
         kind: Kind,
         structure: &Structure,
@@ -140,7 +140,8 @@ impl Section {
     }
 
     /// The section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule
-    /// in w = ln IM4 - r - 0.4 l. IM4 is held below the end of the domain: beyond, a polynomial means nothing.
+    /// in w = ln IM4 - r - 0.4 l. IM4 is held below the end of the domain: beyond, a polynomial means
+    /// nothing.
     pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
         let Surface { ln_im4: range, ln_ratio, .. } = &*SURFACE;
         let held = range.held(ln_im4);
@@ -185,8 +186,8 @@ impl Cut {
     }
 }
 
-/// Values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude is not
-/// known, of the magnitudes of the data.
+/// Values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude
+/// is not known, of the magnitudes of the data.
 pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
     let of_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];

@@ -32,7 +32,8 @@ impl Budget {
         }
     }
 
-    /// Returns the standard deviation that a part causes, the mean of both; none where nothing of it is unknown.
+    /// Returns the standard deviation that a part causes, the mean of both; none where nothing of it is
+    /// unknown.
     pub fn part_sd(&self, part: Part) -> Option<f64> {
         let [down, up] = self.variances[part as usize].map(f64::sqrt);
         Some(0.5 * (down + up)).filter(|sd| *sd > 0.0)

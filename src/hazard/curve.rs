@@ -53,8 +53,8 @@ pub enum HazardError {
 }
 
 impl HazardCurve {
-    /// Checks intensities (m/s2 or m/s) and their annual rates of exceedance, from frequent to rare or the other
-    /// way.
+    /// Checks intensities (m/s2 or m/s) and their annual rates of exceedance, from frequent to rare or the
+    /// other way.
     ///
     /// # Errors
     /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates
@@ -141,9 +141,9 @@ impl HazardCurve {
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
     /// |dH(im)|.
     ///
-    /// Gauss-Legendre on panels of ln IM that are at most `widest`, none across a point of the curve or one of
-    /// `breaks`, where a probability jumps. Motions above the last intensity count with the probability at it; those below the
-    /// first are not counted.
+    /// Gauss-Legendre on panels of ln IM that are at most `widest`, none across a point of the curve or one
+    /// of `breaks`, where a probability jumps. Motions above the last intensity count with the probability
+    /// at it; those below the first are not counted.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],

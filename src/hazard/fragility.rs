@@ -1,5 +1,5 @@
-//! The fragility of an object: the probabilities of its limit states at each intensity of one peak, averaged over
-//! the motions that have it.
+//! The fragility of an object: the probabilities of its limit states at each intensity of one peak, averaged
+//! over the motions that have it.
 
 use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
@@ -51,8 +51,8 @@ pub struct Fragility {
     pub failure: Lognormal,
     /// Of overturning.
     pub overturning: Lognormal,
-    /// Standard deviations of the logit of the probability of overturning, by what is not known, where it is nearest to
-    /// one half.
+    /// Standard deviations of the logit of the probability of overturning, by what is not known, where it is
+    /// nearest to one half.
     pub errors: Budget,
     /// PGA and PGV (m/s2 and m/s) there.
     pub motion: [f64; 2],
@@ -67,7 +67,8 @@ pub struct FragilityPoint {
     pub p: LimitStates<Estimate>,
 }
 
-/// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) / beta).
+/// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
+/// beta).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Lognormal {
     /// Where 16, 50 and 84 % of the motions have the effect; none beyond the last point.
@@ -76,7 +77,8 @@ pub struct Lognormal {
     pub theta: Limited,
     /// See `at_16`.
     pub at_84: Limited,
-    /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that is reached.
+    /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that
+    /// is reached.
     pub beta: Option<f64>,
     /// Largest error of a probability by theta and beta there.
     pub largest_error: Option<f64>,
@@ -102,8 +104,8 @@ impl SitesInGeneral {
 }
 
 impl Site {
-    /// Computes the fragility of an object over the peak of the hazard curve, averaged over the motions of the site: its
-    /// integral over the curve is the rate. None for a joint hazard.
+    /// Computes the fragility of an object over the peak of the hazard curve, averaged over the motions of
+    /// the site: its integral over the curve is the rate. None for a joint hazard.
     pub fn fragility(&self, subject: &Subject) -> Option<Fragility> {
         match &self.hazard {
             Hazard::Curve(hazard) => Some(Fragility::new(&self.motions(hazard, subject), subject)),

@@ -90,7 +90,8 @@ impl Motion {
         }
     }
 
-    /// The probabilities in these directions; of one peak with this PGV / PGA, of a magnitude and off by a factor.
+    /// The probabilities in these directions; of one peak with this PGV / PGA, of a magnitude and off by a
+    /// factor.
     fn states(
         &self,
         directions: &[Direction],
@@ -111,8 +112,8 @@ impl Motion {
     }
 }
 
-/// Gives a probability under many motions the limits of one, which are never above the probability of rocking; and adds
-/// the error of the fit to the others.
+/// Gives a probability under many motions the limits of one, which are never above the probability of
+/// rocking; and adds the error of the fit to the others.
 fn limited(many: Estimate, one: Estimate, mut errors: Budget, rocking: f64) -> (Estimate, Budget) {
     let fit = sd_of_limits(many);
     errors.add(Part::Fit, [fit, fit]);

@@ -42,21 +42,21 @@ pub struct PgvPgaRatio {
 
 /// The magnitude that lines of sites in general are for.
 const MIDDLE: f64 = 6.3;
-/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general, and the standard
-/// deviation about a mean that is given.
+/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general, and the
+/// standard deviation about a mean that is given.
 const MAGNITUDE: [f64; 2] = [6.35, 0.6];
 const SD_OF_MEAN: f64 = 0.2;
-/// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at 2475
-/// years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s) lies half
-/// way, and needs no correction.
+/// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at
+/// 2475 years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s)
+/// lies half way, and needs no correction.
 const ABOVE_MEAN_OF_PGA: [f64; 2] = [0.45, 0.3];
-/// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4 m/s,
-/// its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the standard
-/// deviation of the level between sites of one magnitude.
+/// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4
+/// m/s, its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the
+/// standard deviation of the level between sites of one magnitude.
 const GIVEN_PGA: [f64; 5] = [-2.86, -0.06, 0.58, 0.30, 0.28];
 const GIVEN_PGV: [f64; 5] = [-2.21, 0.25, 0.50, 0.33, 0.23];
-/// At a known Vs30, given PGA and given PGV: the rise of these lines with ln(Vs30 / 440 m/s), and the standard
-/// deviation of the level that is left.
+/// At a known Vs30, given PGA and given PGV: the rise of these lines with ln(Vs30 / 440 m/s), and the
+/// standard deviation of the level that is left.
 const AT_VS30: [[f64; 2]; 2] = [[-0.31, 0.23], [-0.20, 0.21]];
 /// Vs30 at which the lines of sites in general hold, m/s.
 const USUAL_VS30_M_S: f64 = 440.0;
@@ -66,9 +66,9 @@ const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
 const SCATTER: f64 = 0.42;
 /// Standard deviations of the level by two curves: of PGA and PGV, and of PGA and SA(1.0 s).
 const SD_BY_CURVES: [f64; 2] = [0.08, 0.12];
-/// PGV (m/s) = 0.090 SA(1.0 s)^0.64 PGA^0.36 exp(0.13 (M - 6.3)), accelerations in m/s2 and each exceeded as often
-/// (scripts/reference/sites.py): the factor, the exponent of PGA and the rise with magnitude. Newmark & Hall's (1982)
-/// 0.096 SA(1.0 s), without PGA, scatters twice as much between sites.
+/// PGV (m/s) = 0.090 SA(1.0 s)^0.64 PGA^0.36 exp(0.13 (M - 6.3)), accelerations in m/s2 and each exceeded as
+/// often (scripts/reference/sites.py): the factor, the exponent of PGA and the rise with magnitude. Newmark
+/// & Hall's (1982) 0.096 SA(1.0 s), without PGA, scatters twice as much between sites.
 const BY_SPECTRUM: [f64; 3] = [0.090, 0.36, 0.13];
 
 /// Rates a year between which two curves are matched, and at how many.
@@ -97,8 +97,8 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Magnitude of the controlling earthquakes: its median, by the one that is given, and what is not known of it;
-/// `sd` of a mean of the disaggregation.
+/// Magnitude of the controlling earthquakes: its median, by the one that is given, and what is not known of
+/// it; `sd` of a mean of the disaggregation.
 pub fn magnitude(given: Option<f64>, sd: Option<f64>) -> (f64, Unknown<f64>) {
     let [median, sd] = given.map_or(MAGNITUDE, |mean| [mean, sd.unwrap_or(SD_OF_MEAN)]);
     let (low, high) = (median - Z_95 * sd, median + Z_95 * sd);
@@ -122,8 +122,8 @@ impl PgvPgaRatio {
         }
     }
 
-    /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in general, of this
-    /// Vs30 (m/s) if it is known.
+    /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in
+    /// general, of this Vs30 (m/s) if it is known.
     pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
         let [level, slope, sd, per_magnitude, sd_of_level] = match given {
             Peak::Pga => GIVEN_PGA,
@@ -150,8 +150,8 @@ impl PgvPgaRatio {
         }
     }
 
-    /// PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level and slope
-    /// by least squares in ln rate.
+    /// PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level
+    /// and slope by least squares in ln rate.
     ///
     /// # Errors
     /// If the curves cannot belong together.
@@ -196,8 +196,8 @@ impl PgvPgaRatio {
         Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
-    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is known
-    /// by two curves or that of the model's motions.
+    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is
+    /// known by two curves or that of the model's motions.
     pub fn magnitude(&self, given: Option<f64>, median: f64) -> Option<f64> {
         match self.source {
             VelocitySource::Sites | VelocitySource::Given => Some(median),
@@ -205,8 +205,8 @@ impl PgvPgaRatio {
         }
     }
 
-    /// By how much the mean magnitude of the motions that overturn exceeds a mean of the disaggregation, and the
-    /// standard deviation about it: that of SA(1.0 s) where PGV / PGA is by this curve, else that of PGA.
+    /// By how much the mean magnitude of the motions that overturn exceeds a mean of the disaggregation, and
+    /// the standard deviation about it: that of SA(1.0 s) where PGV / PGA is by this curve, else that of PGA.
     pub fn above_mean(&self) -> [f64; 2] {
         if self.source == VelocitySource::Spectrum { [0.0, SD_OF_MEAN] } else { ABOVE_MEAN_OF_PGA }
     }
@@ -229,8 +229,8 @@ fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) ->
     pga.mean_annual_rates(&[], PANEL, exceeds)[0]
 }
 
-/// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at the
-/// minimum.
+/// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at
+/// the minimum.
 fn least_squares_of_two(start: [f64; 2], off: impl Fn(&Vector2<f64>) -> DVector<f64>) -> ([f64; 2], f64) {
     const STEP: f64 = 1e-4;
     const MOST: usize = 30;

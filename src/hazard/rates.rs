@@ -77,8 +77,8 @@ impl Rate {
 pub enum AnnualRate {
     /// A value with its limits.
     Estimate(Estimate),
-    /// Where the hazard ends too early for a value: the lower limit of what it is if no stronger motion than the last
-    /// has the effect, and the upper limit of what it is if each has.
+    /// Where the hazard ends too early for a value: the lower limit of what it is if no stronger motion than
+    /// the last has the effect, and the upper limit of what it is if each has.
     #[expect(missing_docs, reason = "the names say it")]
     Range { low: f64, high: f64 },
 }

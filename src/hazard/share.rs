@@ -22,8 +22,8 @@ pub struct RateByIntensity {
 }
 
 impl Site {
-    /// Parts the annual rate of overturning by the intensity of the hazard, of pairs of peaks by PGA, into bins of equal
-    /// ratio.
+    /// Parts the annual rate of overturning by the intensity of the hazard, of pairs of peaks by PGA, into
+    /// bins of equal ratio.
     pub fn rate_by_intensity(&self, subject: &Subject, bins: usize) -> RateByIntensity {
         let edges = |low: f64, high: f64| -> Vec<f64> {
             (0..=bins).map(|k| low * (high / low).powf(k as f64 / bins as f64)).collect()
@@ -59,8 +59,8 @@ impl Site {
     }
 }
 
-/// The annual rate of an event within each bin of intensity, whose edges rise: the integral of P(im) |dH(im)|, in panels
-/// none of which crosses a point of the curve or a jump of the probability.
+/// The annual rate of an event within each bin of intensity, whose edges rise: the integral of P(im)
+/// |dH(im)|, in panels none of which crosses a point of the curve or a jump of the probability.
 fn rates_in_bins(
     curve: &HazardCurve,
     edges: &[f64],

@@ -1,5 +1,5 @@
-//! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the ends of
-//! its curve leave open.
+//! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the
+//! ends of its curve leave open.
 
 use super::budget::Budget;
 use super::count::{CountedMotion, CountedRate, counted_rate};
@@ -63,8 +63,8 @@ pub fn strongest(peak: Peak) -> f64 {
 pub struct Site {
     /// The hazard.
     pub hazard: Hazard,
-    /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used with PGV
-    /// alone. Where it is not known, the median is 6.35 and its standard deviation 0.6.
+    /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used
+    /// with PGV alone. Where it is not known, the median is 6.35 and its standard deviation 0.6.
     pub mw: Option<f64>,
     /// Vs30, m/s.
     pub vs30_m_s: Option<f64>,
@@ -89,8 +89,8 @@ pub struct SiteRates {
     pub beyond: Option<f64>,
     /// The rate of overturning, counted among the responses.
     pub counted: Option<CountedRate>,
-    /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint hazard
-    /// those of the strongest.
+    /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint
+    /// hazard those of the strongest.
     pub motion: [f64; 2],
     pub warnings: Vec<Warning>,
 }
@@ -227,8 +227,8 @@ pub(super) fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
 pub(super) struct Motions {
     pub peak: Peak,
     pub velocity: PgvPgaRatio,
-    /// The mean magnitude, if it is given, and how far that of the motions is above; the median of the mean, and what
-    /// is not known of it.
+    /// The mean magnitude, if it is given, and how far that of the motions is above; the median of the mean,
+    /// and what is not known of it.
     pub given: Option<f64>,
     pub above: f64,
     pub median: f64,
@@ -262,8 +262,9 @@ impl Varied {
         }
     }
 
-    /// Gives one rate its limits. Where the hazard ends too early, either no stronger motion than its last has the
-    /// effect, or each: the rate lies within the lower limit of the one and the upper limit of the other.
+    /// Gives one rate its limits. Where the hazard ends too early, either no stronger motion than its last
+    /// has the effect, or each: the rate lies within the lower limit of the one and the upper limit of the
+    /// other.
     fn limited(
         &self,
         rate: &Rate,

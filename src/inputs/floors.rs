@@ -88,8 +88,8 @@ impl Storey {
     }
 }
 
-/// The number of the ground floor by floors of a list: 0 where one is called so; none where nothing tells, with
-/// the lowest number.
+/// The number of the ground floor by floors of a list: 0 where one is called so; none where nothing tells,
+/// with the lowest number.
 pub fn ground_floor(storeys: &[Storey]) -> Result<u32, u32> {
     let says_ground = |storey: &Storey| matches!(storey, Storey::Ground | Storey::Above(_));
     let number = |storey: &Storey| if let Storey::Number(number) = storey { Some(*number) } else { None };
@@ -126,8 +126,9 @@ impl Building {
     }
 }
 
-/// The place on a floor that has so many storeys below it; what is known of the period already stays. A building
-/// of unknown type has the period of a concrete frame, with the scatter between the types beside that of one.
+/// The place on a floor that has so many storeys below it; what is known of the period already stays. A
+/// building of unknown type has the period of a concrete frame, with the scatter between the types beside
+/// that of one.
 pub fn place(above: u32, storeys: u32, building: Option<Building>, known: Place) -> Place {
     let height_m = STOREY_M * f64::from(storeys);
     let period_s = |building: Building| building.period_s(height_m);

@@ -69,8 +69,8 @@ impl Grid {
         Grid::new(Rows::of_text(&decode(bytes)?)?)
     }
 
-    /// Finds headings, units and comments. The heading is the row above the numbers, or first of them, that has
-    /// the most words where others have numbers; a comment needs as many cells as a row.
+    /// Finds headings, units and comments. The heading is the row above the numbers, or first of them, that
+    /// has the most words where others have numbers; a comment needs as many cells as a row.
     fn new(file: Rows) -> Result<Grid, InputError> {
         let Rows { rows, lines, separator } = file;
         let is_number_column = number_columns(&rows);

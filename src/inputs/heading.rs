@@ -52,8 +52,8 @@ impl Heading {
     }
 }
 
-/// The rest of a heading, and what brackets in it say: the last that hold a unit alone, else those that explain
-/// one, such as `(g = 9.81 m/s2)`.
+/// The rest of a heading, and what brackets in it say: the last that hold a unit alone, else those that
+/// explain one, such as `(g = 9.81 m/s2)`.
 fn in_brackets(text: &str) -> Option<(String, Said)> {
     let mut groups = Vec::new();
     for (start, sign) in text.char_indices().filter(|(at, sign)| matches!(sign, '(' | '[') && *at > 0) {

@@ -1,5 +1,5 @@
-//! Numbers of a table: whether points and commas are decimal or stand between thousands, settled once from all
-//! cells of all columns.
+//! Numbers of a table: whether points and commas are decimal or stand between thousands, settled once from
+//! all cells of all columns.
 
 /// What a sign between digits is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

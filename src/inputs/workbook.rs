@@ -11,8 +11,8 @@ pub fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
 }
 
-/// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of the
-/// first row.
+/// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of
+/// the first row.
 pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
     let damaged = |error: calamine::Error| InputError::Damaged(error.to_string());
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(damaged)?;

@@ -38,8 +38,8 @@ const MODES: usize = 5;
 const LEFT: f64 = 0.05;
 
 /// How a peak of a floor depends on u = ln(T1/Tg), Tg = 2 pi PGV/PGA, by scripts/floors/peaks.py. The rigid
-/// share of mode i is r = 1/(1 + exp(k (u_i - b))), its resonance D = d/(exp(-l (u_i - e)) + exp(h (u_i - e))),
-/// u_i = u - ln(2i - 1).
+/// share of mode i is r = 1/(1 + exp(k (u_i - b))), its resonance D = d/(exp(-l (u_i - e)) + exp(h (u_i -
+/// e))), u_i = u - ln(2i - 1).
 #[derive(Clone, Copy)]
 struct PeakByPeriod {
     b: f64,

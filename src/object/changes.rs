@@ -23,8 +23,9 @@ const LOWER: f64 = 0.25;
 const UPSTAIRS: Floor = Floor { period_s: 0.5, level: 0.6 };
 
 impl Object {
-    /// Lists what would change an answer: a base that is wider on all sides, a lower centre of mass, the ground floor or
-    /// another one, a coefficient of restitution that is measured, at its 16 and 84 % quantiles.
+    /// Lists what would change an answer: a base that is wider on all sides, a lower centre of mass, the
+    /// ground floor or another one, a coefficient of restitution that is measured, at its 16 and 84 %
+    /// quantiles.
     pub fn changes(&self) -> Vec<Changed> {
         let mut all = Vec::new();
         if let (Some(width), Some(height), None) =

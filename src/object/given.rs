@@ -11,8 +11,8 @@ use crate::motion::Floor;
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
-/// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are those of
-/// [`Field`].
+/// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are
+/// those of [`Field`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[expect(missing_docs, reason = "Field says it")]
@@ -203,8 +203,8 @@ impl Object {
         Object { place: self.place.or(place), ..self }
     }
 
-    /// Gives it a base of another width and depth (m): the offset goes with the width, and the inertia as that of a
-    /// solid block.
+    /// Gives it a base of another width and depth (m): the offset goes with the width, and the inertia as
+    /// that of a solid block.
     pub fn resized(&self, width_m: f64, depth_m: Option<f64>) -> Object {
         let shape = &self.shape;
         let width = shape.width.unwrap_or(width_m);

@@ -109,8 +109,8 @@ impl Object {
         Ok(())
     }
 
-    /// Makes the side of a structure of which nothing but eta is unknown: by its standard deviation if that is given,
-    /// of a computed one by tests.
+    /// Makes the side of a structure of which nothing but eta is unknown: by its standard deviation if that
+    /// is given, of a computed one by tests.
     fn side_like(&self, structure: Structure) -> Side {
         let limits = match (self.place.eta_sd, self.shape.given_eta()) {
             (Some(sd), _) => Some([-Z_95, Z_95].map(|off| structure.eta + off * sd)),
@@ -136,7 +136,8 @@ impl Object {
         sides.into_iter().collect()
     }
 
-    /// Finds the direction of a side of the base; the inertia about the other axis differs by that of a solid block.
+    /// Finds the direction of a side of the base; the inertia about the other axis differs by that of a
+    /// solid block.
     fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, Reason> {
         let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
         let solid = Body::solid(side, height);

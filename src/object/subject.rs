@@ -1,5 +1,5 @@
-//! An object with the models that predict for it, and what is not known of it: changes that are made when they are
-//! asked for.
+//! An object with the models that predict for it, and what is not known of it: changes that are made when
+//! they are asked for.
 
 use super::given::{Object, Reason};
 use crate::fragility::{Direction, Kind, Model, Z_95};
@@ -53,8 +53,8 @@ impl Part {
 /// let mut rack = Object::block("rack", 0.6, 1.9);
 /// rack.shape.depth = Some(0.8);
 /// let subject = Subject::shipped(&rack, Kind::Recorded, 0.10)?;
-/// // It may fall over its width or over its depth; how much each impact takes is not known, and the model has errors.
-/// assert_eq!(subject.directions.len(), 2);
+/// // It may fall over its width or over its depth; how much each impact takes is not known, and the model
+/// has errors. assert_eq!(subject.directions.len(), 2);
 /// assert_eq!(subject.unknowns[0].part, Part::Eta);
 /// let bouncier = subject.changed(&subject.unknowns[0].high);
 /// assert!(bouncier[0].structure.eta > subject.directions[0].structure.eta);
@@ -108,7 +108,8 @@ const SD_OF_PERIOD: f64 = 0.25;
 const LOW_ETA: f64 = 0.5;
 
 impl Subject {
-    /// Joins the [sides](Object::sides) of an object with the model of each on the ground, and puts it on its floor.
+    /// Joins the [sides](Object::sides) of an object with the model of each on the ground, and puts it on
+    /// its floor.
     ///
     /// # Errors
     /// Why there is no answer.
@@ -137,7 +138,8 @@ impl Subject {
         Ok(Subject { directions, unknowns })
     }
 
-    /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is a demand
+    /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is
+    /// a demand
     /// |theta|max / alpha above `limit_state`, or overturning.
     ///
     /// # Errors

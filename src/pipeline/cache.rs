@@ -75,8 +75,8 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
     Ok(Done { summary, warnings: context.warnings(), ran: true, keys })
 }
 
-/// Checks that an output is neither an input nor a pipe nor, unless forced, a table of another program. What is
-/// no table is checked when it is written.
+/// Checks that an output is neither an input nor a pipe nor, unless forced, a table of another program. What
+/// is no table is checked when it is written.
 fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()> {
     let refuse = |problem: &str| Err(UsageError::because(format!("{}: {problem}", out.display())));
     let Ok(real) = out.canonicalize() else { return Ok(()) };

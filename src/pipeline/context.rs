@@ -125,8 +125,8 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table, unless one of another program is there. One with the same content stays
-    /// untouched.
+    /// Writes a file that is no table, unless one of another program is there. One with the same content
+    /// stays untouched.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         if path.exists() && !self.common.force && !is_ours(path, content) {
             return Err(TableError::not_ours(path).into());

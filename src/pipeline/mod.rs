@@ -23,11 +23,11 @@ use std::path::PathBuf;
 use self::context::Context;
 use self::paths::Read;
 
-/// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the paths, the
-/// options enter the key of what is made.
+/// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the
+/// paths, the options enter the key of what is made.
 pub trait Stage {
-    /// Returns the files of options in a run that gives none, by flag, in the folder of the run. Options with a
-    /// default have it there too, and need no word.
+    /// Returns the files of options in a run that gives none, by flag, in the folder of the run. Options
+    /// with a default have it there too, and need no word.
     fn in_run(_: &InRun) -> Vec<(&'static str, &'static str)>
     where
         Self: Sized,

@@ -1,7 +1,7 @@
 //! What a path is to a stage: a type for each kind, which clap parses.
 //!
-//! Paths are no part of the options that enter a key: what is read enters by name and content ([`Read`]), what
-//! is written does not enter.
+//! Paths are no part of the options that enter a key: what is read enters by name and content ([`Read`]),
+//! what is written does not enter.
 
 use std::any::TypeId;
 use std::ffi::OsString;

@@ -17,8 +17,8 @@ const HIGHEST_FREQUENCY_HZ: f64 = 30.0;
 /// A spike has more than the first share of the sum of squares, and neighbours below the second share of it.
 /// The largest samples of FEMA P695 have at most 0.044 of the sum, and neighbours of at least 0.79.
 const SPIKE: (f64, f64) = (0.02, 0.25);
-/// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground is
-/// at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
+/// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground
+/// is at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
 fn digits(value: &f64) -> String {
     significant(*value, 3)

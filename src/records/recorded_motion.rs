@@ -9,8 +9,8 @@ const VERTICAL: [&str; 22] = [
     "UPWARD", "DOWN", "DOWNWARD", "DWN", "DN", "-UP", "-DOWN", "-Z",
 ];
 
-/// Whether the name of a component is that of a vertical one: a word, or the last letter of a channel code, as
-/// in HNZ.
+/// Whether the name of a component is that of a vertical one: a word, or the last letter of a channel code,
+/// as in HNZ.
 pub fn is_vertical(component: &str) -> bool {
     let name = component.to_ascii_uppercase();
     let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));

@@ -17,8 +17,8 @@ pub struct Pair<'a> {
     pub ratio: Limited,
 }
 
-/// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. The most
-/// likely to overturn before are first.
+/// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. The
+/// most likely to overturn before are first.
 pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>> {
     let alone = |of: &Evaluation| of.rows.len() == 1 && of.rows[0].name.is_none();
     let both_alone = alone(before) && alone(after);

@@ -24,8 +24,8 @@ const LEAST_HEIGHT: f64 = 60.0;
 
 /// Mean width of a letter, of its height.
 const LETTER_WIDTH: f64 = 0.54;
-/// Room around the area of the data of a panel: at the left for ticks, at the right, above for title and label
-/// of y, below for ticks and label of x.
+/// Room around the area of the data of a panel: at the left for ticks, at the right, above for title and
+/// label of y, below for ticks and label of x.
 const LEFT: f64 = 30.0;
 const RIGHT: f64 = 12.0;
 const TITLE: f64 = 12.0;
@@ -65,8 +65,8 @@ pub fn svg(figure: &Figure, key: &str) -> String {
     )
 }
 
-/// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own, below
-/// a legend, so that they stand beside each other where there is room.
+/// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
+/// below a legend, so that they stand beside each other where there is room.
 pub fn html_of_panels(figure: &Figure) -> String {
     let entries = legend_entries(figure);
     let entry = |layer: &&Layer| {
@@ -150,7 +150,8 @@ pub fn png(svg: &str, dpi: f32, key: &str) -> Result<Vec<u8>, resvg::usvg::Error
     Ok(with_text(&drawn, key))
 }
 
-/// A PNG with a text, called rockfrag, behind its head: a chunk of its length, its kind, its words and their sum.
+/// A PNG with a text, called rockfrag, behind its head: a chunk of its length, its kind, its words and their
+/// sum.
 fn with_text(png: &[u8], text: &str) -> Vec<u8> {
     const HEAD: usize = 33;
     let content = [b"iTXtrockfrag\0\0\0\0\0", text.as_bytes()].concat();

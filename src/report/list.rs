@@ -112,8 +112,8 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     }
 }
 
-/// The expected number of objects that overturn, of how many, and the probability that one or more do: between
-/// that of the worst, where all fall together, and that of independent ones.
+/// The expected number of objects that overturn, of how many, and the probability that one or more do:
+/// between that of the worst, where all fall together, and that of independent ones.
 pub struct Expected {
     pub number: f64,
     pub of: f64,

@@ -1,4 +1,5 @@
-//! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not known.
+//! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
+//! known.
 
 use super::figure::{Axis, Dash, Estimate, Figure, Frame, Ink, Layer, Panel, Side, Words};
 use super::page::{Column, Page, Section, Table, Tile};
@@ -185,7 +186,8 @@ fn hazard(hazard: &HazardCurve) -> Panel {
     Panel::new("Hazard", x, Axis::log("exceeded, times a year"), layers).explained(caption)
 }
 
-/// The share of the rate of overturning by intensity, as a density: an area of the same size is the same share.
+/// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
+/// share.
 fn shares(hazard: &HazardCurve) -> Panel {
     let mut outline = Vec::new();
     for ([low, high], share) in &hazard.shares {

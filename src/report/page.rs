@@ -5,8 +5,8 @@ use super::draw::html_of_panels;
 use super::figure::Figure;
 use super::text::{escape, html, words};
 
-/// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are marked
-/// text, see [`super::text`].
+/// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are
+/// marked text, see [`super::text`].
 #[derive(Debug, Clone, Default)]
 pub struct Page {
     pub title: String,

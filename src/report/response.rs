@@ -179,8 +179,8 @@ struct Keyframe {
     corner: f64,
 }
 
-/// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its own
-/// on the page.
+/// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its
+/// own on the page.
 pub fn moving(response: &TracedResponse, id: usize) -> String {
     let [start, end] = response.span();
     let seconds = end - start;
@@ -236,8 +236,8 @@ fn drawn_size(response: &TracedResponse) -> [f64; 2] {
     [0.5 * scale * response.width_m, scale * response.height_m]
 }
 
-/// The rotation at equal times, and at each sample where it changes its corner; a block turns about the corner on
-/// the side to which it leans.
+/// The rotation at equal times, and at each sample where it changes its corner; a block turns about the
+/// corner on the side to which it leans.
 fn keyframes(response: &TracedResponse, start: f64, end: f64) -> Vec<Keyframe> {
     let seconds = (end - start).max(1e-9);
     let step = (1.0 / PICTURES_A_SECOND).max(seconds / MOST_PICTURES);

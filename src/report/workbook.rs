@@ -10,8 +10,8 @@ pub const MARK: &str = "rockfrag";
 /// Letters of one property: Excel allows 255.
 const PART: usize = 240;
 
-/// Writes rows as a workbook with one sheet; `key` is what made it. A property of a workbook is short, so that the
-/// key is written in parts: rockfrag, rockfrag1, rockfrag2 and so on.
+/// Writes rows as a workbook with one sheet; `key` is what made it. A property of a workbook is short, so
+/// that the key is written in parts: rockfrag, rockfrag1, rockfrag2 and so on.
 pub fn workbook(rows: &[RecordBatch], key: &str) -> Result<Vec<u8>, XlsxError> {
     let mut book = Workbook::new();
     let letters: Vec<char> = key.chars().collect();

@@ -1,6 +1,6 @@
 //! Section 2.2 as the paper prints it, for one structure and in small steps: the readable form of the solver.
-//! The equation of motion is theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta - theta)] (Eq. 4),
-//! from uplift at |a| = g tan alpha (Eq. 5) on; at an impact theta'+ = eta theta'- (Eq. 6).
+//! The equation of motion is theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta -
+//! theta)] (Eq. 4), from uplift at |a| = g tan alpha (Eq. 5) on; at an impact theta'+ = eta theta'- (Eq. 6).
 //!
 //! [`simulate_all`](super::simulate_all) solves the same equations by Taylor series in vector registers,
 //! hundreds of times faster; a test compares both.

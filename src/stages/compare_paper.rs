@@ -110,8 +110,8 @@ const NEUTRAL: [&str; 7] = ["seed", "partition", "housner", "sa", "structure", "
 /// The tables of the stages before the fits, the last first.
 const BEFORE: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.parquet"];
 
-/// What options of the stages before the fits are not the paper's, which are the defaults; as far as the files
-/// of these stages are beside the fits.
+/// What options of the stages before the fits are not the paper's, which are the defaults; as far as the
+/// files of these stages are beside the fits.
 fn other_options(fits: &Path) -> Vec<String> {
     let (mut differences, mut child) = (Vec::new(), Provenance::of_file(fits).ok().flatten());
     for file in BEFORE {

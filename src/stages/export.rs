@@ -139,8 +139,8 @@ impl Export {
         Ok((objects, unused))
     }
 
-    /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1 or nothing
-    /// was ever recorded.
+    /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
+    /// or nothing was ever recorded.
     fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
         let model = &subject.directions[0].model;
         let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None, None).0);

@@ -270,8 +270,8 @@ impl Ida {
     }
 }
 
-/// Numbers the clusters of capacities as fits do: by earthquake, else by magnitude and distance; a motion that
-/// shares nothing is its own.
+/// Numbers the clusters of capacities as fits do: by earthquake, else by magnitude and distance; a motion
+/// that shares nothing is its own.
 fn clusters(rows: &[&CapacityRow]) -> Vec<u32> {
     let mut numbers: BTreeMap<Cluster, u32> = BTreeMap::new();
     let mut next = 0..;
@@ -380,8 +380,8 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
 }
 
-/// A line a structure: where half of the motions overturn it, and the median of the lowest intensities that do;
-/// of many structures, the weakest.
+/// A line a structure: where half of the motions overturn it, and the median of the lowest intensities that
+/// do; of many structures, the weakest.
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {

@@ -1,5 +1,5 @@
-//! Standard errors and cross-validation for dependent cases in clusters: earthquakes, or cells of magnitude and
-//! distance.
+//! Standard errors and cross-validation for dependent cases in clusters: earthquakes, or cells of magnitude
+//! and distance.
 
 use std::collections::BTreeSet;
 

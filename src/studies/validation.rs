@@ -130,8 +130,8 @@ impl Forecasts<'_> {
     }
 }
 
-/// Estimates the probability of what happened in `observed` of `n` independent cases: their share, with 95 % limits
-/// (Wilson 1927, Journal of the American Statistical Association 22, 209-212).
+/// Estimates the probability of what happened in `observed` of `n` independent cases: their share, with 95 %
+/// limits (Wilson 1927, Journal of the American Statistical Association 22, 209-212).
 pub fn observed_share(observed: usize, n: usize) -> Estimate {
     let (n, share) = (n as f64, observed as f64 / n as f64);
     let (middle, width) = (share + Z_95 * Z_95 / (2.0 * n), 1.0 + Z_95 * Z_95 / n);

@@ -1,5 +1,5 @@
-//! Marks of our own files, by which one is told from a file of another program before it is replaced, and found
-//! up to date: provenance in pages, pictures and workbooks; headings and keys of CSV and JSON.
+//! Marks of our own files, by which one is told from a file of another program before it is replaced, and
+//! found up to date: provenance in pages, pictures and workbooks; headings and keys of CSV and JSON.
 
 use std::io::{Cursor, Read};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The pages of a table. A flipped bit in them would be another number without a word, so our tables have a
-//! checksum of each column of each row group in the footer; other programs may have written one into each page,
-//! which Parquet's reader compares.
+//! checksum of each column of each row group in the footer; other programs may have written one into each
+//! page, which Parquet's reader compares.
 
 use std::fs::File;
 use std::io::Read;
@@ -34,8 +34,8 @@ pub fn checksums(file: &File, groups: &[RowGroupMetaData]) -> Result<KeyValue> {
     Ok(KeyValue::new(KEY.to_string(), all))
 }
 
-/// The pages of some columns of a row group: in memory and compared with their checksums, or in the file if it
-/// has none.
+/// The pages of some columns of a row group: in memory and compared with their checksums, or in the file if
+/// it has none.
 pub struct Pages {
     file: File,
     /// Columns, and where they begin in the file.

@@ -1,5 +1,5 @@
-//! What is kept and what is made anew: a result is kept as long as the answer would be the same, wherever it and
-//! what it was read from have gone.
+//! What is kept and what is made anew: a result is kept as long as the answer would be the same, wherever it
+//! and what it was read from have gone.
 
 use std::fs;
 use std::path::Path;

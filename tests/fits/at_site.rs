@@ -1,4 +1,5 @@
-//! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a change.
+//! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a
+//! change.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -87,7 +87,8 @@ fn what_is_no_hazard_curve_is_refused() {
     assert!(matches!(curve(&[(0.0, 0.1), (0.2, 0.05)]), HazardError::NotPositive { point: 0, .. }));
 }
 
-/// P_ro = Phi(b[0] + b[1] ln IM4 + b[2] ln IM5), with the paper's model of a block that hardly needs to uplift.
+/// P_ro = Phi(b[0] + b[1] ln IM4 + b[2] ln IM5), with the paper's model of a block that hardly needs to
+/// uplift.
 fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
     let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
     (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
@@ -211,7 +212,8 @@ fn range(rate: Option<AnnualRate>) -> [f64; 2] {
 
 #[test]
 fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
-    // By a curve of the same slope that ends at 0.8 g or goes on: whatever it does beyond, the range holds it.
+    // By a curve of the same slope that ends at 0.8 g or goes on: whatever it does beyond, the range holds
+    // it.
     let slope = -2.5;
     let to = |last_g: f64| {
         let points = [0.05, 0.2, last_g].map(|g: f64| (9.81 * g, 1e-3 * (g / 0.2).powf(slope)));

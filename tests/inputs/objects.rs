@@ -6,8 +6,8 @@ use rockfrag::object::Object;
 
 use super::packed::{Cells, csv, ods, utf_16, xlsx};
 
-/// Fifteen objects of a building with five storeys: name, number, width, depth and height (cm), anchors, and the
-/// storey above the ground.
+/// Fifteen objects of a building with five storeys: name, number, width, depth and height (cm), anchors, and
+/// the storey above the ground.
 const LIST: [[&str; 7]; 15] = [
     ["Bookcase", "3", "30", "90", "200", "no", "0"],
     ["Server rack", "2", "60", "100", "210", "no", "1"],

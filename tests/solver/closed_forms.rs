@@ -32,7 +32,8 @@ fn assert_close(found: f64, expected: f64, about: &str) {
     assert!((found / expected - 1.0).abs() < TOLERANCE, "{about}: {found}; expected {expected}");
 }
 
-/// A sine of circular frequency `w` (rad/s) and amplitude `r` g tan(alpha), for so many half cycles, and the step.
+/// A sine of circular frequency `w` (rad/s) and amplitude `r` g tan(alpha), for so many half cycles, and the
+/// step.
 fn sine(alpha: f64, r: f64, w: f64, half_cycles: f64) -> (Vec<f64>, f64) {
     let dt = half_cycles * PI / w / SAMPLES as f64;
     let at = |k: usize| r * G_M_S2 * alpha.tan() * (w * dt * k as f64).sin();
@@ -56,8 +57,8 @@ fn rectangular_pulses_overturn_as_housner_says() {
 
 #[test]
 fn half_sines_overturn_without_an_impact_as_linear_theory_says() {
-    // r p (w cos psi + p sin psi + w exp(-p t)) = p^2 + w^2, sin psi = 1/r, t from uplift to the end of the pulse.
-    // Housner's sqrt(1 + (w/p)^2) takes the block to move from the beginning of the pulse on.
+    // r p (w cos psi + p sin psi + w exp(-p t)) = p^2 + w^2, sin psi = 1/r, t from uplift to the end of the
+    // pulse. Housner's sqrt(1 + (w/p)^2) takes the block to move from the beginning of the pulse on.
     let alpha = 0.01_f64;
     for w in [0.5, 1.0, 2.0, 4.0, 6.0] {
         let exceeds = |r: f64| {

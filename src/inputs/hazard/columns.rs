@@ -1,5 +1,5 @@
-//! What the headings of a hazard say: peaks and spectral accelerations by their units, rates, probabilities and
-//! return periods, means and fractiles.
+//! What the headings of a hazard say: peaks and spectral accelerations by their units, rates, probabilities
+//! and return periods, means and fractiles.
 
 use crate::fragility::Peak;
 use crate::inputs::{Grid, Heading, InputError};

@@ -1,5 +1,5 @@
-//! Columns of a table: accelerations, one motion each, with or without times. Headings and comments name units,
-//! time steps and quantities; options of the user must not contradict them.
+//! Columns of a table: accelerations, one motion each, with or without times. Headings and comments name
+//! units, time steps and quantities; options of the user must not contradict them.
 
 use super::error::RecordFileError;
 use super::header::{azimuth_of, expect_step, expect_unit, first_number, given_unit, time_step};
@@ -93,8 +93,8 @@ fn numbers(grid: &Grid, column: usize) -> Result<Vec<f64>, RecordFileError> {
     (0..grid.lines.len()).map(|row| Ok(grid.number(row, column)?)).collect()
 }
 
-/// Reads all cells as one series, of which the last row alone may be short: another one shows that the file has
-/// several series, or is damaged.
+/// Reads all cells as one series, of which the last row alone may be short: another one shows that the file
+/// has several series, or is damaged.
 fn series(grid: &Grid) -> Result<Vec<f64>, RecordFileError> {
     let filled =
         |row: usize| (0..grid.columns).take_while(|&column| !grid.cell(row, column).is_empty()).count();
@@ -161,8 +161,8 @@ fn clock_s(cell: &str) -> Option<f64> {
     Some(3600.0 * hours + 60.0 * minutes + seconds)
 }
 
-/// Finds the columns of acceleration: the chosen one, those with such a heading, those of directions, or the only
-/// one that may be it.
+/// Finds the columns of acceleration: the chosen one, those with such a heading, those of directions, or the
+/// only one that may be it.
 fn accelerations(
     grid: &Grid,
     quantities: &[Option<Quantity>],

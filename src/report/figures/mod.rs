@@ -1,5 +1,5 @@
-//! The figures of responses and fits, numbered as in the paper where they are of the paper's. Of nothing to draw,
-//! a figure has no panels.
+//! The figures of responses and fits, numbered as in the paper where they are of the paper's. Of nothing to
+//! draw, a figure has no panels.
 
 pub mod common;
 mod demand;

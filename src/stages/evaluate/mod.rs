@@ -80,8 +80,8 @@ pub struct Evaluate {
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
-    /// Moment magnitude of motions without one; at a site the mean of the disaggregation at 2475 years, of SA(1.0 s)
-    /// with that curve, else of PGA (not used with PGV alone)
+    /// Moment magnitude of motions without one; at a site the mean of the disaggregation at 2475 years, of
+    /// SA(1.0 s) with that curve, else of PGA (not used with PGV alone)
     #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
@@ -101,7 +101,8 @@ pub struct Evaluate {
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]
     target: Option<f64>,
-    /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its site
+    /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its
+    /// site
     #[arg(long, value_name = "PEAK", conflicts_with_all = ["in", "pga", "pgv", "target", "responses", "extrapolate"])]
     over: Option<Peak>,
     /// Responses to count overturning in, beside the rate
@@ -116,7 +117,8 @@ pub struct Evaluate {
     /// text, csv or json
     #[arg(long, default_value = "text")]
     format: Format,
-    /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default: none; with --in, evaluated.parquet beside it]
+    /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default:
+    /// none; with --in, evaluated.parquet beside it]
     #[arg(long, value_name = "FILE")]
     out: Option<AnswersOutput>,
     #[command(flatten)]
@@ -406,11 +408,11 @@ fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Re
         let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
         context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
     }
-    Ok(rows::side_by_side(&[
+    rows::side_by_side(&[
         rows::batch(all.iter().map(|answer| &answer.object))?,
         rows::batch(all.iter().map(|answer| &answer.row))?,
         rows::batch(all.iter().map(|answer| &answer.doubts))?,
-    ])?)
+    ])
 }
 
 /// Shows rows of one schema.

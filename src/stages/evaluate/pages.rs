@@ -119,7 +119,8 @@ fn size(object: &ObjectRow) -> String {
     }
 }
 
-/// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and consider.
+/// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
+/// consider.
 const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
 /// Bins of intensity.
 const BINS: usize = 60;

@@ -192,7 +192,8 @@ fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>
     Ok(renamed)
 }
 
-/// The columns of a table of people: numbers where all cells are, else text. Peaks are kept under their headings.
+/// The columns of a table of people: numbers where all cells are, else text. Peaks are kept under their
+/// headings.
 fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> {
     let refuse = |problem: String| TableError::table(path, problem);
     let mut sheet = Grid::read(path).map_err(|error| refuse(error.to_string()))?;

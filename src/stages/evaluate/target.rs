@@ -18,7 +18,8 @@ const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
 const ACCURACY: f64 = 2e-5;
 const LAST_STEP: f64 = 1e-3;
 const MOST_STEPS: usize = 40;
-/// The most full rates of a search by the upper limit, and the change of ln width after which a line suffices.
+/// The most full rates of a search by the upper limit, and the change of ln width after which a line
+/// suffices.
 const MOST_SPREADS: usize = 3;
 const CLOSE: f64 = 0.01;
 /// By how much ln rate falls with ln width, about, where a search begins; and the least fall that it trusts.
@@ -55,8 +56,9 @@ impl Base {
     }
 }
 
-/// Finds the bases whose annual rate of overturning is the target, at the same height, rule of eta and relative offset;
-/// none where none within the domain of the surface meets it. `rate` is that of the object as it is.
+/// Finds the bases whose annual rate of overturning is the target, at the same height, rule of eta and
+/// relative offset; none where none within the domain of the surface meets it. `rate` is that of the object
+/// as it is.
 pub fn bases(object: &Object, models: &Models, site: &Site, rate: AnnualRate, target: f64) -> Bases {
     let mut searches = vec![Search::new(object, models, site, false)];
     searches.extend(object.shape.depth.map(|_| Search::new(object, models, site, true)));
@@ -117,8 +119,8 @@ impl Search<'_> {
         Some(self.base(found))
     }
 
-    /// Finds where the upper limit meets the target. By how much it is above the estimate changes little with width:
-    /// a line through the last two widths tells it.
+    /// Finds where the upper limit meets the target. By how much it is above the estimate changes little
+    /// with width: a line through the last two widths tells it.
     fn by_upper_limit(&mut self, rate: AnnualRate, target: f64) -> Option<Base> {
         let (mut at, mut above, mut per_ln) =
             (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
@@ -139,8 +141,8 @@ impl Search<'_> {
         spread(self.site.rates(&self.subject(ln_width)?).overturning?)
     }
 
-    /// Finds ln of the width at which ln rate is what is wanted of it, by secants. Where the hazard ends too early for
-    /// the rate of a wide object, the search ends there.
+    /// Finds ln of the width at which ln rate is what is wanted of it, by secants. Where the hazard ends too
+    /// early for the rate of a wide object, the search ends there.
     fn solve(&mut self, from: f64, wanted: impl Fn(f64) -> f64) -> Option<f64> {
         let (mut at, mut fall, mut last): (f64, f64, Option<(f64, f64)>) = (from, USUAL_FALL, None);
         let mut halvings = 0;

@@ -44,8 +44,8 @@ struct Columns {
 }
 
 impl About {
-    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or PEER's
-    /// search results or flatfile.
+    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or
+    /// PEER's search results or flatfile.
     pub fn read(path: &Path) -> anyhow::Result<About> {
         let problem = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
         let grid = grid(path).map_err(|error| problem(error.to_string()))?;

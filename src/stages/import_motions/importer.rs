@@ -90,7 +90,8 @@ impl Importer {
                 if self.leaves_out(&record.motion) {
                     continue;
                 }
-                // Samples are read again once a pair is found: that takes less memory than keeping all of them.
+                // Samples are read again once a pair is found: that takes less memory than keeping all of
+                // them.
                 components.push((Component::new(&record.motion), (file.clone(), index)));
             }
         }

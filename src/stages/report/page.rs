@@ -48,8 +48,8 @@ validate: Validation compares predicted probabilities with the outcomes of motio
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
 surface, calibrated where there are responses.";
 
-/// The page of all tables: its head is that of the evaluations, else of the paper, of responses over time or of
-/// responses.
+/// The page of all tables: its head is that of the evaluations, else of the paper, of responses over time or
+/// of responses.
 pub fn page(tables: &Tables, figures: Vec<Figure>, notes: Vec<String>) -> anyhow::Result<Page> {
     let is_client = !tables.evaluations.is_empty();
     let head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {

@@ -122,7 +122,8 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed over.
+    /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed
+    /// over.
     pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
         let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
         for path in paths {
@@ -191,8 +192,8 @@ impl Tables {
         }
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those that are there: names of
-    /// structures alone do not tell.
+    /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
+    /// names of structures alone do not tell.
     fn leave_out_strangers(&mut self) {
         let keys = |kind: Kind| -> Vec<String> { self.of(kind).map(|item| item.key.clone()).collect() };
         let of_flag = |kind: Kind, flag: &str| -> Vec<String> {

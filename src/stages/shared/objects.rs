@@ -153,8 +153,8 @@ impl StructureArgs {
         StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
     }
 
-    /// Finds all structures, each of the weaker direction of an object, and warnings about them and their list: of
-    /// a list without its rows that do not rock on the ground.
+    /// Finds all structures, each of the weaker direction of an object, and warnings about them and their
+    /// list: of a list without its rows that do not rock on the ground.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
         let (objects, mut warnings) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
         let (mut structures, mut first) = (Vec::new(), None);
@@ -191,8 +191,8 @@ impl StructureArgs {
         Ok(structures.iter().map(other).collect())
     }
 
-    /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say nothing of
-    /// them.
+    /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
+    /// nothing of them.
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (mut all, mut unused): (Vec<Object>, _) = Default::default();
         match &self.structures {
