@@ -38,9 +38,10 @@ impl Call {
             let inputs = plan.made.inputs.entry(read.flag.to_string()).or_default();
             for (path, name) in files.iter().zip(names_below(&files)) {
                 let modified = modified_at(path);
-                let file = match planned.get(&resolved(path)) {
-                    Some(key) => InputFile { name, key: key.clone(), whole: None },
-                    None => read_file(path, name)?,
+                let (file, modified) = match planned.get(&resolved(path)) {
+                    // Another run may have replaced it already: its time says nothing.
+                    Some(key) => (InputFile { name, key: key.clone(), whole: None }, None),
+                    None => (read_file(path, name)?, modified),
                 };
                 plan.files.push(PlannedFile { path: path.clone(), key: file.key.clone(), modified });
                 inputs.push(file);

@@ -15,7 +15,7 @@ pub struct Plan {
     pub outputs: Vec<PathBuf>,
 }
 
-/// A file to read, with the key of its content and when it was last changed.
+/// A file to read, with the key of its content and when it was last changed, if that tells anything.
 #[derive(Debug, Clone)]
 pub struct PlannedFile {
     pub path: PathBuf,
