@@ -4,6 +4,7 @@ use std::io;
 
 use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use rockfrag::inputs::InputError;
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::TableError;
 
@@ -17,7 +18,12 @@ pyo3::create_exception!(
 /// The exception of an error: ValueError for a mistake in the call, FileNotFoundError, else [`Error`].
 pub fn to_python(error: &anyhow::Error) -> PyErr {
     let is_missing = |cause: &(dyn std::error::Error + 'static)| {
-        matches!(cause.downcast_ref(), Some(TableError::Missing(_)))
+        let mut input = cause.downcast_ref::<InputError>();
+        while let Some(InputError::File { error, .. }) = input {
+            input = Some(error);
+        }
+        matches!(input, Some(InputError::Unreadable(io::ErrorKind::NotFound, _)))
+            || matches!(cause.downcast_ref(), Some(TableError::Missing(_)))
             || cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::NotFound)
     };
     let refused = error.downcast_ref::<clap::Error>();

@@ -7,8 +7,8 @@ use crate::plausibility::ImplausibleHazard;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum InputError {
-    #[error("{0}")]
-    Unreadable(String),
+    #[error("{1}")]
+    Unreadable(std::io::ErrorKind, String),
     #[error("damaged, or not what its beginning says: {0}")]
     Damaged(String),
     #[error("{found}; expected a table: CSV, text or a workbook (.xlsx, .ods)")]

@@ -51,7 +51,8 @@ impl Grid {
     /// Reads the table in a file, or in a sheet of a workbook: `list.xlsx#Sheet2`.
     pub fn read(path: &Path) -> Result<Grid, InputError> {
         let (file, sheet) = source::split_sheet(path);
-        let bytes = source::read(&file).map_err(|error| InputError::Unreadable(error.to_string()))?;
+        let bytes =
+            source::read(&file).map_err(|error| InputError::Unreadable(error.kind(), error.to_string()))?;
         Grid::parse(&bytes, sheet.as_deref())
     }
 

@@ -114,6 +114,8 @@ fn meaning(heading: &Heading) -> Column {
         Some(column) => column,
         None if words("held").any(|start| name.starts_with(start)) => Column::Held,
         None if OF_OBJECTS.iter().any(|part| name.contains(part)) => Column::Unclear,
+        // Perhaps another side of the base: without it the object would seem safer.
+        None if heading.unit.is_some_and(|unit| unit.quantity == Quantity::Length) => Column::Unclear,
         None => Column::Unused,
     }
 }
@@ -237,13 +239,10 @@ impl List<'_> {
     /// The object of a row, or what is wrong with it.
     fn object(&self, row: usize) -> Result<Object, String> {
         let mut object = Object::default();
-        // Of one side alone it is the width.
-        let has_width = self.cell(row, Column::Known(Field::Width)).is_some();
         for (at, column) in self.columns.iter().enumerate() {
             let (cell, heading) = (self.grid.cell(row, at), &self.grid.headings[at]);
             let (name, quantity) = match column {
                 _ if cell.is_empty() => continue,
-                Column::Known(Field::Depth) if !has_width => ("width", Some(Quantity::Length)),
                 Column::Known(field) => (field.as_str(), field.quantity()),
                 Column::Count => ("count", None),
                 Column::Unclear if !is_missing(cell) => {

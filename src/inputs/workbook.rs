@@ -30,9 +30,14 @@ pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>
         }
     }
     match &filled[..] {
-        [(_, range)] => {
-            let first = range.start().map_or(0, |(row, _)| row as usize);
-            Ok((first + 1, range.rows().map(|row| row.iter().map(text).collect()).collect()))
+        [(name, range)] => {
+            let formulas = workbook.worksheet_formula(name).map_err(damaged)?;
+            let (first, left) = range.start().unwrap_or_default();
+            let rows = range.rows().zip(first..).map(|(row, at)| {
+                let cells = row.iter().zip(left..);
+                cells.map(|(cell, column)| text(cell, formulas.get_value((at, column)))).collect()
+            });
+            Ok((first as usize + 1, rows.collect()))
         }
         [] if name.is_none() => Ok((1, Vec::new())),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
@@ -40,15 +45,20 @@ pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>
     }
 }
 
-fn text(cell: &Data) -> String {
+/// The text of a cell; that of its formula where no program has computed the value.
+fn text(cell: &Data, formula: Option<&String>) -> String {
+    let formula = formula.filter(|formula| !formula.is_empty());
     match cell {
+        Data::Empty => formula.map_or(String::new(), |formula| format!("={formula}")),
+        Data::String(text) if text.is_empty() => {
+            formula.map_or(String::new(), |formula| format!("={formula}"))
+        }
         Data::Bool(true) => "yes".to_string(),
         Data::Bool(false) => "no".to_string(),
         Data::DateTime(date) if date.is_datetime() => {
             let (year, month, day, ..) = date.to_ymd_hms_milli();
             format!("{year}-{month:02}-{day:02}")
         }
-        Data::Empty => String::new(),
         other => other.to_string().trim().to_string(),
     }
 }

@@ -162,9 +162,8 @@ fn tiles(pairs: &[Pair], when: &str) -> Vec<Tile> {
         ),
     ];
     if pairs.len() > 1 {
-        let before = super::list::expected(pairs.iter().map(|pair| pair.before)).number;
-        let after = super::list::expected(pairs.iter().map(|pair| pair.after)).number;
-        let [before, after] = [before, after].map(|number| number::significant(number, 2));
+        let before = super::list::expected(pairs.iter().map(|pair| pair.before)).number();
+        let after = super::list::expected(pairs.iter().map(|pair| pair.after)).number();
         tiles.push(tile(format!("{before} → {after}"), format!("objects expected to overturn {when}")));
     }
     tiles

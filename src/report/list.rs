@@ -113,37 +113,51 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
 }
 
 /// The expected number of objects that overturn, of how many, and the probability that one or more do:
-/// between that of the worst, where all fall together, and that of independent ones.
+/// between that of the worst, where all fall together, and that of independent ones. Of an object of which only
+/// a range is known both ends count.
 pub struct Expected {
-    pub number: f64,
+    pub least: f64,
+    pub most: f64,
     pub of: f64,
     pub at_least_one: [f64; 2],
 }
 
 pub fn expected<'a>(all: impl Iterator<Item = &'a Rated>) -> Expected {
-    let known = all.filter_map(|rated| Some((rated.count.unwrap_or(1.0), rated.overturning.value?)));
-    let (mut of, mut number, mut worst, mut independent) = (0.0, 0.0, 0.0_f64, 0.0);
-    for (count, p) in known.filter(|(count, _)| *count > 0.0) {
-        of += count;
-        number += count * p;
-        worst = worst.max(p);
-        independent -= count * (-p).ln_1p();
+    let mut sum = Expected { least: 0.0, most: 0.0, of: 0.0, at_least_one: [0.0; 2] };
+    let mut independent = 0.0;
+    for rated in all {
+        let (count, Limited { value, low, high }) = (rated.count.unwrap_or(1.0), rated.overturning);
+        let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else { continue };
+        sum.of += count;
+        sum.least += count * low;
+        sum.most += count * high;
+        sum.at_least_one[0] = sum.at_least_one[0].max(low);
+        independent -= count * (-high).ln_1p();
     }
-    Expected { number, of, at_least_one: [worst, -(-independent).exp_m1()] }
+    sum.at_least_one[1] = -(-independent).exp_m1();
+    sum
+}
+
+impl Expected {
+    /// The expected number, or its range.
+    pub fn number(&self) -> String {
+        let (low, high) = (number::significant(self.least, 2), number::significant(self.most, 2));
+        if low == high { low } else { format!("{low} to {high}") }
+    }
 }
 
 fn tiles(all: &[(&Evaluation, &Rated)], years: &str) -> Vec<Tile> {
     let tile = |number: String, words: String| Tile { number, words };
     let (_, worst) = all[0];
-    let Expected { number: expected, of, at_least_one: [together, independent] } =
-        expected(all.iter().map(|(_, rated)| *rated));
+    let expected = expected(all.iter().map(|(_, rated)| *rated));
+    let [together, independent] = expected.at_least_one;
     let limits = PERCENT.limits(worst.overturning, "95 % limits ");
     let above = all.iter().filter(|(_, rated)| rated.band() > 0).count();
     vec![
         tile(PERCENT.value(worst.overturning), format!("{} overturns {years} {limits}", worst.title())),
         tile(
-            number::significant(expected, 2),
-            format!("objects expected to overturn {years}, of {}", number::plain(of)),
+            expected.number(),
+            format!("objects expected to overturn {years}, of {}", number::plain(expected.of)),
         ),
         tile(
             format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),

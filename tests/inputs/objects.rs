@@ -254,3 +254,16 @@ fn a_hundred_thousand_rows_take_linear_time() {
     let (few, many) = (seconds(10_000), seconds(100_000));
     assert!(many < 40.0 * few.max(0.01), "{few} s, {many} s");
 }
+
+#[test]
+fn a_side_that_is_not_read_gives_no_answer() {
+    assert!(reason("name,width (cm),depht (cm),height (cm)\nA,90,40,190\n").contains("depht"));
+    assert!(text("name,width (cm),depth (cm),height (cm)\nA,,100,200\n")[0].shape.width.is_none());
+    let sides = |object: &Object| (object.shape.width, object.shape.depth);
+    let [breadth, length] = ["breadth (cm),length (cm)", "Breite (cm),Länge (cm)"]
+        .map(|heads| sides(&text(&format!("name,{heads},height (cm)\nA,40,90,190\n"))[0]));
+    assert_eq!(breadth, length);
+    assert!((breadth.0.unwrap() - 0.4).abs() < 1e-12 && (breadth.1.unwrap() - 0.9).abs() < 1e-12);
+    let free = text("name,width,height,anchored\nA,0.5,1.9,not anchored\nB,0.5,1.9,un-anchored\n");
+    assert!(free.iter().all(|object| object.refused.is_none()), "{free:?}");
+}

@@ -91,9 +91,10 @@ def simulate_motion(
     words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
     _bridge.warn(solved.pop("warnings"))
-    return Response(
-        **{name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()}
-    )
+    parts: dict[str, Any] = {
+        name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()
+    }
+    return Response(**parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +158,8 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
     confidence : float
         Level of the limits.
     """
-    intensities, happened = np.ma.asarray(im, dtype=np.float64), np.ma.asarray(outcome)
+    intensities: Any = np.ma.asarray(im, dtype=np.float64)
+    happened: Any = np.ma.asarray(outcome)
     if intensities.shape != happened.shape:
         shapes = f"im has the shape {intensities.shape} and outcome {happened.shape}"
         raise ValueError(f"{shapes}; expected the same")
@@ -215,7 +217,7 @@ class Probabilities:
         rocks = 1.0 - self.p_nr
         # Where nothing rocks there is no probability given rocking.
         overturns = [np.nan_to_num(rocks * p).ravel() for p in (self.p_ro, self.p_ro_low, self.p_ro_high)]
-        named = [("overturns", *overturns), ("overturns, or rocks too far", np.ravel(self.p_f), None, None)]
+        named: Any = [("overturns", *overturns), ("overturns, or rocks too far", np.ravel(self.p_f), None, None)]
         over_pga = len(np.unique(pga)) > 1
         return _plots.curves(pga if over_pga else pgv, "PGA, g" if over_pga else "PGV, m/s", named, axes)
 
@@ -289,7 +291,7 @@ class Fragility:
         """Draws the probabilities with their limits by matplotlib; gives the axes."""
         overturns = (self.p_overturns, self.p_overturns_low, self.p_overturns_high)
         fails = (self.p_fails, self.p_fails_low, self.p_fails_high)
-        named = [("overturns", *overturns), ("overturns, or rocks too far", *fails)]
+        named: Any = [("overturns", *overturns), ("overturns, or rocks too far", *fails)]
         return _plots.curves(self.intensity, self.label, named, axes)
 
     def _repr_html_(self) -> str:

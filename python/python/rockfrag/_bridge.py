@@ -107,8 +107,9 @@ def call(
         if folder is not None:
             failed.callback(shutil.rmtree, folder)
         for name, option in files.items():
-            if type(words.get(name)).__name__ == "LazyFrame":
-                words[name] = words[name].collect()
+            table: Any = words.get(name)
+            if type(table).__name__ == "LazyFrame":
+                words[name] = table.collect()
             if hasattr(words.get(name), "__arrow_c_stream__"):
                 words[name] = written(words[name], Path(scratch, name), option)
             elif name in words:
