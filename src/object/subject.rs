@@ -53,8 +53,8 @@ impl Part {
 /// let mut rack = Object::block("rack", 0.6, 1.9);
 /// rack.shape.depth = Some(0.8);
 /// let subject = Subject::shipped(&rack, Kind::Recorded, 0.10)?;
-/// // It may fall over its width or over its depth; how much each impact takes is not known, and the model
-/// has errors. assert_eq!(subject.directions.len(), 2);
+/// // It may fall over its width or over its depth; the loss at an impact is not known.
+/// assert_eq!(subject.directions.len(), 2);
 /// assert_eq!(subject.unknowns[0].part, Part::Eta);
 /// let bouncier = subject.changed(&subject.unknowns[0].high);
 /// assert!(bouncier[0].structure.eta > subject.directions[0].structure.eta);
