@@ -52,7 +52,7 @@ check-exports: | $(BUILT)
 	scripts/check_exports.sh $(ROCKFRAG)
 
 spread: | $(BUILT)
-	python3 scripts/seed_spread.py $(ROCKFRAG) && python3 scripts/paper_planes.py
+	python3 scripts/seed_spread.py $(ROCKFRAG)
 
 universal: | $(BUILT)
 	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2) $(TABLE)

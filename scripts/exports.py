@@ -2,8 +2,9 @@
 
 import csv
 import pathlib
-import subprocess
 import sys
+
+from common import call
 
 ALPHA = 0.20
 
@@ -13,8 +14,7 @@ structure = f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"
 
 def run(subcommand, *arguments):
     """What rockfrag prints."""
-    call = [rockfrag, subcommand, structure, *map(str, arguments)]
-    return subprocess.run(call, check=True, capture_output=True, text=True).stdout
+    return call(rockfrag, subcommand, structure, *arguments)
 
 
 def reached(im, intensity):

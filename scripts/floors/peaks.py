@@ -1,4 +1,4 @@
-"""Fits the peaks of floors to those of the ground: python peaks.py AT2_FOLDER COMPONENTS.csv
+"""Fits the peaks of floors to those of the ground: python peaks.py AT2.parquet
 
 u = ln(T1/Tg), Tg = 2 pi PGV/PGA, u_i = u - ln(2i - 1), G_i the participation of mode i:
 r_i = 1/(1 + exp(k (u_i - b))), D_i = d/(exp(-l (u_i - e)) + exp(h (u_i - e))),
@@ -21,9 +21,9 @@ START = {"pfa": [-0.090, 3.430, 3.635, 0.112, 0.434, 1.494, 0.284],
          "pfv": [0.930, 3.199, 3.569, -0.225, 1.574, 0.637, 0.314]}  # fmt: skip
 
 
-def rows(folder, components):
+def rows(imported):
     """Of each component, period and level."""
-    for _, earthquake, _, a, dt in motions.records(folder, components):
+    for _, earthquake, _, a, dt in motions.records(imported):
         pga, pgv = motions.peaks(a, dt)
         for period in PERIODS:
             pfa, pfv = motions.peaks(motions.floors(a, dt, period, LEVELS), dt)
@@ -58,7 +58,7 @@ def fit(u, level, y, start):
 
 def main():
     names = ["earthquake", "period", "level", "u", "pfa", "pfv"]
-    table = pl.DataFrame(list(rows(*sys.argv[1:3])), names, orient="row")
+    table = pl.DataFrame(list(rows(sys.argv[1])), names, orient="row")
     earthquakes = table["earthquake"].unique().sort()
     print(len(table) // len(PERIODS) // len(LEVELS), "components of", len(earthquakes), "earthquakes")
     drawn = np.random.default_rng(1).permutation(earthquakes)

@@ -1,33 +1,30 @@
-"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2_FOLDER COMPONENTS.csv FOLDER
-[yielding]
+"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2.parquet FOLDER [yielding]
 
 Every fourth component scaled to PGA of .1 to 1.6 g, filtered to ten floors; twelve objects; a hazard that
 falls with the power 2.2 of PGA. With `yielding` the floors are those of yielding.py, which needs numba."""
 
 import pathlib
-import subprocess
 import sys
 
 import numpy as np
 import polars as pl
 
 import motions
+import common
 
 STRONGEST_M_S = 5.0
 LEVELS_G = np.geomspace(0.1, 1.6, 8)
 OBJECTS = [(0.3, 0.9), (0.3, 1.2), (0.4, 1.6), (0.5, 1.8), (0.6, 1.8), (0.6, 2.2), (0.8, 2.2), (0.8, 2.6),
            (1.0, 3.0), (1.2, 4.0), (0.25, 0.8), (0.45, 2.0)]  # fmt: skip
-rockfrag, at2, components, folder, *yielding = sys.argv[1:]
+rockfrag, imported, folder, *yielding = sys.argv[1:]
 folder = pathlib.Path(folder)
 floors_of = __import__("yielding").floors if yielding else motions.floors
 
 
 def call(*arguments):
     """What rockfrag writes."""
-    out = folder / "out.parquet"
-    command = [rockfrag, *map(str, arguments), "--out", out, "--quiet", "--force"]
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return pl.read_parquet(out)
+    common.call(rockfrag, *arguments, "--out", folder / "out.parquet", "--force")
+    return pl.read_parquet(folder / "out.parquet")
 
 
 def rate(p_of_motions):
@@ -42,7 +39,7 @@ def predicted(width, height, *floor):
 
 def scaled():
     """Of each motion its acceleration, time step, level, peaks and magnitude."""
-    for _, _, mw, a, dt in list(motions.records(at2, components))[::4]:
+    for _, _, mw, a, dt in list(motions.records(imported))[::4]:
         for k, level in enumerate(LEVELS_G):
             strong = a * level * 9.81 / np.abs(a).max()
             pga, pgv = motions.peaks(strong, dt)

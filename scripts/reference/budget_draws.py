@@ -6,8 +6,6 @@ rates by a quadrature of our own; the distances of their 2.5 and 97.5 % quantile
 stand beside those of the limits of evaluate.
 """
 
-import re
-
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 from scipy.optimize import least_squares
@@ -18,12 +16,14 @@ import site_rates as R
 from sites import X, Y
 
 DRAWS = 10_000
-# Of PGV/PGA, by name.
-SOURCE = (R.root / "src/hazard/pgv_pga.rs").read_text()
-FOUND = re.findall(r"const (\w+): (?:\[f64; \d\]|f64) = \[?([-\d., ]+)", SOURCE)
-CONSTANTS = {name: [float(number) for number in numbers.split(",")] for name, numbers in FOUND}
-(MIDDLE,), (SCATTER,), (SD_OF_MEAN,) = (CONSTANTS[name] for name in ("MIDDLE", "SCATTER", "SD_OF_MEAN"))
-MAGNITUDE, SD_OF_MAGNITUDE = CONSTANTS["MAGNITUDE"]
+# As src/hazard/pgv_pga.rs has them: the line of sites in general (level, slope, scatter, rise with magnitude, sd of
+# the level), the scatter of a line by two curves and the sds of its level by SA(1.0 s) or not; PGV by SA(1.0 s).
+GIVEN_PGA, SCATTER, SD_BY_CURVES = (-2.86, -0.06, 0.58, 0.30, 0.28), 0.42, {False: 0.08, True: 0.12}
+BY_SPECTRUM = 0.090, 0.36, 0.13
+# Mean and sd of an unknown magnitude, the middle of the line; by how much that of what overturns lies above the mean
+# of the disaggregation of PGA and of SA(1.0 s), and its sd.
+MAGNITUDE, MIDDLE = (6.35, 0.6), 6.3
+ABOVE = {"M": (0.45, 0.3), "MS": (0.0, 0.2)}
 Z = np.linspace(-5, 5, 31)
 WEIGHT = norm.pdf(Z) / norm.pdf(Z).sum()
 AT = np.log(0.4 * 9.81)
@@ -50,7 +50,7 @@ def matched(pga, pgv, scatter):
 
 def expected_magnitude():
     """Intercept and slope of magnitude on ln(PGV / PGA)."""
-    lines = open(R.root / "data/universal.csv").read().splitlines()
+    lines = open(R.ROOT / "data/universal.csv").read().splitlines()
     cells = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
     return [float(cell) for cell in cells[2:4]]
 
@@ -61,7 +61,7 @@ def surface(truth):
     return RegularGridInterpolator((R.LN_LOSS, X, Y), logits)
 
 
-def rates(k, truth, line, scatter, draws):
+def rates(k, truth, line, scatter, above, draws):
     """The rates of a site for draws of c, ln s, m, magnitude, level and ln loss."""
     curve = thinned(R.data["pga"][k])
     highest = min(np.log(curve[-1, 0]), X[-1] - 1e-9)
@@ -75,7 +75,7 @@ def rates(k, truth, line, scatter, draws):
         loss = np.clip(loss, R.LN_LOSS[0], R.LN_LOSS[-1])
         z = of(np.stack(np.broadcast_arrays(loss, ln_pga[:, None], ln_pgv), -1))
         # By two curves PGV / PGA tells an unknown magnitude.
-        mw = intercept + slope * (ln_pgv - ln_pga[:, None]) if np.isnan(mw) else mw
+        mw = intercept + slope * (ln_pgv - ln_pga[:, None]) if np.isnan(mw) else mw + above
         of_mw = (truth.m + m) * (np.clip(mw, *R.RANGE) - R.MIDDLE)
         result.append(weight @ (expit(truth.c + c + np.exp(ln_s) * z + of_mw) @ WEIGHT))
     return np.array(result)
@@ -83,25 +83,28 @@ def rates(k, truth, line, scatter, draws):
 
 def case(k, name, route, random):
     truth = R.Truth(*R.OBJECTS[name])
-    level, slope, scatter, per_mw, sd_level = CONSTANTS["GIVEN_PGA"]
-    mw, sd_mw = (R.mean_mw[k], SD_OF_MEAN) if route.endswith("M") else (MAGNITUDE, SD_OF_MAGNITUDE)
+    level, slope, scatter, per_mw, sd_level = GIVEN_PGA
+    given = route.split(", ")[-1]
+    (mw, sd_mw), above = MAGNITUDE, 0.0
+    if given in ABOVE:
+        mw, (above, sd_mw) = R.MEANS[given][k], ABOVE[given]
     if "PGV" in route or "SA" in route:
         pga, pgv, per_mw, scatter = thinned(R.data["pga"][k]), thinned(R.data["pgv"][k]), 0.0, SCATTER
-        sd_level = CONSTANTS["SD_BY_CURVES"]["SA" in route]
+        sd_level = SD_BY_CURVES["SA" in route]
         if "SA" in route:
-            factor, of_pga, per_mw = CONSTANTS["BY_SPECTRUM"]
+            factor, of_pga, per_mw = BY_SPECTRUM
             pgv = thinned(R.data["sa"][k]).copy()
             as_often = np.exp(np.interp(-np.log(pgv[:, 1]), -np.log(pga[:, 1]), np.log(pga[:, 0])))
             pgv[:, 0] = factor * pgv[:, 0] ** (1 - of_pga) * as_often**of_pga
         level, slope = matched(pga, pgv, scatter)
-        if not route.endswith("M"):
+        if given not in ABOVE:
             mw, sd_mw = np.nan, 0.0
-    known = lambda mw: np.where(np.isnan(mw), MAGNITUDE, mw)
+    known = lambda mw: np.where(np.isnan(mw), MAGNITUDE[0], mw)
     line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (known(mw) - MIDDLE)
     sds = np.array([*truth.sds, sd_mw, sd_level, R.SD_OF_LOSS])
     draws = random.normal(size=(DRAWS, 6)) * sds + [0, 0, 0, mw, 0, 0]
-    drawn = np.log(rates(k, truth, line, scatter, draws))
-    at_medians = np.log(rates(k, truth, line, scatter, [[0, 0, 0, mw, 0, 0]])[0])
+    drawn = np.log(rates(k, truth, line, scatter, above, draws))
+    at_medians = np.log(rates(k, truth, line, scatter, above, [[0, 0, 0, mw, 0, 0]])[0])
     R.write(k)
     row = R.answers(k, route)[name]
     value, low, high = (np.log(row[f"overturning_per_year{end}"]) for end in ("", "_low", "_high"))
@@ -117,6 +120,6 @@ if __name__ == "__main__":
     R.write_objects()
     for site, thing, way in [
         (14, "cabinet", "PGA"), (50, "shelf", "PGA"), (20, "rack", "PGA, M"), (30, "cabinet", "PGA, SA"),
-        (40, "rack", "PGA, SA, M"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M"),
+        (40, "rack", "PGA, SA, MS"), (62, "statue", "PGA, PGV"), (90, "cabinet", "PGA, PGV, M"),
     ]:  # fmt: skip
         case(site, thing, way, generator)

@@ -2,12 +2,12 @@
 
 The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
 magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
-whose c, ln s and eta are drawn from their distributions.
+whose c, ln s and eta are drawn from their distributions. A second table tells how far the mean magnitude of the
+motions that overturn lies above the mean of the disaggregation of PGA, and of SA(1.0 s).
 """
 
 import json
 import pathlib
-import subprocess
 import sys
 
 import numpy as np
@@ -16,6 +16,9 @@ from scipy.special import expit, logit
 
 import sites as S
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from common import ROOT, call  # noqa: E402
+
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
 SD_OF_LOSS = 0.4
 DRAWS = 40
@@ -23,20 +26,14 @@ DRAWS = 40
 MIDDLE, RANGE = 6.9, (5.0, 7.6)
 LN_LOSS = np.linspace(-1.2, 1.2, 7)
 folder, binary = pathlib.Path(sys.argv[1]), sys.argv[2]
-root = pathlib.Path(__file__).resolve().parents[2]
 data = np.load(folder / "sites.npz")
 names, joint, mean_mw = data["names"], data["joint"], data["mw"]
 random = np.random.default_rng(1)
 
 
-def call(*options):
-    command = [binary, "evaluate", *map(str, options), "--quiet"]
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
-
-
 def calibration():
     """c, ln s, m and their standard deviations, of P_ro under recorded motions."""
-    lines = open(root / "data/universal.csv").read().splitlines()
+    lines = open(ROOT / "data/universal.csv").read().splitlines()
     cells = next(line.split(",") for line in lines if line.startswith("calibration,recorded,pro"))
     return [float(cell) for cell in cells[3:9]]
 
@@ -51,7 +48,7 @@ def surface(width, height, eta, mw):
     table = pd.DataFrame({"pga_m_s2": np.exp(a)[keep], "pgv_m_s": np.exp(v)[keep], "mw": mw})
     table.to_csv(folder / "grid.csv", index=False)
     structure = "--p", p, "--alpha", alpha, "--eta", eta
-    call("--in", folder / "grid.csv", *structure, "--out", folder / "out.csv", "--force")
+    call(binary, "evaluate", "--in", folder / "grid.csv", *structure, "--out", folder / "out.csv", "--force")
     result = np.full(a.shape, -np.inf)
     result[keep] = logit(pd.read_csv(folder / "out.csv")["p_ro"])
     return result
@@ -96,27 +93,28 @@ def write(k):
     pd.DataFrame(bins).to_csv(folder / "joint.csv", index=False)
 
 
+# Curves, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
 ROUTES = [
-    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, PGV",
-    "PGA, PGV, M", "joint",
+    "PGA", "PGA, M", "PGA, V", "PGA, M, V", "PGV", "PGV, M", "PGV, V", "PGA, SA", "PGA, SA, M", "PGA, SA, MS", "PGA, PGV",
+    "PGA, PGV, M", "PGA, PGV, MS", "joint",
 ]  # fmt: skip
+MEANS = {"M": mean_mw, "MS": data["mw_sa"]}
 
 
 def answers(k, route):
     given = route.split(", ")
-    paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in "MV")
-    mw = ["--magnitude", f"{mean_mw[k]:.2f}"] if "M" in given else []
+    paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in ("M", "MS", "V"))
+    mw = [word for name in given if name in MEANS for word in ("--magnitude", f"{MEANS[name][k]:.2f}")]
     vs30 = ["--vs30", names[k][3]] if "V" in given else []
     options = "--hazard", paths, *mw, *vs30, "--format", "json"
-    rows = json.loads(call("--structures", folder / "objects.csv", *options))
+    rows = json.loads(call(binary, "evaluate", "--structures", folder / "objects.csv", *options))
     return {row["structure"]: row for row in rows}
 
 
-def judged():
+def judged(truths):
     """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
     truth that is drawn, and the logarithm of their ratio."""
-    truths = {name: Truth(*size) for name, size in OBJECTS.items()}
-    for k, kind in enumerate(names[:, 0]):
+    for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude"])):
         write(k)
         true = {name: truth.rate(joint[k]) for name, truth in truths.items()}
         draw = lambda truth: truth.rate(joint[k], *(random.normal(size=4) * [*truth.sds, SD_OF_LOSS]))
@@ -126,19 +124,35 @@ def judged():
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
                 if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    yield kind, route, np.log(value / true[name]), held, np.log(high / low)
+                    yield names[k, 0], k, route, np.log(value / true[name]), held, np.log(high / low)
+
+
+def magnitudes(truths):
+    """Of each site and object, how far the mean magnitude of what overturns lies above those of the curves."""
+    for k in np.flatnonzero(names[:, 0] == "magnitude"):
+        for truth in truths.values():
+            rates = np.array([truth.rate(joint[k] * (S.MAGNITUDES == mw)[:, None, None]) for mw in S.MAGNITUDES])
+            mw = rates @ S.MAGNITUDES / rates.sum()
+            yield names[k, 1].rstrip(" 0123456789") or names[k, 1], *(mw - of[k] for of in MEANS.values())
 
 
 def summary(rows):
     off = rows["off"]
     return pd.Series({
-        "n": len(off), "median": np.exp(off.median()), "rms ln": np.sqrt((off**2).mean()),
-        "in 1.5": (off.abs() < np.log(1.5)).mean(), "worst": np.exp(off.abs().max()),
-        "held": rows["held"].mean(), "high/low": np.exp(rows["width"].mean()),
+        "n": len(off), "median": np.exp(off.median()), "geometric mean": np.exp(off.mean()),
+        "rms ln": np.sqrt((off**2).mean()), "in 1.5": (off.abs() < np.log(1.5)).mean(),
+        "worst": np.exp(off.abs().max()), "held": rows["held"].mean(), "high/low": np.exp(rows["width"].mean()),
     })  # fmt: skip
 
 
 if __name__ == "__main__":
     write_objects()
-    found = pd.DataFrame(judged(), columns=["sites", "route", "off", "held", "width"])
-    print(found.groupby(["sites", "route"], sort=False).apply(summary).round(3).to_string())
+    of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
+    found = pd.DataFrame(judged(of_objects), columns=["sites", "k", "route", "off", "held", "width"])
+    is_area = (found["sites"] == "magnitude") & np.char.startswith(names[found["k"], 1], "area")
+    found = pd.concat([found, found[is_area].assign(sites="areas")])
+    print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
+    by_site = np.exp(found[is_area].groupby(["route", "k"], sort=False)["off"].mean())
+    print("geometric means of area sites", by_site.groupby("route", sort=False).describe().round(2).to_string(), sep="\n")
+    above = pd.DataFrame(magnitudes(of_objects), columns=["sites", "above that of PGA", "above that of SA"])
+    print(above.groupby("sites", sort=False).agg(["mean", "min", "max"]).round(2).to_string())

@@ -3,9 +3,10 @@
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA,
 PGV and magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in
 general (src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
-the sites `judge`, of yet others, judge both, and nothing is chosen by them. Writes FOLDER/sites.npz and the
-levels of the first two by Vs30, and the means of all at the rate of once in 2475 years, to
-tests/reference/fits, and prints their lines. Needs openquake.engine (scripts/check_exports.sh tells how).
+the sites `judge`, of yet others, judge both, and nothing is chosen by them; the sites `magnitude` tell which
+magnitude is to be given. Writes FOLDER/sites.npz and, to tests/reference/fits, the levels of the first two by
+Vs30 and the means of the first three at the rate of once in 2475 years, and prints the lines. Needs
+openquake.engine (scripts/check_exports.sh tells how).
 """
 
 import itertools
@@ -71,20 +72,27 @@ CHECK = {
 }
 
 
-def drawn(uniform):
-    """Sources that are drawn, so that nobody chose them."""
+def drawn(seed):
+    """Functions that draw sources, so that nobody chose them: near, wide, far, and at a distance."""
+    uniform = np.random.default_rng(seed).uniform
     log = lambda low, high: np.exp(uniform(np.log(low), np.log(high)))
     near = lambda: area(log(0.02, 0.15), 5.0, uniform(6.2, 6.6), uniform(0.9, 1.1), uniform(20, 35))
     wide = lambda: area(log(0.02, 0.2), 5.0, uniform(6.6, 7.1), uniform(0.85, 1.1), uniform(70, 160))
     far = lambda: fault(1 / uniform(60, 200), uniform(7.0, 7.6), uniform(50, 120), sd=0.2)
     at = lambda km: fault(1 / uniform(200, 600), uniform(6.5, 7.2), km * uniform(0.7, 1.3), small=uniform(10, 30))
-    return {
-        "near 1": [near()], "near 2": [near()], "5 km and area": [at(5), wide()], "5 km": [at(5)], "15 km": [at(15)],
-        "far": [far(), far()], "far and area": [far(), wide()], "area": [wide()],
-    }
+    return near, wide, far, at
 
 
-JUDGE = drawn(np.random.default_rng(20261123).uniform)
+near, wide, far, at = drawn(20261123)
+JUDGE = {
+    "near 1": [near()], "near 2": [near()], "5 km and area": [at(5), wide()], "5 km": [at(5)], "15 km": [at(15)],
+    "far": [far(), far()], "far and area": [far(), wide()], "area": [wide()],
+}
+near, wide, far, at = drawn(56)
+OF_MAGNITUDE = {f"area {k}": [wide()] for k in range(6)} | {
+    "near 1": [near()], "near 2": [near()], "5 km": [at(5)], "12 km and area": [at(12), wide()], "far": [far()],
+    "far and area": [far(), wide()],
+}
 FIT_MODELS = ["BooreEtAl2014", "BindiEtAl2014Rjb", "AkkarEtAlRjb2014", "ChiouYoungs2014"]
 CHECK_MODELS = ["CampbellBozorgnia2014", "AbrahamsonEtAl2014", "LanzanoEtAl2019_RJB_OMO", "KothaEtAl2020"]
 JUDGE_MODELS = ["CauzziEtAl2014", "DerrasEtAl2014", "KaleEtAl2015Turkey"]
@@ -92,6 +100,7 @@ SETS = {
     "fit": (FIT, FIT_MODELS, [270.0, 400.0, 760.0], 0.74),
     "check": (CHECK, CHECK_MODELS, [230.0, 350.0, 550.0, 900.0], 0.70),
     "judge": (JUDGE, JUDGE_MODELS, [250.0, 320.0, 500.0, 850.0], 0.733),
+    "magnitude": (OF_MAGNITUDE, ["CauzziEtAl2014", "ChiouYoungs2014", "CampbellBozorgnia2014"], [270.0, 440.0, 760.0], 0.73),
 }
 
 
@@ -217,7 +226,7 @@ if __name__ == "__main__":
     data = {name: np.array([of_site[name] for of_site in made]) for name in made[0]}
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **data)
     kinds, vs30 = np.array(names)[:, 0], np.array(names)[:, 3].astype(float)
-    joints, mean_mw, chosen = data["joint"], data["mw"], kinds != "judge"
+    joints, mean_mw, chosen = data["joint"], data["mw"], (kinds == "fit") | (kinds == "check")
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):
             found = line(joints[among], mean_mw[among], vs30[among], peak)
@@ -231,6 +240,6 @@ if __name__ == "__main__":
     of_vs30 = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
     write("site_levels.csv", of_vs30, [0, 3, 4], "vs30,mw,ln_ratio")
     columns = np.stack([mean_mw, *(at_rate(data[name], 1 / 2475) for name in ("pga", "sa", "pgv"))])
-    means = np.array([columns[:, kinds == kind].mean(axis=1) for kind in SETS])
+    means = np.array([columns[:, kinds == kind].mean(axis=1) for kind in ("fit", "check", "judge")])
     means[:, 1:] = np.exp(means[:, 1:])
     write("site_spectra.csv", means, [3, 4, 4, 5], "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s")

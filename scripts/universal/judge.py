@@ -42,12 +42,6 @@ def scored(frame, **by):
     ).sort(*by)  # fmt: skip
 
 
-def predicted(event, kind, cases):
-    """Cases with P as shipped; of P_ex all at one limit."""
-    z = apply(surface.prior(event, kind, cases["limit"][0]), surface.parts(event, kind, cases))
-    return cases.with_columns(p=pl.Series(logistic(z)))
-
-
 def happened(cases):
     return cases["happened"].to_numpy()
 
@@ -75,8 +69,9 @@ def demand_left_out():
         ratios = np.divide(*(of_limit[name].to_numpy()[drawn].sum(axis=1) for name in ("happened", "p")))
         print(limit, "observed/expected by drawn earthquakes:", np.quantile(ratios, [0.025, 0.975]).round(2))
     show("Records, demand, earthquakes left out, by limit state", scored(judged, limit="limit"))
-    sizes = pl.col("p_rad_s").cut([1.5, 2.5])
-    show("The same by p", scored(judged, limit="limit", p_of=sizes).select("limit", "p_of", "observed", "ratio"))
+    of_size = {"limit": pl.col("limit"), "p_of": pl.col("p_rad_s").cut([1.5, 2.5])}
+    for by in (of_size, of_size | {"is_chi_chi": pl.col("cluster") == "CHICHI"}):
+        show("The same by p", scored(judged, **by).select(*by, "observed", "ratio"))
     at_one = judged.filter(limit=LIMIT)
     for by in ({"M": pl.lit("all")}, {"M": OF_M}, {"p": BINS}):
         show("Records, demand above 0.1, earthquakes left out", scored(at_one, **by))
@@ -125,7 +120,6 @@ def of_draws(event, mine, n, prior):
         others = np.delete(np.arange(len(y)), drawn)
         on_others = lambda b: mine[others].with_columns(p=pl.Series(logistic(apply(b, parts[others]))))
         yield {
-            "events": {0: "none", 1: "1 or 2", 2: "1 or 2", n: "all"}.get(y[drawn].sum(), "more"),
             "holds": np.mean(np.abs(z - apply(truth, points)) < half),
             "width": np.mean(logistic(z + half) - logistic(z - half)),
             "shipped": on_others(prior).select(score()).item(),
@@ -141,19 +135,8 @@ def few_records(event):
         for n in (8, 15, 40):
             if min(mine["happened"].sum(), (~mine["happened"]).sum()) >= 5 and len(mine) >= 2 * n:
                 rows += [{"M": m, "records": n} | row for row in of_draws(event, mine, n, prior)]
-    rows = pl.DataFrame(rows)
-    for by in (["M", "records"], ["M", "records", "events"]):
-        means = rows.group_by(by).agg(pl.len().alias("draws"), pl.exclude("events").mean()).sort(by)
-        show(f"Few records of one's own, {event}", means)
-
-
-def held_out(event):
-    limits = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5) if event == "pex" else (NO_LIMIT,)
-    cases = of.read([f"{FOLDER}/test.parquet"])
-    for name, frame in {"with M": cases, "M unknown": cases.with_columns(mw=UNKNOWN)}.items():
-        each = [predicted(event, kind, of.counted(event, frame.filter(kind=kind), limit))
-                for kind in KINDS[1:] for limit in limits]  # fmt: skip
-        show(f"{event}, {name}: 64 structures and a seed held out", scored(pl.concat(each), kind="kind"))
+    means = pl.DataFrame(rows).group_by("M", "records").agg(pl.len().alias("draws"), pl.all().mean())
+    show(f"Few records of one's own, {event}", means.sort("M", "records"))
 
 
 def own(event, kind, cases):
@@ -193,7 +176,7 @@ def own_responses(event):
 
 of_records = of.read([f"{FOLDER}/records.parquet"])
 RECORDS = of_records.filter(pl.col("scale").is_in(of.FITTED))
-TABLES = earthquakes_left_out, few_records, held_out, cells_left_out, own_responses
+TABLES = earthquakes_left_out, few_records, cells_left_out, own_responses
 demand_left_out()
 for event in TERMS:
     for table in TABLES:
