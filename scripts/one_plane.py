@@ -1,5 +1,5 @@
 """One plane in ln(ln IM4) and ln IM3 against the paper's two, on seeds that the fit left out: python
-scripts/one_plane.py RESPONSES RESPONSES RESPONSES
+scripts/one_plane.py RESPONSES RESPONSES...
 
 Each file has the responses of the paper's set-up with another seed. Prints the root mean square of ln demand in
 safe rocking and the mean log score of a demand above 0.1, one plane and two, in means over fits and seeds.

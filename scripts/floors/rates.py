@@ -1,7 +1,7 @@
-"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2.parquet FOLDER [yielding]
+"""Rates on floors, predicted over counted: python rates.py ROCKFRAG AT2.parquet FOLDER
 
 Every fourth component scaled to PGA of .1 to 1.6 g, filtered to ten floors; twelve objects; a hazard that
-falls with the power 2.2 of PGA. With `yielding` the floors are those of yielding.py, which needs numba."""
+falls with the power 2.2 of PGA."""
 
 import pathlib
 import sys
@@ -16,9 +16,8 @@ STRONGEST_M_S = 5.0
 LEVELS_G = np.geomspace(0.1, 1.6, 8)
 OBJECTS = [(0.3, 0.9), (0.3, 1.2), (0.4, 1.6), (0.5, 1.8), (0.6, 1.8), (0.6, 2.2), (0.8, 2.2), (0.8, 2.6),
            (1.0, 3.0), (1.2, 4.0), (0.25, 0.8), (0.45, 2.0)]  # fmt: skip
-rockfrag, imported, folder, *yielding = sys.argv[1:]
+rockfrag, imported, folder = sys.argv[1:]
 folder = pathlib.Path(folder)
-floors_of = __import__("yielding").floors if yielding else motions.floors
 
 
 def call(*arguments):
@@ -55,7 +54,7 @@ objects = pl.DataFrame(OBJECTS, ["width", "height"], orient="row").with_row_inde
 objects.with_columns(pl.format("o{}", "name")).write_csv(folder / "objects.csv")
 logs = {"floor": [], "ground": []}
 for period, z in [(t, z) for t in (0.2, 0.4, 0.7, 1.1, 1.8) for z in (0.5, 1.0)]:
-    samples = [floors_of(a, dt, period, [z])[0].astype(np.float32) for a, dt in zip(ground, steps)]
+    samples = [motions.floors(a, dt, period, [z])[0].astype(np.float32) for a, dt in zip(ground, steps)]
     on_floor = pl.DataFrame({"motion_id": peaks["motion_id"], "dt_s": steps, "acceleration_m_s2": samples})
     on_floor.write_parquet(folder / "floor.parquet")
     responses = call("simulate", "--in", folder / "floor.parquet", "--structures", folder / "objects.csv")

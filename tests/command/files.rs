@@ -123,6 +123,7 @@ fn a_fit_without_a_status_is_refused() {
 
 #[test]
 fn a_file_of_pandas_is_read() {
+    // DataFrame.to_parquet: int32, float32, and an index.
     let folder = tempfile::tempdir().unwrap();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/files/pandas.parquet");
     let (own, foreign) = (folder.path().join("own.parquet"), folder.path().join("pandas.parquet"));

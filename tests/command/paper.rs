@@ -29,7 +29,7 @@ fn out(name: &str) -> std::path::PathBuf {
     RUN.path().join("out").join(name)
 }
 
-/// A number of the fit of this suite and structure, by its name in paper_run.csv.
+/// A number of the fit of this suite and structure, by its name in paper_run.csv, the run of tree 6769d62.
 fn number(name: &str, suite: &str, structure: &str) -> f64 {
     let (of, column) = name.split_once('_').unwrap();
     let its = |row_suite: &Option<String>, row_structure: &str| {

@@ -1,4 +1,4 @@
-//! The ranking of measures against statsmodels and scipy (scripts/reference/ranking.py), and what it must not
+//! The ranking of measures against statsmodels and scipy (scripts/reference/fits.py), and what it must not
 //! depend on.
 
 use rockfrag::fragility::Cases;
