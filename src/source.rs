@@ -5,6 +5,9 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex};
 
+/// The most bytes of a pipe or device, which may have no end.
+const MOST_PIPED: u64 = 200 << 20;
+
 /// What pipes have given so far.
 static PIPES: LazyLock<Mutex<HashMap<PathBuf, Vec<u8>>>> = LazyLock::new(Mutex::default);
 
@@ -19,10 +22,11 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
         return Ok(bytes.clone());
     }
     let mut bytes = Vec::new();
-    match is_stdin {
-        true => io::stdin().read_to_end(&mut bytes)?,
-        false => std::fs::File::open(path)?.read_to_end(&mut bytes)?,
-    };
+    let pipe: Box<dyn Read> =
+        if is_stdin { Box::new(io::stdin()) } else { Box::new(std::fs::File::open(path)?) };
+    if pipe.take(MOST_PIPED).read_to_end(&mut bytes)? as u64 == MOST_PIPED {
+        return Err(io::Error::other("a pipe or device without an end; expected a table"));
+    }
     pipes.insert(path.to_path_buf(), bytes.clone());
     Ok(bytes)
 }

@@ -112,6 +112,15 @@ impl Warnings {
         self.0.iter().map(line).collect()
     }
 
+    /// Adds a warning about a subject.
+    pub fn add(&mut self, warning: Warning, about: String) {
+        let subjects = self.0.entry(warning).or_default();
+        subjects.count += 1;
+        if subjects.named.len() < NAMED {
+            subjects.named.push(about);
+        }
+    }
+
     /// Adds warnings about other subjects.
     pub fn extend(&mut self, others: Warnings) {
         for (warning, others) in others.0 {
@@ -142,7 +151,7 @@ impl FromIterator<(Warning, String)> for Warnings {
     fn from_iter<I: IntoIterator<Item = (Warning, String)>>(warnings: I) -> Warnings {
         let mut all = Warnings::default();
         for (warning, about) in warnings {
-            all.extend(Warnings([(warning, Subjects { named: vec![about], count: 1 })].into()));
+            all.add(warning, about);
         }
         all
     }

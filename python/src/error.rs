@@ -6,6 +6,7 @@ use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rockfrag::inputs::InputError;
 use rockfrag::pipeline::UsageError;
+use rockfrag::pipeline::options::in_one_line;
 use rockfrag::table::TableError;
 
 pyo3::create_exception!(
@@ -27,7 +28,7 @@ pub fn to_python(error: &anyhow::Error) -> PyErr {
             || cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::NotFound)
     };
     let refused = error.downcast_ref::<clap::Error>();
-    let message = in_python(&refused.map_or_else(|| format!("{error:#}"), reason));
+    let message = in_python(&refused.map_or_else(|| format!("{error:#}"), in_one_line));
     if error.chain().any(is_missing) {
         PyFileNotFoundError::new_err(message)
     } else if refused.is_some() || error.chain().any(|cause| cause.is::<UsageError>()) {
@@ -35,14 +36,6 @@ pub fn to_python(error: &anyhow::Error) -> PyErr {
     } else {
         Error::new_err(message)
     }
-}
-
-/// What clap refuses and proposes, without the usage of the command.
-fn reason(refused: &clap::Error) -> String {
-    let text = refused.to_string();
-    let is_reason = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more information");
-    let lines = text.trim_start_matches("error: ").lines().take_while(is_reason);
-    lines.map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 /// A message in the words of Python: `--limit-state` is `limit_state`.

@@ -1,7 +1,6 @@
 //! The command line: commands, options and printed text.
 
 pub mod config;
-mod examples;
 mod yaml;
 
 use std::any::TypeId;
@@ -16,8 +15,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, Parser, Su
 use clap_complete::Shell;
 use serde_json::{Value, json};
 
-use self::config::{Config, assigned, lenient};
-use self::examples::with_examples;
+use self::config::{Config, assigned};
 use crate::number::shown;
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{COMMON, Common, Context, THREADS};
@@ -73,17 +71,22 @@ enum Tool {
 
 pub fn command() -> Command {
     let stages = Stages::augment_subcommands(Command::new("stages"));
-    let with_common = |stage: &Command| {
+    let stages = stages.get_subcommands().enumerate().map(|(place, stage)| {
         let about = stage.get_about().cloned().unwrap_or_default();
-        with_examples(Common::augment_args(stage.clone().args_override_self(true)).about(about))
-    };
-    let in_order = |(place, stage): (usize, Command)| stage.display_order(10 + place);
-    let stages = stages
-        .get_subcommands()
-        .map(|stage| with_common(stage).mut_args(with_hint))
-        .enumerate()
-        .map(in_order);
+        let stage = Common::augment_args(stage.clone().args_override_self(true)).about(about);
+        with_short_help(stage).mut_args(with_hint).display_order(10 + place)
+    });
     <Tool as clap::CommandFactory>::command().subcommands(stages)
+}
+
+/// Leaves the options that the examples of a command do not use to `--help`.
+fn with_short_help(command: Command) -> Command {
+    let examples = words(command.get_after_help());
+    let used: Vec<&str> = examples.split_whitespace().collect();
+    command.mut_args(|arg| {
+        let is_used = arg.get_long().is_none_or(|flag| used.contains(&&*format!("--{flag}")));
+        arg.hide_short_help(!is_used)
+    })
 }
 
 /// Tells shells how to complete a path.
@@ -99,18 +102,18 @@ fn with_hint(arg: Arg) -> Arg {
 pub fn stage_commands() -> Vec<Command> {
     let mut command = command();
     command.build();
-    let is_stage = |command: &&Command| Stages::has_subcommand(command.get_name());
-    command.get_subcommands().filter(is_stage).cloned().collect()
+    let commands = command.get_subcommands().filter(|command| Stages::has_subcommand(command.get_name()));
+    commands.cloned().collect()
 }
 
 /// Describes all stages and their options, as JSON.
 pub fn describe() -> Value {
-    let stage = |command: &Command| {
-        let options: Vec<Value> =
-            command.get_arguments().filter(|arg| arg.get_id() != "help").map(option).collect();
+    let stages = stage_commands().into_iter().map(|command| {
+        let options = command.get_arguments().filter(|arg| arg.get_id() != "help").map(option);
+        let options: Vec<Value> = options.collect();
         json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
-    };
-    Value::Array(stage_commands().iter().map(stage).collect())
+    });
+    stages.collect()
 }
 
 fn option(arg: &Arg) -> Value {
@@ -126,12 +129,12 @@ fn option(arg: &Arg) -> Value {
         None if numbers.iter().any(|number| value == *number) => "number",
         None => "text",
     };
-    let default = arg.get_default_values().iter().map(|value| value.to_string_lossy());
+    let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
     json!({
         "name": arg.get_long().unwrap_or(arg.get_id().as_str()),
         "kind": kind,
         "formats": path.map_or(&[][..], |path| path.formats),
-        "default": default.collect::<Vec<_>>().join(","),
+        "default": default.join(","),
         "help": words(arg.get_help()),
         "heading": arg.get_help_heading().unwrap_or_default(),
         "positional": arg.is_positional(),
@@ -207,11 +210,12 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
 /// Returns the call of a stage with the user's arguments, and those of its section where `--config` names a
 /// file.
 pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<Call> {
-    let known = lenient(command, user);
-    let config = known.and_then(|known| known.try_get_one::<PathBuf>("config").ok()?.cloned());
-    let section = match &config {
-        Some(path) => Config::read(path, &stage_commands())?.section(command, user)?,
-        None => Vec::new(),
+    // Without errors, which later parsing reports.
+    let words = [&[command.get_name().into()], user].concat();
+    let known = command.clone().ignore_errors(true).try_get_matches_from(words).unwrap_or_default();
+    let section = match known.try_get_one::<PathBuf>("config") {
+        Ok(Some(path)) => Config::read(path, &stage_commands())?.section(command, Some(&known))?,
+        _ => Vec::new(),
     };
     parsed(command, [section, user.to_vec()].concat())
 }
@@ -220,13 +224,18 @@ pub fn configured(command: &Command, user: &[OsString]) -> anyhow::Result<Call> 
 fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<Call> {
     let words = [vec![OsString::from("rockfrag"), command.get_name().into()], arguments].concat();
     // Parsed as part of the whole command line, which usage lines name.
-    let parse = |words: &[OsString]| self::command().try_get_matches_from(words);
-    let mut whole = parse(&words)?;
+    let mut whole = self::command().try_get_matches_from(&words)?;
     if let Some(out) = whole.subcommand().and_then(out_beside_in) {
-        whole = parse(&[words, vec![out]].concat())?;
+        whole = self::command().try_get_matches_from([words, vec![out]].concat())?;
     }
     let stage = Stages::from_arg_matches(&whole)?;
     let (options, stage) = (stage.options(), stage.parsed());
+    let inputs = stage.inputs();
+    let piped = inputs.iter().filter(|read| read.paths.contains(&PathBuf::from("-")));
+    let piped: Vec<String> = piped.map(|read| format!("--{}", read.flag)).collect();
+    if piped.len() > 1 {
+        return Err(UsageError::because(format!("{}: expected one of them from stdin", piped.join(", "))));
+    }
     stage.check()?;
     let matches = whole.subcommand_matches(command.get_name()).cloned().unwrap_or_default();
     let (name, common) = (command.get_name().to_string(), Common::from_arg_matches(&matches)?);
@@ -235,13 +244,12 @@ fn parsed(command: &Command, arguments: Vec<OsString>) -> anyhow::Result<Call> {
 
 /// Returns `--out` beside a given `--in`, if the user gives no `--out`.
 fn out_beside_in((_, matches): (&str, &ArgMatches)) -> Option<OsString> {
-    let is = |id: &str, source: ValueSource| {
-        matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(source)
-    };
-    if !(is("in", ValueSource::CommandLine) && is("out", ValueSource::DefaultValue)) {
-        return None;
-    }
-    let [input, out] = ["in", "out"].map(|id| matches.get_raw(id)?.next().map(PathBuf::from));
+    let [input, out] =
+        [("in", ValueSource::CommandLine), ("out", ValueSource::DefaultValue)].map(|(id, source)| {
+            matches.try_contains_id(id).ok()?;
+            let path = matches.get_raw(id)?.next().map(PathBuf::from);
+            path.filter(|_| matches.value_source(id) == Some(source))
+        });
     Some(assigned("out", input?.with_file_name(out?).as_os_str()))
 }
 
@@ -251,38 +259,42 @@ pub fn calls_of(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> any
     let mut config = Config::read(pipeline, &commands)?;
     config.seed = seed.map(|seed| seed.to_string()).or(config.seed);
     let folder = out.unwrap_or_else(|| config.out.clone());
-    let refuse = |problem: String| UsageError::because(format!("{}: {problem}", pipeline.display()));
-    let mut calls: Vec<Call> = Vec::new();
+    let (mut calls, mut written): (Vec<Call>, _) = (Vec::new(), HashMap::new());
     for command in commands.iter().filter(|command| config.has(command.get_name())) {
+        let name = command.get_name();
         let call = parsed(command, config.section_of_run(command, &folder)?);
-        calls.push(call.map_err(|error| match error.downcast_ref::<clap::Error>() {
-            Some(refused) => refuse(format!("{}: {}", command.get_name(), in_one_line(refused))),
+        let call = call.map_err(|error| match error.downcast_ref::<clap::Error>() {
+            Some(refused) => refuse(pipeline, &format!("{name}: {}", in_one_line(refused))),
             None => error,
-        })?);
-    }
-    let mut written = HashMap::new();
-    for call in &calls {
+        })?;
         for file in call.stage.outputs() {
             let text = file.display().to_string();
-            if let Some(first) = written.insert(file, &call.name) {
-                return Err(refuse(format!("{first} and {} both write {text}", call.name)));
+            if let Some(first) = written.insert(file, name) {
+                return Err(refuse(pipeline, &format!("{first} and {name} both write {text}")));
             }
         }
+        calls.push(call);
     }
     match calls.is_empty() {
-        true => Err(refuse("no stage; expected at least one".to_string())),
+        true => Err(refuse(pipeline, "no stage; expected at least one")),
         false => Ok(calls),
     }
 }
 
+fn refuse(pipeline: &Path, problem: &str) -> anyhow::Error {
+    UsageError::because(format!("{}: {problem}", pipeline.display()))
+}
+
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let by_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok();
-    let Some(threads) = common.threads.or_else(by_environment) else { return Ok(()) };
-    if threads > *THREADS.end() {
-        let most = THREADS.end();
-        return Err(UsageError::because(format!("RAYON_NUM_THREADS is {threads}; expected {most} at most")));
+    let by_environment = std::env::var("RAYON_NUM_THREADS").ok().and_then(|threads| threads.parse().ok());
+    match common.threads.or(by_environment) {
+        Some(threads) if threads > *THREADS.end() => Err(UsageError::because(format!(
+            "RAYON_NUM_THREADS is {threads}; expected {} at most",
+            THREADS.end()
+        ))),
+        Some(threads) => Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?),
+        None => Ok(()),
     }
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?)
 }
 
 /// Prints to stdout; a closed pipe (`| head`) is not an error.

@@ -78,21 +78,16 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
 /// Checks that an output is neither an input nor a pipe nor, unless forced, a table of another program. What
 /// is no table is checked when it is written.
 fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()> {
-    let refuse = |problem: &str| Err(UsageError::because(format!("{}: {problem}", out.display())));
     let Ok(real) = out.canonicalize() else { return Ok(()) };
-    if plan.files.iter().any(|file| file.path.canonicalize().is_ok_and(|path| path == real)) {
-        return refuse("is read and cannot be written too");
-    }
-    if real.is_dir() {
-        return refuse("is a folder; expected a file");
-    }
-    if is_pipe(&real) {
-        return refuse("is a pipe or device; expected a file");
-    }
-    if !force && !is_text(&real) && !is_ours(&real, &[]) {
-        return Err(TableError::not_ours(out).into());
-    }
-    Ok(())
+    let is_read = plan.files.iter().any(|file| file.path.canonicalize().is_ok_and(|path| path == real));
+    let problem = match () {
+        _ if is_read => "is read and cannot be written too",
+        _ if real.is_dir() => "is a folder; expected a file",
+        _ if is_pipe(&real) => "is a pipe or device; expected a file",
+        _ if force || is_text(&real) || is_ours(&real, &[]) => return Ok(()),
+        _ => return Err(TableError::not_ours(out).into()),
+    };
+    Err(UsageError::because(format!("{}: {problem}", out.display())))
 }
 
 /// Returns whether files of this ending have no mark, but headings or keys.

@@ -1,12 +1,10 @@
 //! Option types of several stages.
 
-use std::error::Error;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::str::FromStr;
 
-use clap::error::{ContextKind, ErrorKind};
 use serde::Serialize;
 
 use crate::number::count;
@@ -29,35 +27,33 @@ pub struct Steps(pub Vec<f64>);
 
 /// Largest number of values.
 const MOST_STEPS: f64 = 10_000.0;
+const EXPECTED_STEPS: &str = "expected rising numbers separated by commas, or first:last:step";
 
 impl FromStr for Steps {
-    type Err = String;
+    type Err = &'static str;
 
-    fn from_str(text: &str) -> Result<Steps, String> {
-        let expected = || "expected rising numbers separated by commas, or first:last:step".to_string();
-        let numbers =
-            |separator| text.split(separator).map(|part| part.trim().parse().map_err(|_| expected()));
-        let values: Vec<f64> = if text.contains(':') {
-            let parts = numbers(':').collect::<Result<Vec<f64>, _>>()?;
-            let [first, last, step] = parts[..] else { return Err(expected()) };
+    fn from_str(text: &str) -> Result<Steps, &'static str> {
+        let separator = if text.contains(':') { ':' } else { ',' };
+        let numbers = text.split(separator).map(|part| part.trim().parse());
+        let mut values = numbers.collect::<Result<Vec<f64>, _>>().map_err(|_| EXPECTED_STEPS)?;
+        if separator == ':' {
+            let [first, last, step] = values[..] else { return Err(EXPECTED_STEPS) };
             let steps = ((last - first) / step + 1e-9).floor();
             if !(step > 0.0 && (0.0..MOST_STEPS).contains(&steps)) {
-                return Err(expected());
+                return Err(EXPECTED_STEPS);
             }
-            (0..=steps as usize).map(|k| first + step * k as f64).collect()
-        } else {
-            numbers(',').collect::<Result<_, _>>()?
-        };
-        let rising = values.iter().all(|value| value.is_finite()) && values.is_sorted_by(|a, b| a < b);
-        if rising { Ok(Steps(values)) } else { Err(expected()) }
+            values = (0..=steps as usize).map(|k| first + step * k as f64).collect();
+        }
+        let is_rising = values.iter().all(|value| value.is_finite()) && values.is_sorted_by(|a, b| a < b);
+        if is_rising { Ok(Steps(values)) } else { Err(EXPECTED_STEPS) }
     }
 }
 
 /// Parses periods of spectral accelerations, s.
-pub fn periods(text: &str) -> Result<Steps, String> {
+pub fn periods(text: &str) -> Result<Steps, &'static str> {
     let steps: Steps = text.parse()?;
     let is_within = steps.0.iter().all(|period| (0.01..=20.0).contains(period));
-    if is_within { Ok(steps) } else { Err("expected periods in s, from 0.01 to 20".to_string()) }
+    if is_within { Ok(steps) } else { Err("expected periods in s, from 0.01 to 20") }
 }
 
 /// Lines that are printed of a list.
@@ -74,24 +70,13 @@ pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {
     format!("{first}and {} more, in {file}\n", count(lines + 1 - most))
 }
 
-/// Returns a refusal of options that are not on the command line, in one line.
+/// Returns what clap refuses and proposes in one line, without the usage of the command.
 pub fn in_one_line(refused: &clap::Error) -> String {
-    let word = |kind| refused.get(kind).map(|word| word.to_string());
-    let option = |kind| Some(word(kind)?.split(' ').next()?.trim_start_matches('-').to_string());
-    let value = word(ContextKind::InvalidValue).unwrap_or_default();
-    match (refused.kind(), option(ContextKind::InvalidArg), refused.source()) {
-        (ErrorKind::ValueValidation, Some(name), Some(expected)) => format!("{name} is {value}; {expected}"),
-        (ErrorKind::UnknownArgument, Some(name), _) => {
-            let similar = option(ContextKind::SuggestedArg);
-            let hint = similar.map_or(String::new(), |similar| format!("; did you mean '{similar}'?"));
-            format!("unknown option '{name}'{hint}")
-        }
-        _ => {
-            let text = refused.to_string();
-            let message = text.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ");
-            message.split_whitespace().collect::<Vec<_>>().join(" ")
-        }
-    }
+    let text = refused.to_string();
+    let lines = text.trim_start_matches("error: ").lines().map(str::trim);
+    let lines =
+        lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"));
+    lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }
 
 /// Joins the items of a list, the first few by name: `a, b, c and 9 more`.

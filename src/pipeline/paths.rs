@@ -84,9 +84,9 @@ macro_rules! path_types {
 
         /// Returns what kind of path an argument takes, if it takes one.
         pub fn path_kind(arg: &Arg) -> Option<PathKind> {
-            let of_type = arg.get_value_parser().type_id();
+            let parsed = arg.get_value_parser().type_id();
             let kinds = [$((TypeId::of::<$type>(), $type::KIND)),*];
-            kinds.into_iter().find(|(id, _)| of_type == *id).map(|(_, kind)| kind)
+            kinds.into_iter().find(|(id, _)| parsed == *id).map(|(_, kind)| kind)
         }
     };
 }
@@ -121,7 +121,7 @@ path_types! {
 }
 
 /// Returns the paths of a list, of which one may have a comma in its name if it is there.
-pub fn listed(folder: &Path, text: &str) -> Vec<String> {
+pub fn split_list(folder: &Path, text: &str) -> Vec<String> {
     match folder.join(text).exists() {
         true => vec![text.to_string()],
         false => text.split(',').map(str::to_string).collect(),
@@ -147,8 +147,8 @@ impl Read {
 
     /// Reads a table or, of a folder, the one file of a partition, whatever comes and goes beside it.
     pub fn partition(flag: &'static str, input: &Input, partition: Option<Partition>) -> Read {
-        let file = |partition: Partition| partition.file_of(input).ok().filter(|_| input.is_dir());
-        Read::new(flag, [partition.and_then(file).unwrap_or(input.to_path_buf())])
+        let file = partition.filter(|_| input.is_dir()).and_then(|partition| partition.file_of(input).ok());
+        Read::new(flag, [file.unwrap_or(input.to_path_buf())])
     }
 }
 

@@ -35,7 +35,7 @@ impl Plan {
 
     /// Returns the keys of the outputs.
     pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
-        let key = |(place, path): (usize, &PathBuf)| (resolved(path), self.output(place).key());
-        self.outputs.iter().enumerate().map(key)
+        let outputs = self.outputs.iter().enumerate();
+        outputs.map(|(place, path)| (resolved(path), self.output(place).key()))
     }
 }

@@ -22,6 +22,8 @@ use crate::table::rows;
 /// Compare fits of the paper's set-up with the published numbers
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag compare-paper\n\
+    rockfrag compare-paper --pex fits/pex.parquet --pro fits/pro.parquet --all --out paper.parquet")]
 pub struct ComparePaper {
     /// Fits of fit-pex
     #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
@@ -75,8 +77,8 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
     let agree = z.iter().filter(|z| z.abs() < AGREES).count();
     let others = compared.iter().filter(|row| row.published.is_some()).count() - z.len();
     let count = format!(
-        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run; {others} more \
-         have no value in it, or no known spread\n",
+        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run; {others} \
+         more have no value in it, or no known spread\n",
         counted(z.len(), "published number")
     );
     match differences {
@@ -123,9 +125,8 @@ fn other_options(fits: &Path) -> Vec<String> {
         let paper = Stages::defaults(&made.stage);
         let flags: BTreeSet<&String> = made.arguments.keys().chain(paper.keys()).collect();
         for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
-            let file = || made.names(flag).unwrap_or("none".to_string());
-            let now = made.arguments.get(flag).map_or_else(file, text_of);
-            let then = paper.get(flag).map_or("none".to_string(), text_of);
+            let now = made.arguments.get(flag).map(text_of).or(made.names(flag));
+            let [now, then] = [now, paper.get(flag).map(text_of)].map(|text| text.unwrap_or("none".into()));
             if now != then {
                 differences.push(format!("{} --{flag} {now}, not {then}", made.stage));
             }

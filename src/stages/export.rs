@@ -23,6 +23,8 @@ use crate::warning::Warnings;
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag export --width 0.5 --height 1.9 --to openquake --out cabinet.xml\n\
+    rockfrag export --structures objects.csv --to pelicun --im pga --fits fits --suite csgm")]
 pub struct Export {
     /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]

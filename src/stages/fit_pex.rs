@@ -21,6 +21,8 @@ use crate::statistics::FitStatus;
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag fit-pex\n\
+    rockfrag fit-pex --in responses.parquet --limit-state 0.1,0.5 --all --out fits/pex.parquet")]
 pub struct FitPex {
     /// Responses to read
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -89,8 +91,8 @@ impl Stage for FitPex {
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
             fits.extend(fit_demand(cases, self.transition.0, self.confidence, self.all));
-            let of_limit = |limit_state: &f64| Calibration::fit(cases, Some(*limit_state));
-            calibrations.extend(self.limit_state.iter().map(of_limit));
+            let limits = self.limit_state.iter();
+            calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
             sds.push(sd_of_one_plane(cases));
             bar.advance(1)?;
         }
@@ -111,19 +113,19 @@ impl Stage for FitPex {
 /// The paper's planes, with the residual standard deviation of both and of one plane in their place (`sds`).
 fn planes_text(fits: &[DemandFit], sds: &[Option<f64>], out: &Path) -> String {
     let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
-    let line = |(pair, one): (&[&DemandFit], &Option<f64>)| {
+    let lines = planes.chunks_exact(2).zip(sds).map(|(pair, one)| {
         let (below, above) = (pair[0], pair[1]);
-        let [transition, r2_below, r2_above, sd, one] =
-            [below.range_high, below.r2, above.r2, below.sd_with(above), *one]
-                .map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
+        let numbers = [below.range_high, below.r2, above.r2, below.sd_with(above), *one];
+        let numbers = numbers.map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
         let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
-        let (suite, structure) = (suite_name(&below.suite), below.structure.clone());
-        vec![suite, structure, transition, r2_below, r2_above, sd, one, verdict]
-    };
+        let names = [suite_name(&below.suite), below.structure.clone()];
+        names.into_iter().chain(numbers).chain([verdict]).collect()
+    });
     let headings =
         ["suite", "structure", "transition", "R2 below", "R2 above", "sd", "sd of one plane", "verdict"];
-    let lines = text(&headings, planes.chunks_exact(2).zip(sds).map(line), 2..7, out);
     format!(
-        "planes (paper), below and above the transition; sd of ln demand, also of one plane in ln(ln IM4) and ln IM3\n{lines}"
+        "planes (paper), below and above the transition; sd of ln demand, also of one plane in ln(ln IM4) \
+         and ln IM3\n{}",
+        text(&headings, lines, 2..7, out)
     )
 }

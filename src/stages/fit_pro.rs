@@ -17,6 +17,8 @@ use crate::pipeline::{Stage, UsageError};
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag fit-pro\n\
+    rockfrag fit-pro --in responses.parquet --pairs im4:im5 --all --out fits/pro.parquet")]
 pub struct FitPro {
     /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -105,17 +107,16 @@ impl FitPro {
 }
 
 fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
-    let line = |fit: &CurveFit| {
+    let curves = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
+    let lines = curves.map(|fit| {
         let parameters = fit.parameters(confidence);
-        let of = |wanted: Parameter| match parameters.iter().find(|row| row.parameter == wanted) {
-            Some(row) => THREE_DIGITS.both(row.estimate().into(), ""),
-            None => "-".to_string(),
-        };
-        let (median, dispersion) = (of(Parameter::Theta), of(Parameter::Beta));
+        let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(|wanted| {
+            let row = parameters.iter().find(|row| row.parameter == wanted);
+            row.map_or("-".to_string(), |row| THREE_DIGITS.both(row.estimate().into(), ""))
+        });
         vec![suite_name(&fit.suite), fit.structure.clone(), median, dispersion, verdict(fit.status)]
-    };
-    let of_im5 = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
+    });
     let headings = ["suite", "structure", "median", "dispersion", "verdict"];
-    let lines = text(&headings, of_im5.map(line), 0..0, out);
+    let lines = text(&headings, lines, 0..0, out);
     format!("lognormal curve (paper) of IM5, with {} % limits\n{lines}", 100.0 * confidence)
 }

@@ -9,7 +9,7 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::motion::{Floor, MeasurePlan, MeasureScratch, Measured, MotionMeasures, Suite};
+use crate::motion::{Floor, MeasurePlan, MeasureScratch, MotionMeasures, Suite};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -19,7 +19,7 @@ use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
 use crate::table::file::{Partition, or_error};
-use crate::table::motions::{ACCELERATION, Sampled, batch, open, read, record, spectral_period_s};
+use crate::table::motions::{ACCELERATION, batch, open, read, record, spectral_period_s};
 use crate::table::rows;
 
 /// Motions that a thread takes at once, and such parts that are in memory, for each thread.
@@ -29,6 +29,8 @@ const PARTS_A_THREAD: usize = 2;
 /// Filter motions through a linear building to one of its floors
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag floor-motions --in motions.parquet --period 0.6 --level 0.5 \
+    --out floor.parquet")]
 pub struct FloorMotions {
     /// Motions of the ground to read: motion_id, dt_s and acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
@@ -37,13 +39,16 @@ pub struct FloorMotions {
     #[arg(long, value_name = "FILE", default_value = "floor.parquet")]
     out: Output,
     /// First period of the building, s
-    #[arg(long, value_name = "S", value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
+    #[arg(long, value_name = "S",
+          value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
     period: f64,
     /// Height of the floor over that of the roof, 0 to 1
-    #[arg(long, value_name = "Z", value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"))]
+    #[arg(long, value_name = "Z",
+          value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"))]
     level: f64,
     /// Damping ratio of the modes
-    #[arg(long, value_name = "RATIO", default_value = "0.05", value_parser = number(0.005..=0.5, "a ratio from 0.005 to 0.5: is it in percent?"))]
+    #[arg(long, value_name = "RATIO", default_value = "0.05",
+          value_parser = number(0.005..=0.5, "a ratio from 0.005 to 0.5: is it in percent?"))]
     damping: f64,
     /// Only part i of n (0 to n - 1), into the folder --out
     #[arg(long, value_name = "I/N")]
@@ -70,9 +75,8 @@ impl Stage for FloorMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = open(&self.input, self.partition)?;
         if table.schema().index_of("floor_level").is_ok() {
-            return Err(
-                TableError::table(&self.input, "motions of a floor; expected those of the ground").into()
-            );
+            let problem = "motions of a floor; expected those of the ground";
+            return Err(TableError::table(&self.input, problem).into());
         }
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
@@ -80,15 +84,17 @@ impl Stage for FloorMotions {
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         let pool = Pool::new(MeasureScratch::default);
         let bar = context.bar(table.rows());
-        let read = |group| or_error(read(&table, &group, &|_| true, AT_ONCE));
-        let parts = table.row_groups().into_iter().flat_map(read);
-        let filtered = |(part, samples): Sampled| -> anyhow::Result<RecordBatch> {
-            bar.advance(part.rows.num_rows())?;
-            pool.with(|scratch| self.filter(&part, &samples, scratch))
-        };
+        let parts = table.row_groups().into_iter();
+        let parts = parts.flat_map(|group| or_error(read(&table, &group, &|_| true, AT_ONCE)));
         pipelined(
             batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
-            |parts| parts.into_par_iter().map(filtered).collect::<anyhow::Result<Vec<_>>>(),
+            |parts| {
+                let filtered = parts.into_par_iter().map(|(part, samples)| {
+                    bar.advance(part.rows.num_rows())?;
+                    pool.with(|scratch| self.filter(&part, &samples, scratch))
+                });
+                filtered.collect::<anyhow::Result<Vec<_>>>()
+            },
             |parts| Ok(parts.iter().try_for_each(|part| writer.append(part))?),
         )?;
         let summary =
@@ -115,21 +121,21 @@ impl FloorMotions {
         let (mut filtered, mut measured) = (Vec::new(), Vec::new());
         for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
             record(&ground.path, ground.first_row + row, acceleration, dt_s)?;
-            let of_floor: Vec<f32> =
-                floor.motion(acceleration, dt_s, self.damping).iter().map(|&a| a as f32).collect();
-            let written: Vec<f64> = of_floor.iter().map(|&a| f64::from(a)).collect();
+            let moved = floor.motion(acceleration, dt_s, self.damping);
+            let moved: Vec<f32> = moved.iter().map(|&a| a as f32).collect();
+            let written: Vec<f64> = moved.iter().map(|&a| f64::from(a)).collect();
             measured.push(plan.measure(&written, dt_s, scratch));
-            filtered.push(of_floor);
+            filtered.push(moved);
         }
-        let floor_row = |suite: Option<Cow<str>>| FloorRow {
+        let floors = ground.texts("suite")?.into_iter().map(|suite| FloorRow {
             suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::OF_FLOOR,
             floor_period_s: self.period,
             floor_level: self.level,
-        };
-        let floors: Vec<FloorRow> = ground.texts("suite")?.into_iter().map(floor_row).collect();
-        let measures: Vec<MotionMeasures> = measured.iter().map(|of: &Measured| of.measures).collect();
-        let known = [others(&ground.rows)?, rows::batch(&floors)?, rows::batch(&measures)?];
-        let sa: Vec<&[f64]> = measured.iter().map(|of| of.sa_m_s2.as_slice()).collect();
+        });
+        let floors: Vec<FloorRow> = floors.collect();
+        let measures = rows::batch(measured.iter().map(|measured| &measured.measures))?;
+        let known = [others(&ground.rows)?, rows::batch(&floors)?, measures];
+        let sa: Vec<&[f64]> = measured.iter().map(|measured| measured.sa_m_s2.as_slice()).collect();
         batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
     }
 }
@@ -137,14 +143,12 @@ impl FloorMotions {
 /// All columns that are neither the suite nor samples nor measures of them, with unit and meaning.
 fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
-    let is_measure = |name: &str| {
-        name == ACCELERATION
-            || name == "suite"
-            || spectral_period_s(name).is_some()
-            || measures.index_of(name).is_ok()
+    let is_other = |&at: &usize| {
+        let name = schema.field(at).name();
+        !(name == ACCELERATION || name == "suite" || spectral_period_s(name).is_some())
+            && measures.index_of(name).is_err()
     };
-    let kept: Vec<usize> =
-        (0..schema.fields().len()).filter(|&at| !is_measure(schema.field(at).name())).collect();
+    let kept: Vec<usize> = (0..schema.fields().len()).filter(is_other).collect();
     let rows = rows.project(&kept)?;
     let schema = rows.schema();
     let fields = schema.fields().iter().map(|field| dictionary::with_meaning(field.as_ref().clone()));

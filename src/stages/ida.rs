@@ -1,15 +1,13 @@
 //! ida: every structure under every motion at rising intensity.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use arrow_array::RecordBatch;
 use clap::Args;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{Measures, expect_distinct, warnings};
+use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
 use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
 use crate::motion::{IntensityMeasures, MeasureScratch};
@@ -17,16 +15,16 @@ use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::paths::{Input, Output, Read, part};
-use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::pipeline::{InRun, Stage, UsageError};
 use crate::plausibility::MOST_SCALED;
 use crate::rocking::{
-    CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
+    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
+    simulate_all,
 };
 use crate::statistics::FitStatus;
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
-use crate::table::motions::{self, ACCELERATION, Motion, Part};
+use crate::table::motions::{self, ACCELERATION, Motion};
 use crate::table::responses::{self, ResponseRow};
 use crate::table::{frame, rows};
 use crate::units::G_M_S2;
@@ -41,6 +39,8 @@ const MOST_SAMPLES: usize = 1 << 20;
 /// Scale motions until they overturn each structure (incremental dynamic analysis)
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag ida --width 0.5 --height 1.9 --measure pga --from 0.1 --to 3\n\
+    rockfrag ida --in motions.parquet --structures objects.csv --out ida.parquet")]
 pub struct Ida {
     /// Motions to read, as in simulate
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
@@ -52,13 +52,16 @@ pub struct Ida {
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
     /// Smallest intensity, in the unit of --measure
-    #[arg(long, default_value = "0.1", value_name = "IM", value_parser = number(1e-9..=1e9, "an intensity above 0"))]
+    #[arg(long, default_value = "0.1", value_name = "IM",
+          value_parser = number(1e-9..=1e9, "an intensity above 0"))]
     from: f64,
     /// Largest intensity, in the unit of --measure
-    #[arg(long, default_value = "10", value_name = "IM", value_parser = number(1e-9..=1e9, "an intensity above 0"))]
+    #[arg(long, default_value = "10", value_name = "IM",
+          value_parser = number(1e-9..=1e9, "an intensity above 0"))]
     to: f64,
     /// Number of steps, in equal ratios
-    #[arg(long, default_value = "60", value_name = "N", value_parser = number(1..=10_000_usize, "1 to 10,000"))]
+    #[arg(long, default_value = "60", value_name = "N",
+          value_parser = number(1..=10_000_usize, "1 to 10,000"))]
     steps: usize,
     #[command(flatten)]
     #[serde(flatten)]
@@ -77,12 +80,16 @@ struct StripeRow {
 
 /// What came of some motions.
 struct Analysed {
-    motion_ids: Vec<String>,
     stripes: RecordBatch,
-    capacities: Vec<CapacityRow>,
-    /// Whether the structure overturns at each level, for each of the capacities.
-    overturns: Vec<Vec<bool>>,
+    scanned: Vec<Scanned>,
     warnings: Warnings,
+}
+
+/// What came of a structure under a motion.
+struct Scanned {
+    capacity: CapacityRow,
+    /// Whether the structure overturns at each level.
+    overturns: Vec<bool>,
 }
 
 /// A structure under a motion.
@@ -113,65 +120,43 @@ impl Stage for Ida {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        if self.to <= self.from {
-            return Err(UsageError::because(format!(
-                "to is {}; expected an intensity above {}",
-                self.to, self.from
-            )));
-        }
-        let (most, expected) = match self.measure {
-            ScaledMeasure::Pga => (MOST_SCALED, "a PGA up to 20 g: is it in m/s2?"),
-            ScaledMeasure::Pgv => (MOST_SCALED, "a PGV up to 20 m/s: is it in cm/s?"),
-            _ => (f64::INFINITY, ""),
+        let Ida { from, to, .. } = self;
+        let expected = match self.measure {
+            _ if to <= from => format!("an intensity above {from}"),
+            ScaledMeasure::Pga if *to > MOST_SCALED => "a PGA up to 20 g: is it in m/s2?".to_string(),
+            ScaledMeasure::Pgv if *to > MOST_SCALED => "a PGV up to 20 m/s: is it in cm/s?".to_string(),
+            _ => return self.structures.resolve().map(|_| ()),
         };
-        if self.to > most {
-            return Err(UsageError::because(format!("to is {}; expected {expected}", self.to)));
-        }
-        self.structures.resolve().map(|_| ())
+        Err(UsageError::because(format!("to is {to}; expected {expected}")))
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, warnings) = self.structures.resolve()?;
+        let (objects, warnings) = self.structures.resolve()?;
         context.warn(warnings);
+        let structures: Vec<&Structure> = objects.iter().map(|directions| &directions[0]).collect();
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
-        let mut stripes = context.create(&stripes_file, &stripes_of(&[], &[], &[])?.schema())?;
-        let (mut ids, mut capacities, mut overturns) = (HashSet::new(), Vec::new(), Vec::new());
-        let pool = Pool::new(MeasureScratch::default);
-        let bar = context.bar(motions.rows());
-        let analyse = |(path, some): (Arc<Path>, Vec<Motion>)| {
-            bar.advance(some.len())?;
-            pool.with(|scratch| self.analyse(&scan, &structures, &path, &some, scratch))
-        };
-        pipelined(
-            batches(motions::parts(&motions), rayon::current_num_threads()),
-            |parts| {
-                let read = |part: Part| {
-                    motions::read_part(&motions, part, CHUNK)?.collect::<Result<Vec<_>, TableError>>()
-                };
-                let chunks = parts.into_iter().map(read).collect::<Result<Vec<_>, TableError>>()?;
-                chunks.concat().into_par_iter().map(analyse).collect::<anyhow::Result<Vec<Analysed>>>()
-            },
-            |analysed| {
-                for some in analysed {
-                    expect_distinct(&mut ids, &self.input, some.motion_ids)?;
-                    stripes.append(&some.stripes)?;
-                    capacities.extend(some.capacities);
-                    overturns.extend(some.overturns);
-                    context.warn(some.warnings);
-                }
+        let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[], &[])?.schema())?;
+        let mut scanned = Vec::new();
+        each(
+            context,
+            &motions,
+            CHUNK,
+            |path, some, scratch| self.analyse(&scan, &structures, path, some, scratch),
+            |some| {
+                stripes.append(&some.stripes)?;
+                scanned.extend(some.scanned);
+                context.warn(some.warnings);
                 Ok(())
             },
         )?;
-        let groups = frame::groups(capacities.iter().map(CapacityRow::group))?;
-        let fit = |rows: &Vec<usize>| CapacityFitRow {
-            half_overturn_at: half_overturn_at(&scan.levels, &overturns, rows),
-            ..self.fit(&capacities, rows)
-        };
-        let fits: Vec<_> = groups.iter().map(fit).collect();
+        let groups = frame::groups(scanned.iter().map(|case| case.capacity.group()))?;
+        let groups = groups.iter().map(|rows| rows.iter().map(|&row| &scanned[row]).collect::<Vec<_>>());
+        let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));
         let summary = summary(&fits, &self.out);
+        let capacities: Vec<CapacityRow> = scanned.into_iter().map(|case| case.capacity).collect();
         context.finish(stripes, &summary)?;
         context.write(&fragility_file, &fits, &summary)?;
         context.write(&self.out, &capacities, &summary)?;
@@ -184,7 +169,7 @@ impl Ida {
     fn analyse(
         &self,
         scan: &Scan,
-        structures: &[Structure],
+        structures: &[&Structure],
         path: &Path,
         motions: &[Motion],
         scratch: &mut MeasureScratch,
@@ -194,75 +179,75 @@ impl Ida {
             let record = motion.record(path)?;
             let measures = Measures::new(motion, &record, scratch);
             warned.extend(warnings(motion, &record));
-            for structure in structures {
+            for &structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
                     let problem = "above 0 to scale; leave the motion out, or take --measure scale";
-                    value_error(path, motion, format!("no {} {problem}", self.measure))
+                    value_error(path, motion, &format!("no {} {problem}", self.measure))
                 })?;
                 cases.push(Case { path, motion, measures, structure, unscaled });
             }
         }
-        let scans = scan.run(cases.len(), |points| respond(&cases, points))?;
-        let (mut responses, mut measured) = (Vec::new(), Vec::new());
-        let (mut stripes, mut capacities, mut overturns) = (Vec::new(), Vec::new(), Vec::new());
-        for (case, scanned) in cases.iter().zip(&scans) {
-            let capacity = scan.capacity(scanned);
-            capacities.push(CapacityRow {
-                motion_id: case.motion.motion_id.clone(),
-                suite: case.motion.suite.clone(),
-                earthquake: case.motion.earthquake.clone(),
-                mw: case.motion.mw,
-                re_km: case.motion.re_km,
-                structure: case.structure.name.clone(),
-                measure: self.measure,
-                unscaled: case.unscaled,
-                capacity: capacity.status,
-                safe_below: capacity.safe_below,
-                overturning_intensity: capacity.overturning,
-                safe_up_to: capacity.safe_up_to,
+        let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
+        let (mut rows, mut measured, mut stripes) = (Vec::new(), Vec::new(), Vec::new());
+        let mut scanned = Vec::new();
+        for (case, responses) in cases.iter().zip(&responses) {
+            let at_levels = responses
+                .iter()
+                .filter(|at| scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok());
+            scanned.push(Scanned {
+                capacity: self.capacity(&scan.capacity(responses), case),
+                overturns: at_levels.clone().map(ScanResponse::overturns).collect(),
             });
-            let shares = scan.overturning_shares(scanned).into_iter().map(Some).chain([None]);
-            let is_level = |at: &&ScanResponse| {
-                scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok()
-            };
-            overturns.push(scanned.iter().filter(is_level).map(ScanResponse::overturns).collect());
-            for (at, overturning_above) in scanned.iter().filter(is_level).zip(shares) {
-                let scale = at.intensity / case.unscaled;
+            let shares = scan.overturning_shares(responses).into_iter().map(Some).chain([None]);
+            for (&ScanResponse { intensity, response }, overturning_above) in at_levels.zip(shares) {
+                let scale = intensity / case.unscaled;
                 let measures = case.measures.scaled(scale);
-                responses.push(measures.response_row(case.motion, case.structure, at.response));
-                measured.push(measures.of_structure(case.structure));
-                let (measure, intensity) = (self.measure, at.intensity);
-                stripes.push(StripeRow { measure, intensity, scale, overturning_above });
+                rows.push(measures.response_row(case.motion, case.structure, response));
+                measured.push(measures.dimensionless(case.structure));
+                stripes.push(StripeRow { measure: self.measure, intensity, scale, overturning_above });
             }
         }
-        Ok(Analysed {
-            motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
-            stripes: stripes_of(&responses, &measured, &stripes)?,
-            capacities,
-            overturns,
-            warnings: warned,
-        })
+        Ok(Analysed { stripes: side_by_side(&rows, &measured, &stripes)?, scanned, warnings: warned })
     }
 
-    /// The lognormal distribution of the capacities of a suite and structure, which are these rows.
-    fn fit(&self, capacities: &[CapacityRow], rows: &[usize]) -> CapacityFitRow {
-        let rows: Vec<&CapacityRow> = rows.iter().map(|&row| &capacities[row]).collect();
-        let known = |row: &&CapacityRow| match (row.capacity, row.overturning_intensity) {
-            (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
-            (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
-            _ => KnownCapacity::Above(self.to),
-        };
-        let clusters = clusters(&rows);
-        let fit = fit_capacities(&rows.iter().map(known).collect::<Vec<_>>(), &clusters);
-        let count = |status: CapacityStatus| rows.iter().filter(|row| row.capacity == status).count() as i64;
+    fn capacity(&self, capacity: &Capacity, case: &Case) -> CapacityRow {
+        CapacityRow {
+            motion_id: case.motion.motion_id.clone(),
+            suite: case.motion.suite.clone(),
+            earthquake: case.motion.earthquake.clone(),
+            mw: case.motion.mw,
+            re_km: case.motion.re_km,
+            structure: case.structure.name.clone(),
+            measure: self.measure,
+            unscaled: case.unscaled,
+            capacity: capacity.status,
+            safe_below: capacity.safe_below,
+            overturning_intensity: capacity.overturning,
+            safe_up_to: capacity.safe_up_to,
+        }
+    }
+
+    /// The lognormal distribution of the capacities of a suite and structure.
+    fn fit(&self, levels: &[f64], cases: &[&Scanned]) -> CapacityFitRow {
+        let known = cases.iter().map(|Scanned { capacity, .. }| {
+            match (capacity.capacity, capacity.overturning_intensity) {
+                (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
+                (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
+                _ => KnownCapacity::Above(self.to),
+            }
+        });
+        let fit = fit_capacities(&known.collect::<Vec<_>>(), &clusters(cases));
+        let [n_safe, n_below] = [CapacityStatus::Safe, CapacityStatus::Below]
+            .map(|status| cases.iter().filter(|case| case.capacity.capacity == status).count() as i64);
+        let first = &cases[0].capacity;
         CapacityFitRow {
-            suite: rows[0].suite.clone(),
-            structure: rows[0].structure.clone(),
-            measure: rows[0].measure,
-            n: rows.len() as i64,
-            n_safe: count(CapacityStatus::Safe),
-            n_below: count(CapacityStatus::Below),
-            half_overturn_at: None,
+            suite: first.suite.clone(),
+            structure: first.structure.clone(),
+            measure: first.measure,
+            n: cases.len() as i64,
+            n_safe,
+            n_below,
+            half_overturn_at: half_overturn_at(levels, cases),
             theta: fit.as_ref().map(|fit| fit.theta.into()).unwrap_or_default(),
             beta: fit.as_ref().map(|fit| fit.beta.into()).unwrap_or_default(),
             status: fit.err().unwrap_or(FitStatus::Ok),
@@ -272,28 +257,24 @@ impl Ida {
 
 /// Numbers the clusters of capacities as fits do: by earthquake, else by magnitude and distance; a motion
 /// that shares nothing is its own.
-fn clusters(rows: &[&CapacityRow]) -> Vec<u32> {
-    let mut numbers: BTreeMap<Cluster, u32> = BTreeMap::new();
-    let mut next = 0..;
-    let mut number = |row: &&CapacityRow| {
-        let [mw, re_km] = [row.mw, row.re_km].map(|value| value.unwrap_or(f64::NAN));
-        let new = next.next().unwrap_or(u32::MAX);
-        match Cluster::of(row.earthquake.as_deref(), mw, re_km) {
-            Some(cluster) => *numbers.entry(cluster).or_insert(new),
-            None => new,
-        }
-    };
-    rows.iter().map(&mut number).collect()
+fn clusters(cases: &[&Scanned]) -> Vec<u32> {
+    let mut numbers = BTreeMap::new();
+    let numbered = (0..).zip(cases).map(|(next, Scanned { capacity, .. })| {
+        let [mw, re_km] = [capacity.mw, capacity.re_km].map(|value| value.unwrap_or(f64::NAN));
+        let cluster = Cluster::of(capacity.earthquake.as_deref(), mw, re_km);
+        cluster.map_or(next, |cluster| *numbers.entry(cluster).or_insert(next))
+    });
+    numbered.collect()
 }
 
 /// The lowest level at which half of some motions overturn a structure, by the share in between: along ln
 /// of the intensity. None if it is below the first level or above the last.
-fn half_overturn_at(levels: &[f64], overturns: &[Vec<bool>], rows: &[usize]) -> Option<f64> {
-    let share =
-        |level: usize| rows.iter().filter(|&&row| overturns[row][level]).count() as f64 / rows.len() as f64;
-    let at = (0..levels.len()).find(|&level| share(level) >= 0.5).filter(|&level| level > 0)?;
-    let (before, after) = (share(at - 1), share(at));
-    let fraction = (0.5 - before) / (after - before);
+fn half_overturn_at(levels: &[f64], cases: &[&Scanned]) -> Option<f64> {
+    let shares = (0..levels.len())
+        .map(|level| cases.iter().filter(|case| case.overturns[level]).count() as f64 / cases.len() as f64);
+    let shares: Vec<f64> = shares.collect();
+    let at = shares.iter().position(|share| *share >= 0.5).filter(|&level| level > 0)?;
+    let fraction = (0.5 - shares[at - 1]) / (shares[at] - shares[at - 1]);
     Some(levels[at - 1] * (levels[at] / levels[at - 1]).powf(fraction))
 }
 
@@ -310,9 +291,9 @@ impl ScaledMeasure {
         }
     }
 
-    /// That of the unscaled motion; `None` if it has none, or the ground does not move.
+    /// The measure of a motion as it is; `None` if it has none, or the ground does not move.
     fn unscaled(self, measures: &Measures, structure: &Structure) -> Option<f64> {
-        let dimensionless = measures.of_structure(structure);
+        let dimensionless = measures.dimensionless(structure);
         let value = match self {
             ScaledMeasure::Scale => Some(1.0),
             ScaledMeasure::Pga => Some(measures.pga_m_s2 / G_M_S2),
@@ -326,7 +307,7 @@ impl ScaledMeasure {
 }
 
 /// Responses and what stripes have besides, side by side.
-fn stripes_of(
+fn side_by_side(
     responses: &[ResponseRow],
     measures: &[IntensityMeasures],
     stripes: &[StripeRow],
@@ -337,47 +318,40 @@ fn stripes_of(
 /// Simulates scaled copies of motions, as many at once as fit.
 fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
     let mut responses = Vec::with_capacity(points.len());
-    let samples = |point: &ScanPoint| cases[point.case].motion.acceleration_m_s2.len();
-    let mut rest = points;
-    while !rest.is_empty() {
-        let mut held = 0;
-        let fits = |point: &&ScanPoint| {
-            held += samples(point);
-            held <= MOST_SAMPLES
-        };
-        let (block, later) = rest.split_at(rest.iter().take_while(fits).count().max(1));
-        let scaled = |point: &ScanPoint| {
+    while let Some(next) = points.get(responses.len()..).filter(|next| !next.is_empty()) {
+        let (mut scaled, mut held): (Vec<Vec<f64>>, usize) = (Vec::new(), 0);
+        for point in next {
             let Case { motion, unscaled, .. } = cases[point.case];
+            held += motion.acceleration_m_s2.len();
+            if held > MOST_SAMPLES && !scaled.is_empty() {
+                break;
+            }
             let scale = point.intensity / unscaled;
-            motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect()
-        };
-        let scaled: Vec<Vec<f64>> = block.iter().map(scaled).collect();
-        let problems = block.iter().zip(&scaled).map(|(point, samples)| {
+            scaled.push(motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect());
+        }
+        let problems = next.iter().zip(&scaled).map(|(point, samples)| {
             let Case { path, motion, structure, .. } = cases[point.case];
-            let record = Record::new(samples, motion.dt_s);
-            let record = record.map_err(|problem| {
-                value_error(path, motion, format!("{problem}; scale less by a lower --to"))
+            let record = Record::new(samples, motion.dt_s).map_err(|problem| {
+                value_error(path, motion, &format!("{problem}; scale less by a lower --to"))
             })?;
             Ok(Problem { structure, record })
         });
         responses.extend(simulate_all(&problems.collect::<Result<Vec<_>, TableError>>()?));
-        rest = later;
     }
     Ok(responses)
 }
 
-fn value_error(path: &Path, motion: &Motion, problem: String) -> TableError {
-    let problem = format!("motion '{}': {problem}", motion.motion_id);
-    TableError::value(path, motion.row, ACCELERATION, problem)
+fn value_error(path: &Path, motion: &Motion, problem: &str) -> TableError {
+    TableError::value(path, motion.row, ACCELERATION, format!("motion '{}': {problem}", motion.motion_id))
 }
 
-/// Of the structures that half of the motions or more do not overturn, or overturn at the first intensity, so
-/// that there is no median.
+/// Warns of structures without a median: half of the motions or more do not overturn them, or do so at the
+/// first intensity.
 fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     let early = fits.iter().filter(|row| row.theta.value.is_none() && 2 * row.n_safe >= row.n);
     let late = fits.iter().filter(|row| 2 * row.n_below >= row.n);
-    let late = late.map(|row| (Warning::ScanStartsLate, row.structure.clone()));
-    early.map(|row| (Warning::ScanEndsEarly, row.structure.clone())).chain(late).collect()
+    let early = early.map(|row| (Warning::ScanEndsEarly, row.structure.clone()));
+    early.chain(late.map(|row| (Warning::ScanStartsLate, row.structure.clone()))).collect()
 }
 
 /// A line a structure: where half of the motions overturn it, and the median of the lowest intensities that
@@ -385,11 +359,14 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {
-        let weakness =
-            |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
         fits.sort_by(|a, b| weakness(a).total_cmp(&weakness(b)));
     }
     first_lines(&fits.iter().map(|row| line(row)).collect::<String>(), 0, out)
+}
+
+/// The intensity by which the weakest structures are found.
+fn weakness(row: &CapacityFitRow) -> f64 {
+    row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY)
 }
 
 fn line(row: &CapacityFitRow) -> String {
@@ -397,9 +374,7 @@ fn line(row: &CapacityFitRow) -> String {
     let (measure, unit) = row.measure.words();
     let half = match row.half_overturn_at {
         Some(at) => format!("half of the motions overturn it at {measure} {}{unit}", significant(at, 3)),
-        None if 2 * row.n_below >= row.n => {
-            "half of the motions overturn it at the first intensity".to_string()
-        }
+        None if 2 * row.n_below >= row.n => "half of the motions overturn it at the first intensity".into(),
         None => {
             let motions = counted(row.n as usize, "motion");
             format!("{} of {motions} never overturn it, half of them at no intensity", row.n_safe)

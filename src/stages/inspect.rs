@@ -70,10 +70,9 @@ impl Inspect {
                 for (name, values) in &made.arguments {
                     writeln!(text, "  --{name} {}", text_of(values))?;
                 }
-                made.warnings
-                    .lines()
-                    .iter()
-                    .try_for_each(|warning| writeln!(text, "  warning: {warning}"))?;
+                for warning in made.warnings.lines() {
+                    writeln!(text, "  warning: {warning}")?;
+                }
             }
         }
         Ok(cut(&format!("{text}\n{shown}")))
@@ -85,28 +84,27 @@ const WIDTH: usize = 100;
 
 /// Lines that fit the terminal; what is cut stands in the other formats.
 fn cut(text: &str) -> String {
-    let line = |line: &str| match line.char_indices().nth(WIDTH) {
+    let lines = text.lines().map(|line| match line.char_indices().nth(WIDTH) {
         None => format!("{line}\n"),
         Some(_) => format!("{}...\n", line.chars().take(WIDTH - 3).collect::<String>().trim_end()),
-    };
-    text.lines().map(line).collect()
+    });
+    lines.collect()
 }
 
 fn column(field: &Field, metadata: &ParquetMetaData) -> ColumnRow {
     let (unit, meaning) = dictionary::entry(field.name()).unwrap_or_default();
-    let descriptor = metadata.file_metadata().schema_descr();
-    let leaf =
-        (0..descriptor.num_columns()).find(|leaf| descriptor.get_column_root(*leaf).name() == field.name());
-    let of_groups: Vec<&Statistics> =
-        metadata.row_groups().iter().filter_map(|group| group.column(leaf?).statistics()).collect();
-    let ranges = of_groups.iter().filter_map(|statistics| range(statistics));
-    let nulls: Option<u64> = of_groups.iter().map(|statistics| statistics.null_count_opt()).sum();
+    let columns = metadata.file_metadata().schema_descr();
+    let leaf = (0..columns.num_columns()).find(|leaf| columns.get_column_root(*leaf).name() == field.name());
+    let groups = metadata.row_groups().iter();
+    let groups: Vec<_> = groups.filter_map(|group| group.column(leaf?).statistics()).collect();
+    let ranges = groups.iter().filter_map(|statistics| range(statistics));
+    let nulls: Option<u64> = groups.iter().map(|statistics| statistics.null_count_opt()).sum();
     ColumnRow {
         column: field.name().clone(),
         unit: if unit == "1" { String::new() } else { unit.to_string() },
         minimum: ranges.clone().map(|(low, _)| low).reduce(f64::min),
         maximum: ranges.map(|(_, high)| high).reduce(f64::max),
-        nulls: nulls.filter(|_| !of_groups.is_empty()).map(|nulls| nulls as i64),
+        nulls: nulls.filter(|_| !groups.is_empty()).map(|nulls| nulls as i64),
         meaning: meaning.to_string(),
     }
 }

@@ -1,7 +1,7 @@
 //! rank-ims: which intensity measures predict best, alone, in pairs and in triples.
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -37,6 +37,8 @@ const SHOWN: i64 = 5;
 /// Rank intensity measures, singly and in sets, by how well they predict held-out cells or earthquakes
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag rank-ims --in responses.parquet --terms 1 --out ranking.parquet\n\
+    rockfrag rank-ims --motions motions.parquet --candidate energy_m")]
 pub struct RankIms {
     /// Responses to read
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -57,7 +59,8 @@ pub struct RankIms {
     #[arg(long, value_name = "N", default_value = "10", value_parser = number(2..=1000_usize, "2 to 1000"))]
     folds: usize,
     /// IM4 at which the two planes of demands meet
-    #[arg(long, value_name = "IM4", default_value_t = paper::TRANSITION, value_parser = number(1.0..=10.0, "an IM4 from 1 to 10"))]
+    #[arg(long, value_name = "IM4", default_value_t = paper::TRANSITION,
+          value_parser = number(1.0..=10.0, "an IM4 from 1 to 10"))]
     transition: f64,
 }
 
@@ -77,9 +80,10 @@ impl Stage for RankIms {
 
     fn check(&self) -> anyhow::Result<()> {
         match self.candidate.iter().find(|name| quantity(name).is_none()) {
-            Some(name) => Err(UsageError::because(format!(
-                "candidate {name}: expected a unit at its end: _m_s2, _m_s, _m or _s"
-            ))),
+            Some(name) => {
+                let problem = "expected a unit at its end: _m_s2, _m_s, _m or _s";
+                Err(UsageError::because(format!("candidate {name}: {problem}")))
+            }
             None => Ok(()),
         }
     }
@@ -89,9 +93,8 @@ impl Stage for RankIms {
             Some(path) => Further::read(path, &self.candidate)?,
             None => Further::default(),
         };
-        let of_motions = |motions: &[&str], structure: &Structure| further.of(motions, structure);
-        let candidates = self.motions.is_some().then_some(&of_motions as Candidates);
-        let groups = responses::read_with(&self.input, candidates)?;
+        let candidates: Candidates = &|motions, structure| further.candidates(motions, structure);
+        let groups = responses::read_with(&self.input, self.motions.is_some().then_some(candidates))?;
         let rules = RankingRules { terms: self.terms, folds: self.folds, transition: self.transition };
         let bar = context.bar(2 * groups.len());
         let (mut sets, mut incomplete) = (Vec::new(), BTreeMap::new());
@@ -114,17 +117,20 @@ impl Stage for RankIms {
 /// The first sets of each suite, structure and target; those that make one model in a row.
 fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
     let mut shown: Vec<RankedSet> = Vec::new();
-    let place = |set: &RankedSet| (set.suite.clone(), set.structure.clone(), set.target, set.rank);
     for set in sets.iter().filter(|set| set.rank <= SHOWN) {
-        match shown.last_mut() {
-            Some(last) if place(last) == place(set) => last.measures += &format!(" = {}", set.measures),
-            _ => shown.push(set.clone()),
+        match shown.last_mut().filter(|last| place(last) == place(set)) {
+            Some(last) => last.measures += &format!(" = {}", set.measures),
+            None => shown.push(set.clone()),
         }
     }
     let frame = frame::of_batch(&rows::batch(&shown)?)?;
     const COLUMNS: &str = "suite structure target rank measures form log_score loss loss_error aic status";
     let order = SortMultipleOptions::default().with_maintain_order(true);
     Ok(frame::text(&frame.select(COLUMNS.split(' '))?.sort(["suite", "structure", "target", "rank"], order)?))
+}
+
+fn place(set: &RankedSet) -> (&Option<String>, &str, Target, i64) {
+    (&set.suite, &set.structure, set.target, set.rank)
 }
 
 /// A line on the measures that some cases lack.
@@ -156,55 +162,52 @@ impl Further {
         let names: Vec<&String> = table.schema().fields().iter().map(|field| field.name()).collect();
         if let Some(missing) = candidates.iter().find(|name| !names.contains(name)) {
             let (file, names) = (path.display(), listed(&names, usize::MAX));
-            return Err(UsageError::because(format!(
-                "{file}: no column '{missing}'; expected one of {names}"
-            )));
+            let problem = format!("{file}: no column '{missing}'; expected one of {names}");
+            return Err(UsageError::because(problem));
         }
-        let is_wanted = |name: &String| {
-            FURTHER.contains(&name.as_str()) || name.starts_with("sa_") || candidates.contains(name)
-        };
-        let measure = |column: &String| {
-            Some(FurtherMeasure { column: column.clone(), quantity: quantity(column)?, values: Vec::new() })
-        };
-        let wanted = names.into_iter().filter(|name| is_wanted(name));
-        let mut measures: Vec<FurtherMeasure> = wanted.filter_map(measure).collect();
-        let (mut places, mut rows) = (HashMap::new(), 0);
-        let columns: Vec<String> = measures.iter().map(|measure| measure.column.clone()).collect();
-        for batch in table.batches(&|name| name == "motion_id" || columns.iter().any(|column| column == name))
-        {
+        let mut further = Further { path: path.to_path_buf(), ..Further::default() };
+        for column in names {
+            let is_known = FURTHER.contains(&column.as_str()) || column.starts_with("sa_");
+            let quantity = quantity(column).filter(|_| is_known || candidates.contains(column));
+            let Some(quantity) = quantity else { continue };
+            further.measures.push(FurtherMeasure { column: column.clone(), quantity, values: Vec::new() });
+        }
+        let columns: HashSet<String> =
+            further.measures.iter().map(|measure| measure.column.clone()).collect();
+        let mut rows = 0;
+        for batch in table.batches(&|name| name == "motion_id" || columns.contains(name)) {
             let batch = batch?;
-            for measure in &mut measures {
+            for measure in &mut further.measures {
                 let values = batch.numbers(&measure.column)?;
                 measure.values.extend(values.into_iter().map(|value| value.unwrap_or(f64::NAN)));
             }
             let ids = batch.required_texts("motion_id")?.into_iter().map(Cow::into_owned);
-            places.extend(ids.zip(rows..));
+            further.places.extend(ids.zip(rows..));
             rows += batch.rows.num_rows();
         }
         // A measure that no motion has does not compete.
-        measures.retain(|measure| measure.values.iter().any(|value| !value.is_nan()));
-        Ok(Further { measures, places, path: path.to_path_buf() })
+        further.measures.retain(|measure| measure.values.iter().any(|value| !value.is_nan()));
+        Ok(further)
     }
 
     /// The measures of motions, made dimensionless for a structure, by their names without units.
-    fn of(&self, motions: &[&str], structure: &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
+    fn candidates(&self, motions: &[&str], structure: &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
         if self.measures.is_empty() {
             return Ok(Vec::new());
         }
-        let place = |motion: &&str| {
-            let place = self.places.get(*motion).copied();
-            let file = self.path.display();
-            place.with_context(|| {
+        let places = motions.iter().map(|motion| {
+            self.places.get(*motion).copied().with_context(|| {
+                let file = self.path.display();
                 format!("{file}: no motion '{motion}'; expected the motions of the responses")
             })
-        };
-        let places = motions.iter().map(place).collect::<anyhow::Result<Vec<usize>>>()?;
-        let of_measure = |measure: &FurtherMeasure| {
-            let unit = UNITS.iter().find_map(|(unit, _)| measure.column.strip_suffix(unit));
-            let value = |&place: &usize| measure.quantity.dimensionless(measure.values[place], structure);
-            (unit.unwrap_or(&measure.column).to_string(), places.iter().map(value).collect())
-        };
-        Ok(self.measures.iter().map(of_measure).collect())
+        });
+        let places = places.collect::<anyhow::Result<Vec<usize>>>()?;
+        let candidates = self.measures.iter().map(|FurtherMeasure { column, quantity, values }| {
+            let name = UNITS.iter().find_map(|(unit, _)| column.strip_suffix(unit)).unwrap_or(column);
+            let values = places.iter().map(|&place| quantity.dimensionless(values[place], structure));
+            (name.to_string(), values.collect())
+        });
+        Ok(candidates.collect())
     }
 }
 

@@ -1,5 +1,6 @@
 //! sample-scenarios: the magnitude-distance grid and the random parameters of the pulses.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -14,17 +15,20 @@ use crate::pipeline::paths::{Output, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::table::rows;
-use crate::warning::Warning;
+use crate::warning::{Warning, Warnings};
 
 /// Sample earthquake scenarios on a magnitude-distance grid
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag sample-scenarios\n\
+    rockfrag sample-scenarios --mw 6:7:0.5 --re 5,10,20 --samples 200 --seed 7 --out scenarios.parquet")]
 pub struct SampleScenarios {
     /// Seed of the random parameters
     #[arg(long, default_value = "42")]
     seed: u64,
     /// Scenarios in each cell of the grid
-    #[arg(long, default_value = "100", value_name = "N", value_parser = number(1..=10_000_000_usize, "1 to 10,000,000"))]
+    #[arg(long, default_value = "100", value_name = "N",
+          value_parser = number(1..=10_000_000_usize, "1 to 10,000,000"))]
     samples: usize,
     /// Moment magnitudes: first:last:step, or numbers separated by commas
     #[arg(long, default_value = "5.5:7.5:0.5", value_name = "MW,...")]
@@ -44,8 +48,8 @@ pub struct SampleScenarios {
 const AT_ONCE: usize = 32_768;
 
 /// Magnitudes that the paper samples, and distances up to those, km: Eqs. 2 and 3 hold near the fault.
-const PAPER_MW: [f64; 2] = [5.5, 7.5];
-const PAPER_RE_KM: [f64; 2] = [0.0, 20.0];
+const PAPER_MW: RangeInclusive<f64> = 5.5..=7.5;
+const PAPER_RE_KM: RangeInclusive<f64> = 0.0..=20.0;
 
 impl Stage for SampleScenarios {
     fn inputs(&self) -> Vec<Read> {
@@ -72,12 +76,13 @@ impl Stage for SampleScenarios {
         let grid = Grid { mw, re_km, samples, design, seed };
         let all = grid.cells() * samples;
         let summary = format!("{} in {}\n", counted(all, "scenario"), counted(grid.cells(), "cell"));
-        let unusual = |name: &str, values: &[f64], [low, high]: [f64; 2]| {
-            let value = values.iter().find(|value| !(low..=high).contains(*value))?;
-            Some((Warning::UnusualScenario, format!("{name} {value}")))
-        };
-        let both = [unusual("mw", &grid.mw, PAPER_MW), unusual("re", &grid.re_km, PAPER_RE_KM)];
-        context.warn(both.into_iter().flatten().collect());
+        let mut unusual = Warnings::default();
+        for (name, values, usual) in [("mw", &grid.mw, PAPER_MW), ("re", &grid.re_km, PAPER_RE_KM)] {
+            if let Some(value) = values.iter().find(|value| !usual.contains(*value)) {
+                unusual.add(Warning::UnusualScenario, format!("{name} {value}"));
+            }
+        }
+        context.warn(unusual);
         let mut writer = context.create(&self.out, &rows::schema::<Scenario>())?;
         let bar = context.bar(all);
         let mut some: Vec<Scenario> = Vec::new();

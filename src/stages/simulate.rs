@@ -6,29 +6,23 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::Args;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use super::shared::motions::{Measures, expect_distinct, warnings};
+use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, listed};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
-use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::pipeline::{InRun, Stage};
-use crate::rocking::{Ground, Outcome, Problem, Record, Structure, TracePoint};
-use crate::rocking::{simulate_all, trace, with_tail};
-use crate::table::TableError;
+use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::file::{Partition, Table};
-use crate::table::motions::{self, Motion, Part};
+use crate::table::motions::{self, Motion};
 use crate::table::responses::{self, TraceRow};
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
-/// Parts of the file that are read at once, for each thread.
-const PARTS_A_THREAD: usize = 4;
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for
 /// its caches.
 const CHUNK: usize = 32;
@@ -45,6 +39,10 @@ const OF_PAPER: &str = "frame and electrical-equipment of the paper; --width and
 /// Simulate the rocking response of structures to motions: the paper's two structures, or your own
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag simulate\n\
+    rockfrag simulate --in motions.parquet --width 0.5 --height 1.9 --out responses.parquet\n\
+    rockfrag simulate --structures objects.csv --trace all\n\
+    rockfrag simulate --structure name=frame,p=1,alpha=0.15,eta=0.92 --partition 0/8")]
 pub struct Simulate {
     /// Motions to read: motion_id, dt_s and acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
@@ -83,12 +81,16 @@ impl Stage for Simulate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, mut warnings) = self.structures.or_paper().resolve()?;
+        let (objects, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
-        let plan = self.plan(&structures)?;
-        if !plan.second.is_empty() {
+        let second = match objects.iter().any(|directions| directions.len() > 1) {
+            true => motions::second_of_pairs(&Table::open(&self.input)?)?,
+            false => HashSet::new(),
+        };
+        if !second.is_empty() {
             warnings.remove(Warning::OneDirection);
         }
+        let plan = Plan { objects, second };
         context.warn(warnings);
         self.expect_traced(&motions)?;
         let out = out_of_partition(&self.out, self.partition);
@@ -97,42 +99,30 @@ impl Stage for Simulate {
             true => None,
             false => Some(context.create(&part(&self.out, "trace"), &rows::schema::<TraceRow>())?),
         };
-        let mut ids = HashSet::new();
-        let mut overturning = vec![Overturning::default(); structures.len()];
-        let pool = Pool::new(MeasureScratch::default);
-        let bar = context.bar(motions.rows());
-        let simulate_part = |part: Part| -> anyhow::Result<Vec<Responded>> {
-            let simulate_chunk = |chunk: Result<_, TableError>| {
-                let (path, chunk): (std::sync::Arc<Path>, Vec<Motion>) = chunk?;
-                bar.advance(chunk.len())?;
-                pool.with(|scratch| self.respond(&path, &chunk, &plan, scratch))
-            };
-            motions::read_part(&motions, part, CHUNK)?.map(simulate_chunk).collect()
-        };
-        pipelined(
-            batches(motions::parts(&motions), PARTS_A_THREAD * rayon::current_num_threads()),
-            |parts| parts.into_par_iter().map(simulate_part).collect::<anyhow::Result<Vec<_>>>(),
-            |responded| {
-                for some in responded.into_iter().flatten() {
-                    expect_distinct(&mut ids, &self.input, some.motion_ids)?;
-                    for (structure, motion) in some.overturned {
-                        let (count, named) = &mut overturning[structure];
-                        *count += 1;
-                        if *count <= NAMED {
-                            named.push(motion);
-                        }
+        let mut overturning = vec![Overturning::default(); plan.objects.len()];
+        each(
+            context,
+            &motions,
+            CHUNK,
+            |path, some, scratch| self.respond(path, some, &plan, scratch),
+            |some| {
+                for (structure, motion) in some.overturned {
+                    let Overturning { count, named } = &mut overturning[structure];
+                    *count += 1;
+                    if *count <= NAMED {
+                        named.push(motion);
                     }
-                    context.warn(some.warnings);
-                    writer.append(&some.rows)?;
-                    if let (Some(traces), Some(rows)) = (&mut traces, &some.traces) {
-                        traces.append(rows)?;
-                    }
+                }
+                context.warn(some.warnings);
+                writer.append(&some.rows)?;
+                if let (Some(traces), Some(rows)) = (&mut traces, &some.traces) {
+                    traces.append(rows)?;
                 }
                 Ok(())
             },
         )?;
         let assumed = if self.structures.is_given() { "" } else { OF_PAPER };
-        let summary = assumed.to_string() + &summary(&structures, &overturning, motions.rows(), &self.out);
+        let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
         if let Some(traces) = traces {
             context.finish(traces, &summary)?;
         }
@@ -142,11 +132,14 @@ impl Stage for Simulate {
 }
 
 /// The motions that overturn a structure: how many, and the first of them.
-type Overturning = (usize, Vec<String>);
+#[derive(Clone, Default)]
+struct Overturning {
+    count: usize,
+    named: Vec<String>,
+}
 
 /// What came of some motions.
 struct Responded {
-    motion_ids: Vec<String>,
     rows: RecordBatch,
     traces: Option<RecordBatch>,
     warnings: Warnings,
@@ -156,37 +149,22 @@ struct Responded {
 
 /// Which structures each motion shakes.
 struct Plan {
-    /// Directions of each object, the weaker first; a body without depth has the same twice.
-    directions: Vec<[Structure; 2]>,
+    /// The directions of each object, the weaker first.
+    objects: Vec<Vec<Structure>>,
     /// Motions that are the second of a pair, which shakes the other direction.
     second: HashSet<String>,
 }
 
 impl Plan {
     fn structures(&self, motion: &Motion) -> impl Iterator<Item = &Structure> {
-        let direction = usize::from(self.second.contains(&motion.motion_id));
-        self.directions.iter().map(move |directions| &directions[direction])
+        let is_second = self.second.contains(&motion.motion_id);
+        self.objects
+            .iter()
+            .map(move |directions| &directions[if is_second { directions.len() - 1 } else { 0 }])
     }
 }
 
 impl Simulate {
-    /// Plans which component of a pair shakes which direction of an object with a depth.
-    fn plan(&self, structures: &[Structure]) -> anyhow::Result<Plan> {
-        let others = self.structures.or_paper().other_directions(structures)?;
-        let second = match others.iter().any(Option::is_some) {
-            true => motions::second_of_pairs(&Table::open(&self.input)?)?,
-            false => HashSet::new(),
-        };
-        let both = |(structure, other): (&Structure, Option<Structure>)| {
-            [structure.clone(), other.unwrap_or_else(|| structure.clone())]
-        };
-        Ok(Plan { directions: structures.iter().zip(others).map(both).collect(), second })
-    }
-
-    fn is_traced(&self, motion_id: &str) -> bool {
-        self.trace.iter().any(|traced| traced == ALL || traced == motion_id)
-    }
-
     /// Checks, before anything is simulated, that the motions to trace are there.
     fn expect_traced(&self, motions: &Table) -> anyhow::Result<()> {
         let mut unknown: Vec<&String> = self.trace.iter().filter(|traced| *traced != ALL).collect();
@@ -198,13 +176,9 @@ impl Simulate {
             let ids: HashSet<Cow<str>> = batch.required_texts("motion_id")?.into_iter().collect();
             unknown.retain(|traced| !ids.contains(traced.as_str()));
         }
+        let Some(id) = unknown.first() else { return Ok(()) };
         let file = self.input.display();
-        match unknown.first() {
-            Some(id) => {
-                anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id, or {ALL}")
-            }
-            None => Ok(()),
-        }
+        anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id, or {ALL}")
     }
 
     /// Runs all structures on some motions, while these are at hand.
@@ -216,32 +190,30 @@ impl Simulate {
         scratch: &mut MeasureScratch,
     ) -> anyhow::Result<Responded> {
         let records = motions.iter().map(|motion| motion.record(path)).collect::<Result<Vec<_>, _>>()?;
-        let mut problems = Vec::new();
-        for (motion, &record) in motions.iter().zip(&records) {
-            problems.extend(plan.structures(motion).map(|structure| Problem { structure, record }));
-        }
-        let mut responses = simulate_all(&problems).into_iter();
-        let (mut rows, mut measured) =
-            (Vec::with_capacity(problems.len()), Vec::with_capacity(problems.len()));
-        let (mut traces, mut warned, mut overturned) = (Vec::new(), Warnings::default(), Vec::new());
-        for (motion, record) in motions.iter().zip(&records) {
+        let pairs = motions.iter().zip(&records);
+        let problems = pairs.clone().flat_map(|(motion, &record)| {
+            plan.structures(motion).map(move |structure| Problem { structure, record })
+        });
+        let mut responses = simulate_all(&problems.collect::<Vec<_>>()).into_iter();
+        let (mut rows, mut measured, mut overturned) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut traces, mut warned) = (Vec::new(), Warnings::default());
+        for (motion, record) in pairs {
             let measures = Measures::new(motion, record, scratch);
-            for (index, (structure, response)) in plan.structures(motion).zip(&mut responses).enumerate() {
+            let is_traced = self.trace.iter().any(|traced| *traced == ALL || *traced == motion.motion_id);
+            let responded = plan.structures(motion).zip(&mut responses);
+            for (index, (structure, response)) in responded.enumerate() {
                 if response.outcome == Outcome::Overturning {
                     overturned.push((index, motion.motion_id.clone()));
                 }
                 rows.push(measures.response_row(motion, structure, response));
-                measured.push(measures.of_structure(structure));
-            }
-            if self.is_traced(&motion.motion_id) {
-                for structure in plan.structures(motion) {
+                measured.push(measures.dimensionless(structure));
+                if is_traced {
                     traces.extend(trace_rows(motion, record, structure)?);
                 }
             }
             warned.extend(warnings(motion, record));
         }
         Ok(Responded {
-            motion_ids: motions.iter().map(|motion| motion.motion_id.clone()).collect(),
             rows: responses::batch(&rows, &measured)?,
             traces: (!traces.is_empty()).then(|| rows::batch(&traces)).transpose()?,
             warnings: warned,
@@ -257,7 +229,7 @@ fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow
     let points = trace(structure, &record).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));
     let [block_width_m, block_height_m] = structure.block_m();
-    let row = |(point, ground): (TracePoint, Ground)| TraceRow {
+    let rows = points.into_iter().zip(ground).map(|(point, ground)| TraceRow {
         motion_id: motion.motion_id.clone(),
         structure: structure.name.clone(),
         time_s: point.time_s,
@@ -272,27 +244,27 @@ fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow
         eta: structure.eta,
         block_width_m,
         block_height_m,
-    };
-    Ok(points.into_iter().zip(ground).map(row).collect())
+    });
+    Ok(rows.collect())
 }
 
 /// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
-fn summary(structures: &[Structure], overturning: &[Overturning], motions: usize, out: &Path) -> String {
-    let mut lines: Vec<(&Structure, &Overturning)> = structures.iter().zip(overturning).collect();
-    if structures.len() > MOST_LINES {
-        lines.sort_by_key(|(_, (count, _))| std::cmp::Reverse(*count));
+fn summary(objects: &[Vec<Structure>], overturning: &[Overturning], motions: usize, out: &Path) -> String {
+    let mut all: Vec<_> = objects.iter().zip(overturning).collect();
+    if all.len() > MOST_LINES {
+        all.sort_by_key(|(_, overturning)| std::cmp::Reverse(overturning.count));
     }
-    let line = |(structure, (count, named)): (&Structure, &Overturning)| {
-        let named = match count {
-            1..=NAMED => {
-                let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
-                format!(" ({})", listed(&named, NAMED))
-            }
-            _ => String::new(),
-        };
-        let overturn = if *count == 1 { "overturns" } else { "overturn" };
-        let (count, motions) = (number::count(*count), number::counted(motions, "motion"));
-        format!("{}: {count} of {motions} {overturn} it{named}\n", number::name(&structure.name))
-    };
-    first_lines(&lines.into_iter().map(line).collect::<String>(), 0, out)
+    let motions = number::counted(motions, "motion");
+    let mut lines = String::new();
+    for (directions, Overturning { count, named }) in all {
+        let (name, overturn) =
+            (number::name(&directions[0].name), if *count == 1 { "overturns" } else { "overturn" });
+        lines += &format!("{name}: {} of {motions} {overturn} it", number::count(*count));
+        if (1..=NAMED).contains(count) {
+            let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
+            lines += &format!(" ({})", listed(&named, NAMED));
+        }
+        lines.push('\n');
+    }
+    first_lines(&lines, 0, out)
 }

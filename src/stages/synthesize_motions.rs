@@ -28,6 +28,10 @@ const MOST_SAMPLES: usize = 1 << 23;
 /// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag synthesize-motions\n\
+    rockfrag synthesize-motions --in scenarios.parquet --suite csgm --dt 0.01 --site soil --seed 7 \
+    --out motions.parquet\n\
+    rockfrag synthesize-motions --sa 0.2,1.0 --partition 0/8")]
 pub struct SynthesizeMotions {
     /// Scenarios to read
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "scenarios.parquet")]
@@ -42,7 +46,8 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
     suite: Vec<SyntheticSuite>,
     /// Time between samples, s
-    #[arg(long, default_value = "0.005", value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
+    #[arg(long, default_value = "0.005", value_name = "S",
+          value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
     /// Spectrum where the pulse is stronger than the high frequencies: absolute, signed or clamp
     /// difference, or none (plain sum)
@@ -103,8 +108,7 @@ impl Stage for SynthesizeMotions {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        let is_distinct = (1..self.suite.len()).all(|k| !self.suite[..k].contains(&self.suite[k]));
-        match is_distinct {
+        match (1..self.suite.len()).all(|k| !self.suite[..k].contains(&self.suite[k])) {
             true => Ok(()),
             false => Err(UsageError::because("suite: expected some of pulse, csgm and hfc, each once")),
         }
@@ -129,13 +133,15 @@ impl Stage for SynthesizeMotions {
             seed: self.seed,
         };
         let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), MeasureScratch::default()));
-        let motions = |scenario: &Scenario| pool.with(|scratch| synthesize(scenario, suites, &plan, scratch));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(table.rows());
         pipelined(
             together(scenarios, model.clone()),
             |some| {
-                let motions: Vec<Motion> = some.par_iter().flat_map_iter(motions).collect();
+                let motions = some.par_iter().flat_map_iter(|scenario| {
+                    pool.with(|scratch| synthesize(scenario, suites, &plan, scratch))
+                });
+                let motions: Vec<Motion> = motions.collect();
                 bar.advance(some.len())?;
                 batch(&motions, &periods)
             },
@@ -192,20 +198,20 @@ fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
 /// The site amplification of this name, or in this file.
 fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
     match name.to_str() {
-        Some("rock") => return Ok(SiteAmplification::Rock),
-        Some("soil") => return Ok(SiteAmplification::Soil),
-        Some("none") => return Ok(SiteAmplification::None),
-        _ => {}
+        Some("rock") => Ok(SiteAmplification::Rock),
+        Some("soil") => Ok(SiteAmplification::Soil),
+        Some("none") => Ok(SiteAmplification::None),
+        _ => site_factors(name).with_context(|| {
+            let name = name.display();
+            format!("{name}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors")
+        }),
     }
-    let place = || {
-        format!(
-            "{}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors",
-            name.display()
-        )
-    };
-    let sheet = Grid::read(name).with_context(place)?;
+}
+
+fn site_factors(path: &Path) -> anyhow::Result<SiteAmplification> {
+    let sheet = Grid::read(path)?;
     let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
-    SiteAmplification::table(pairs.collect::<anyhow::Result<_>>().with_context(place)?).with_context(place)
+    Ok(SiteAmplification::table(pairs.collect::<anyhow::Result<_>>()?)?)
 }
 
 /// The motions of a scenario, each measured as it will be read.
@@ -217,19 +223,15 @@ fn synthesize(
 ) -> Vec<Motion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
-    let motion = |&suite: &SyntheticSuite| {
+    let motions = suites.iter().map(|&suite| {
         let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
         let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
         let measured = plan.measure(&written, dt_s, scratch);
         let motion_id = suite.motion_id(scenario.scenario_id).to_string();
-        Motion {
-            name: MotionName { motion_id, suite, dt_s },
-            scenario: *scenario,
-            acceleration_m_s2,
-            measured,
-        }
-    };
-    suites.iter().map(motion).collect()
+        let name = MotionName { motion_id, suite, dt_s };
+        Motion { name, scenario: *scenario, acceleration_m_s2, measured }
+    });
+    motions.collect()
 }
 
 fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {

@@ -21,6 +21,8 @@ use crate::warning::{Warning, Warnings};
 /// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag validate --in responses.parquet --fits fits --name frame \
+    --suite csgm --out validation.parquet")]
 pub struct Validate {
     /// Responses to test on
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -58,12 +60,12 @@ impl Stage for Validate {
             let kind = Kind::of_word(cases.suite.as_deref());
             models.args.suite = self.fits.suite.or(Some(kind));
             let (model, warnings) = models.model(&cases.structure)?;
-            context
-                .warn(warnings.into_iter().map(|warning| (warning, cases.structure.name.clone())).collect());
+            let warnings = warnings.into_iter().map(|warning| (warning, cases.structure.name.clone()));
+            context.warn(warnings.collect());
             for event in EVENTS {
-                let (of_event, of_bins, outside) = validate(cases, &model, event, self.fits.limit_state);
-                scores.extend(of_event);
-                bins.extend(of_bins);
+                let (score, reliability, outside) = validate(cases, &model, event, self.fits.limit_state);
+                scores.extend(score);
+                bins.extend(reliability);
                 context.warn(outside);
             }
             bar.advance(1)?;
@@ -83,10 +85,8 @@ impl Validate {
     /// Whether the fits were made from these responses.
     fn are_own(&self) -> anyhow::Result<bool> {
         let Some(folder) = &self.fits.fits else { return Ok(false) };
-        let Some(made) = Provenance::of_file(&folder.join("pro.calibration.parquet"))? else {
-            return Ok(false);
-        };
-        Ok(made.input("in") == Some(key_of(&self.input)?))
+        let made = Provenance::of_file(&folder.join("pro.calibration.parquet"))?;
+        Ok(made.and_then(|made| made.input("in")) == Some(key_of(&self.input)?))
     }
 }
 

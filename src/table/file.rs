@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::collections::HashSet;
 use std::fmt;
 use std::fs::File;
+use std::io::Read;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -271,6 +272,10 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     let file = File::open(path).map_err(|source| TableError::io(path, source))?;
     if path.is_dir() {
         return Err(TableError::table(path, "a folder; expected a Parquet file"));
+    }
+    let mut start = [0; 4];
+    if (&file).read(&mut start).is_ok() && start != *b"PAR1" {
+        return Err(TableError::table(path, "not a Parquet file; expected Parquet"));
     }
     let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
     let metadata = guarded(path, || ArrowReaderMetadata::load(&file, options))?;

@@ -111,7 +111,10 @@ fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
         0..=200 => format!(".{name}."),
         _ => format!(".{}.", blake3::hash(name.as_bytes()).to_hex()),
     };
-    std::fs::create_dir_all(folder).map_err(|source| cannot_write(path, source))?;
+    // Whoever made the link knows where it should lead.
+    if !path.is_symlink() {
+        std::fs::create_dir_all(folder).map_err(|source| cannot_write(path, source))?;
+    }
     remove_strays(folder, &prefix);
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(PARTIAL);

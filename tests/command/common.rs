@@ -4,9 +4,10 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-use arrow_array::builder::{Float64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch};
+use arrow_array::types::Float64Type;
+use arrow_array::{ArrayRef, Float64Array, Int64Array, ListArray, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
+use parquet::file::properties::WriterProperties;
 use rockfrag::table::provenance::Provenance;
 use serde_json::Value;
 
@@ -86,25 +87,47 @@ pub fn folder_with(pipeline: &str) -> tempfile::TempDir {
     folder(&[("pipeline.yaml", pipeline)])
 }
 
+pub fn numbers(values: &[f64]) -> ArrayRef {
+    Arc::new(Float64Array::from(values.to_vec()))
+}
+
+pub fn texts(values: &[&str]) -> ArrayRef {
+    Arc::new(StringArray::from(values.to_vec()))
+}
+
+pub fn lists(rows: &[&[f64]]) -> ArrayRef {
+    let row = |row: &&[f64]| Some(row.iter().map(|sample| Some(*sample)).collect::<Vec<_>>());
+    Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows.iter().map(row)))
+}
+
 /// A Parquet file as another program might write it.
 pub fn write(path: &Path, columns: Vec<(&str, ArrayRef)>) {
-    let batch = RecordBatch::try_from_iter(columns).unwrap();
-    let mut writer =
-        ArrowWriter::try_new(std::fs::File::create(path).unwrap(), batch.schema(), None).unwrap();
-    writer.write(&batch).unwrap();
+    write_with(path, &RecordBatch::try_from_iter(columns).unwrap(), WriterProperties::default());
+}
+
+pub fn write_with(path: &Path, rows: &RecordBatch, properties: WriterProperties) {
+    let file = std::fs::File::create(path).unwrap();
+    let mut writer = ArrowWriter::try_new(file, rows.schema(), Some(properties)).unwrap();
+    writer.write(rows).unwrap();
     writer.close().unwrap();
 }
 
 /// A motions file as another program might write it: number, time step and samples.
 pub fn write_motions(path: &Path, dt_s: f64, motions: &[&[f64]]) {
-    let mut list = ListBuilder::new(Float64Builder::new());
-    for motion in motions {
-        list.values().append_slice(motion);
-        list.append(true);
-    }
     let ids: ArrayRef = Arc::new(Int64Array::from_iter_values(0..motions.len() as i64));
-    let dts: ArrayRef = Arc::new(Float64Array::from(vec![dt_s; motions.len()]));
-    write(path, vec![("motion_id", ids), ("dt_s", dts), ("acceleration_m_s2", Arc::new(list.finish()))]);
+    let dt = numbers(&vec![dt_s; motions.len()]);
+    write(path, vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", lists(motions))]);
+}
+
+/// The first rows of a table as CSV.
+pub fn rows(folder: &Path, table: &str) -> String {
+    succeed(folder, &format!("inspect --head 100000 --format csv {table}")).0
+}
+
+/// The stages that a run has run, by its lines on stderr.
+pub fn ran(stderr: &str) -> Vec<&str> {
+    let lines = stderr.lines().filter(|line| line.ends_with(" s"));
+    lines.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
 /// What made a file.

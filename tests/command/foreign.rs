@@ -3,41 +3,41 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::builder::{Decimal128Builder, FixedSizeListBuilder, Float64Builder, ListBuilder};
-use arrow_array::builder::{Float16Builder, PrimitiveBuilder, UInt16Builder, UInt32Builder};
+use arrow_array::builder::{Decimal128Builder, FixedSizeListBuilder, Float16Builder, ListBuilder};
+use arrow_array::builder::{PrimitiveBuilder, UInt16Builder, UInt32Builder};
 use arrow_array::types::{ArrowPrimitiveType, Float16Type};
 use arrow_array::{
-    ArrayRef, Decimal128Array, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray, UInt64Array,
+    ArrayRef, Decimal128Array, Float16Array, Int32Array, Int64Array, RecordBatch, UInt64Array,
 };
-use arrow_schema::DataType;
-use parquet::arrow::ArrowWriter;
+use arrow_schema::{DataType, Field, Schema};
 use parquet::basic::{BrotliLevel, Compression, GzipLevel};
 use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
 
-use crate::common::{bytes, fail, folder_with, near, succeed, write};
+use crate::common::{bytes, fail, folder_with, lists, near, numbers, rows, succeed, texts, write};
+use crate::common::{write_motions, write_with};
 
 const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
 const SIMULATE: &str = "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out r.parquet --force";
-
-fn numbers(values: &[f64]) -> ArrayRef {
-    Arc::new(Float64Array::from(values.to_vec()))
-}
-
-fn texts(values: &[&str]) -> ArrayRef {
-    Arc::new(StringArray::from(values.to_vec()))
-}
 
 /// Half a second of 2 Hz at 3 m/s2, in steps of 0.01 s.
 fn sine() -> Vec<f64> {
     (0..50).map(|k| (300.0 * (std::f64::consts::TAU * 0.02 * f64::from(k)).sin()).round() / 100.0).collect()
 }
 
-fn list(samples: &[f64]) -> ArrayRef {
-    let mut list = ListBuilder::new(Float64Builder::new());
-    list.values().append_slice(samples);
-    list.append(true);
-    Arc::new(list.finish())
+/// The sine as motion `a`, with columns in place of the usual ones.
+fn motion(columns: Vec<(&'static str, ArrayRef)>) -> Vec<(&'static str, ArrayRef)> {
+    let mut all = vec![
+        ("motion_id", texts(&["a"])),
+        ("dt_s", numbers(&[0.01])),
+        ("acceleration_m_s2", lists(&[&sine()])),
+    ];
+    for (name, array) in columns {
+        all.retain(|(other, _)| *other != name);
+        all.push((name, array));
+    }
+    all
 }
 
 fn responses(folder: &Path) -> Vec<Value> {
@@ -45,16 +45,10 @@ fn responses(folder: &Path) -> Vec<Value> {
     serde_json::from_str(&printed).unwrap()
 }
 
-/// The response to the sine, as motion `id`, with columns in place of the usual ones.
-fn response(columns: Vec<(&str, ArrayRef)>) -> Value {
+/// The response to the sine with these columns.
+fn response(columns: Vec<(&'static str, ArrayRef)>) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let mut all =
-        vec![("motion_id", texts(&["a"])), ("dt_s", numbers(&[0.01])), ("acceleration_m_s2", list(&sine()))];
-    for (name, array) in columns {
-        all.retain(|(other, _)| *other != name);
-        all.push((name, array));
-    }
-    write(&folder.path().join("m.parquet"), all);
+    write(&folder.path().join("m.parquet"), motion(columns));
     succeed(folder.path(), SIMULATE);
     responses(folder.path()).remove(0)
 }
@@ -66,80 +60,70 @@ fn decimal(value: i128, precision: u8, scale: i8) -> ArrayRef {
 #[test]
 fn numbers_of_every_type_are_read() {
     let expected = response(Vec::new());
-    let in_hundredths: Vec<i128> = sine().iter().map(|a| (100.0 * a).round() as i128).collect();
     let decimals = |precision: u8| -> ArrayRef {
         let kind = DataType::Decimal128(precision, 2);
         let mut list = ListBuilder::new(Decimal128Builder::new().with_data_type(kind));
-        in_hundredths.iter().for_each(|value| list.values().append_value(*value));
+        sine().iter().for_each(|a| list.values().append_value((100.0 * a).round() as i128));
         list.append(true);
         Arc::new(list.finish())
     };
-    for columns in [
-        vec![("dt_s", decimal(1, 2, 2))],
-        vec![("dt_s", decimal(10_000, 18, 6))],
-        vec![("dt_s", decimal(1_000_000_000_000_000_000, 38, 20))],
-        vec![("acceleration_m_s2", decimals(4))],
-        vec![("acceleration_m_s2", decimals(12))],
-        vec![("acceleration_m_s2", decimals(30))],
+    for column in [
+        ("dt_s", decimal(1, 2, 2)),
+        ("dt_s", decimal(10_000, 18, 6)),
+        ("dt_s", decimal(1_000_000_000_000_000_000, 38, 20)),
+        ("acceleration_m_s2", decimals(4)),
+        ("acceleration_m_s2", decimals(12)),
+        ("acceleration_m_s2", decimals(30)),
     ] {
-        let found = response(columns);
+        let found = response(vec![column]);
         for column in ["pga_m_s2", "pgv_m_s", "edp", "outcome"] {
             assert_eq!(found[column], expected[column], "{column}");
         }
     }
 }
 
-/// The peak that is read of whole numbers of this type, in lists.
-fn peak_of<T: ArrowPrimitiveType>(mut items: PrimitiveBuilder<T>, values: Vec<T::Native>) -> f64 {
+/// Numbers of this type, in a list.
+fn list<T: ArrowPrimitiveType>(mut items: PrimitiveBuilder<T>, values: Vec<T::Native>) -> ArrayRef {
     items.append_slice(&values);
     let mut list = FixedSizeListBuilder::new(items, values.len() as i32);
     list.append(true);
-    response(vec![("acceleration_m_s2", Arc::new(list.finish()) as ArrayRef)])["pga_m_s2"].as_f64().unwrap()
+    Arc::new(list.finish())
 }
 
 #[test]
 fn half_and_unsigned_numbers_are_read() {
     type Half = <Float16Type as ArrowPrimitiveType>::Native;
-    let half = |value: f64| Half::from_f64(value);
-    assert_eq!(peak_of(Float16Builder::new(), vec![half(0.0), half(-2.5), half(0.125)]), 2.5);
-    assert_eq!(peak_of(UInt16Builder::new(), vec![0, 3, 1]), 3.0);
-    assert_eq!(peak_of(UInt32Builder::new(), vec![0, 4, 1]), 4.0);
+    let half = [0.0, -2.5, 0.125].map(Half::from_f64).to_vec();
+    for (samples, peak) in [
+        (list(Float16Builder::new(), half), 2.5),
+        (list(UInt16Builder::new(), vec![0, 3, 1]), 3.0),
+        (list(UInt32Builder::new(), vec![0, 4, 1]), 4.0),
+    ] {
+        assert_eq!(response(vec![("acceleration_m_s2", samples)])["pga_m_s2"], peak);
+    }
     let folder = tempfile::tempdir().unwrap();
-    let mut large = ListBuilder::new(UInt32Builder::new());
-    large.values().append_slice(&[0, u32::MAX]);
-    large.append(true);
-    let columns = vec![
-        ("motion_id", texts(&["a"])),
-        ("dt_s", numbers(&[0.01])),
-        ("acceleration_m_s2", Arc::new(large.finish()) as ArrayRef),
-    ];
-    write(&folder.path().join("m.parquet"), columns);
+    let large = list(UInt32Builder::new(), vec![0, u32::MAX]);
+    write(&folder.path().join("m.parquet"), motion(vec![("acceleration_m_s2", large)]));
     fail(folder.path(), SIMULATE, 1, &["row 1", "acceleration_m_s2", "4294967295"]);
-    let half: ArrayRef = Arc::new(arrow_array::Float16Array::from(vec![half(0.5)]));
     assert_eq!(response(vec![("mw", Arc::new(UInt64Array::from(vec![6])))])["mw"], 6.0);
+    let half: ArrayRef = Arc::new(Float16Array::from(vec![Half::from_f64(0.5)]));
     assert_eq!(response(vec![("tp_s", half)])["tp_s"], 0.5);
 }
 
 #[test]
 fn every_codec_is_read() {
     let folder = tempfile::tempdir().unwrap();
-    let columns =
-        vec![("motion_id", texts(&["a"])), ("dt_s", numbers(&[0.01])), ("acceleration_m_s2", list(&sine()))];
-    let batch = RecordBatch::try_from_iter(columns).unwrap();
-    let codecs = [
+    let batch = RecordBatch::try_from_iter(motion(Vec::new())).unwrap();
+    for codec in [
         Compression::UNCOMPRESSED,
         Compression::SNAPPY,
         Compression::GZIP(GzipLevel::default()),
         Compression::BROTLI(BrotliLevel::default()),
         Compression::LZ4_RAW,
         Compression::LZ4,
-    ];
-    for codec in codecs {
-        let file = std::fs::File::create(folder.path().join("m.parquet")).unwrap();
+    ] {
         let properties = WriterProperties::builder().set_compression(codec).build();
-        let mut writer = ArrowWriter::try_new(file, batch.schema(), Some(properties)).unwrap();
-        writer.write(&batch).unwrap();
-        writer.close().unwrap();
+        write_with(&folder.path().join("m.parquet"), &batch, properties);
         succeed(folder.path(), SIMULATE);
         assert_eq!(responses(folder.path())[0]["pga_m_s2"], 2.99, "{codec:?}");
     }
@@ -149,16 +133,26 @@ fn reference(name: &str) -> Vec<u8> {
     bytes(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/files").join(name))
 }
 
-/// Three motions of pyarrow: the third page of samples has none.
 #[test]
-fn empty_pages_end_no_column() {
+fn files_of_pandas_and_pyarrow_are_read() {
     let folder = tempfile::tempdir().unwrap();
-    let peaks = ["empty_page.parquet", "page_checksums.parquet"].map(|name| {
-        std::fs::write(folder.path().join("m.parquet"), reference(name)).unwrap();
+    let path = folder.path().join("m.parquet");
+    let motions = [1.0, 3.0, 5.0].map(|k| [0.0, k, -k, 0.0]);
+    write_motions(&path, 0.0625, &motions.each_ref().map(|motion| &motion[..]));
+    let edp = || {
         succeed(folder.path(), SIMULATE);
-        responses(folder.path()).iter().map(|row| row["pga_m_s2"].as_f64().unwrap()).collect::<Vec<_>>()
+        let rows = rows(folder.path(), "r.parquet");
+        rows.lines().map(|line| line.split_once(',').unwrap().1.to_string()).collect::<Vec<_>>()
+    };
+    let own = edp();
+    std::fs::write(&path, reference("pandas.parquet")).unwrap();
+    assert_eq!(edp(), own);
+    // Three motions, of which the third page of samples has none: an empty page ends no column.
+    let pyarrow = ["empty_page.parquet", "page_checksums.parquet"].map(|name| {
+        std::fs::write(&path, reference(name)).unwrap();
+        edp()
     });
-    assert!(peaks[0] == peaks[1] && peaks[0].len() == 3, "{peaks:?}");
+    assert!(pyarrow[0] == pyarrow[1] && pyarrow[0].len() == 4, "{pyarrow:?}");
 }
 
 #[test]
@@ -169,21 +163,12 @@ fn whole_numbers_of_any_size_stay_themselves() {
     assert_eq!(id(decimal(12_345_678_901_234_567_890, 20, 0)), "12345678901234567890");
     // Two numbers that are one as f64.
     let folder = tempfile::tempdir().unwrap();
-    let mut lists = ListBuilder::new(Float64Builder::new());
-    for _ in 0..2 {
-        lists.values().append_slice(&sine());
-        lists.append(true);
-    }
     let ids: ArrayRef = Arc::new(Int64Array::from(vec![1 << 53, (1 << 53) + 1]));
-    let columns = vec![
-        ("motion_id", ids),
-        ("dt_s", numbers(&[0.01, 0.01])),
-        ("acceleration_m_s2", Arc::new(lists.finish()) as ArrayRef),
-    ];
+    let samples = lists(&[&sine(), &sine()]);
+    let columns = vec![("motion_id", ids), ("dt_s", numbers(&[0.01; 2])), ("acceleration_m_s2", samples)];
     write(&folder.path().join("m.parquet"), columns);
     succeed(folder.path(), SIMULATE);
-    let (printed, _) = succeed(folder.path(), "inspect m.parquet --format json --head 2");
-    assert!(printed.contains("9007199254740993"), "{printed}");
+    assert!(rows(folder.path(), "m.parquet").contains("9007199254740993"));
 }
 
 /// Two scenarios, the second with another value in a column.
@@ -204,6 +189,7 @@ fn a_scenario_that_cannot_be_is_named_with_its_row() {
     let path = folder.path().join("scenarios.parquet");
     write(&path, scenarios("mw", 6.5));
     succeed(folder.path(), "synthesize-motions --dt 0.02");
+    let synthesize = "synthesize-motions --out other.parquet --dt 0.02";
     for (column, values) in [
         ("mw", [60.0, -1.0, f64::NAN, f64::INFINITY]),
         ("re_km", [-5.0, 1e9, f64::NAN, f64::INFINITY]),
@@ -214,12 +200,7 @@ fn a_scenario_that_cannot_be_is_named_with_its_row() {
     ] {
         for value in values {
             write(&path, scenarios(column, value));
-            fail(
-                folder.path(),
-                "synthesize-motions --out other.parquet --dt 0.02",
-                1,
-                &["scenarios.parquet", "row 2", column, "expected"],
-            );
+            fail(folder.path(), synthesize, 1, &["scenarios.parquet", "row 2", column, "expected"]);
             assert!(!folder.path().join("other.parquet").exists(), "{column} {value}");
         }
     }
@@ -234,6 +215,7 @@ fn a_scenario_that_cannot_be_is_named_with_its_row() {
 #[test]
 fn a_motion_that_cannot_be_is_named_with_its_row() {
     let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.parquet");
     for (column, value) in [
         ("pga_m_s2", -1.0),
         ("pga_m_s2", f64::INFINITY),
@@ -244,16 +226,10 @@ fn a_motion_that_cannot_be_is_named_with_its_row() {
         ("mw", 60.0),
         ("re_km", f64::NEG_INFINITY),
         ("dt_s", -0.01),
+        ("dt_s", 0.0),
+        ("dt_s", f64::NAN),
     ] {
-        let columns = [
-            ("motion_id", texts(&["a"])),
-            ("dt_s", numbers(&[0.01])),
-            ("acceleration_m_s2", list(&sine())),
-            ("suite", texts(&["csgm"])),
-        ];
-        let others = columns.into_iter().filter(|(name, _)| *name != column);
-        let columns = others.chain([(column, numbers(&[value]))]).collect();
-        write(&folder.path().join("m.parquet"), columns);
+        write(&path, motion(vec![("suite", texts(&["csgm"])), (column, numbers(&[value]))]));
         for command in [SIMULATE.to_string(), format!("ida --in m.parquet {STRUCTURE} --out i.parquet")] {
             fail(folder.path(), &command, 1, &["m.parquet", "row 1", column, "expected"]);
         }
@@ -262,57 +238,98 @@ fn a_motion_that_cannot_be_is_named_with_its_row() {
             fail(folder.path(), command, 1, &["row 1", "dt_s"]);
         }
     }
+    let fine: &[f64] = &[0.0, 1.0];
+    for (motions, named) in [
+        (vec![fine, &[0.0, f64::NAN]], vec!["m.parquet", "row 2", "acceleration_m_s2"]),
+        (vec![&[0.0, f64::INFINITY]], vec!["row 1", "acceleration_m_s2"]),
+        (vec![&[1.0]], vec!["row 1", "acceleration_m_s2"]),
+        (vec![], vec!["m.parquet"]),
+    ] {
+        write_motions(&path, 0.01, &motions);
+        fail(folder.path(), SIMULATE, 1, &named);
+        assert!(!folder.path().join("r.parquet").exists());
+    }
+    let known = response(vec![("mw", numbers(&[f64::NAN])), ("pga_m_s2", numbers(&[f64::NAN]))]);
+    assert!(known["mw"].is_null() && near(known["pga_m_s2"].as_f64().unwrap(), 2.99, 1e-12), "NaN is null");
 }
 
 #[test]
-fn nan_is_null() {
-    let known = response(vec![("mw", numbers(&[f64::NAN])), ("pga_m_s2", numbers(&[f64::NAN]))]);
-    assert!(known["mw"].is_null() && near(known["pga_m_s2"].as_f64().unwrap(), 2.99, 1e-12), "{known}");
+fn columns_that_are_missing_double_or_of_another_type_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.parquet");
+    for (column, array) in [
+        ("acceleration_m_s2", None),
+        ("dt_s", Some(texts(&["x"]))),
+        ("acceleration_m_s2", Some(texts(&["x"]))),
+        ("motion_id", Some(lists(&[&[0.0, 1.0]]))),
+    ] {
+        let mut columns = motion(Vec::new());
+        columns.retain(|(name, _)| *name != column);
+        columns.extend(array.map(|array| (column, array)));
+        write(&path, columns);
+        fail(folder.path(), SIMULATE, 1, &["m.parquet", column]);
+    }
+    let pga = Field::new("pga_m_s2", DataType::Float64, true);
+    let schema = Arc::new(Schema::new(vec![pga.clone(), pga]));
+    let batch = RecordBatch::try_new(schema, vec![numbers(&[1.0]), numbers(&[2.0])]).unwrap();
+    write_with(&path, &batch, WriterProperties::default());
+    for command in ["inspect m.parquet", SIMULATE, "floor-motions --in m.parquet --period 1 --level 1"] {
+        fail(folder.path(), command, 1, &["m.parquet", "pga_m_s2"]);
+    }
+}
+
+/// Two responses, the second with another value in a column.
+fn two_responses(path: &Path, column: &str, value: ArrayRef) {
+    let words = ["motion_id", "structure", "outcome"].into_iter().zip([
+        texts(&["1", "2"]),
+        texts(&["a", "a"]),
+        texts(&["safe_rocking", "safe_rocking"]),
+    ]);
+    let usual = [("p_rad_s", 2.5), ("alpha_rad", 0.2), ("eta", 0.92), ("edp", 0.1), ("mw", 6.5)];
+    let others = [("re_km", 10.0), ("pga_m_s2", 3.0), ("pgv_m_s", 0.5), ("im4", 1.5), ("im5", 0.6)];
+    let usual = usual.into_iter().chain(others).map(|(name, value)| (name, numbers(&[value, value])));
+    let columns = words.chain(usual);
+    let columns = columns.map(|(name, usual)| (name, if name == column { value.clone() } else { usual }));
+    write(path, columns.collect());
 }
 
 #[test]
 fn responses_that_cannot_be_are_named_by_all_that_read_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("r.parquet");
-    let write_with = |column: &str, value: f64| {
-        let usual = [
-            ("p_rad_s", 2.5),
-            ("alpha_rad", 0.2),
-            ("eta", 0.92),
-            ("edp", 0.1),
-            ("mw", 6.5),
-            ("re_km", 10.0),
-            ("pga_m_s2", 3.0),
-            ("pgv_m_s", 0.5),
-            ("im4", 1.5),
-            ("im5", 0.6),
-        ];
-        let columns = usual.map(|(name, usual)| {
-            (name, numbers(&[usual, if name == column { value } else { 1.01 * usual }]))
-        });
-        let same = [
-            ("motion_id", texts(&["1", "2"])),
-            ("structure", texts(&["a", "a"])),
-            ("outcome", texts(&["safe_rocking", "safe_rocking"])),
-        ];
-        write(&path, same.into_iter().chain(columns).collect());
-    };
-    for (column, value) in [
-        ("edp", -0.5),
-        ("edp", f64::INFINITY),
-        ("edp", 1e300),
-        ("im4", f64::INFINITY),
-        ("im5", 1e300),
-        ("mw", 0.0),
-        ("re_km", -3.0),
-        ("pga_m_s2", -3.0),
-        ("pgv_m_s", f64::INFINITY),
+    let fits = ["fit-pro", "fit-pex", "rank-ims", "validate"].map(|stage| format!("{stage} --in r.parquet"));
+    for (column, first, second) in [
+        ("edp", 0.1, -0.5),
+        ("edp", 0.1, f64::INFINITY),
+        ("edp", 0.1, 1e300),
+        ("im4", 1.5, f64::INFINITY),
+        ("im5", 0.6, 1e300),
+        ("mw", 6.5, 0.0),
+        ("re_km", 10.0, -3.0),
+        ("pga_m_s2", 3.0, -3.0),
+        ("pgv_m_s", 0.5, f64::INFINITY),
     ] {
-        write_with(column, value);
-        for command in ["fit-pro", "fit-pex", "rank-ims", "validate"] {
-            fail(folder.path(), &format!("{command} --in r.parquet"), 1, &["r.parquet", "row 2", column]);
+        two_responses(&path, column, numbers(&[first, second]));
+        for call in &fits {
+            fail(folder.path(), call, 1, &["r.parquet", "row 2", column]);
         }
     }
+    let outcomes = |word: &str| texts(&["safe_rocking", word]);
+    for (column, values, named) in [
+        ("p_rad_s", numbers(&[-1.0, -1.0]), vec!["row 1", "p_rad_s", "-1"]),
+        ("p_rad_s", numbers(&[2.5, f64::NAN]), vec!["row 2", "p_rad_s"]),
+        ("alpha_rad", numbers(&[0.2, 0.19]), vec!["row 2", "alpha_rad", "0.19", "own name"]),
+        ("eta", numbers(&[0.92, 1.5]), vec!["row 2", "eta", "1.5"]),
+        ("outcome", outcomes("falls"), vec!["row 2", "outcome", "falls"]),
+        ("outcome", outcomes(""), vec!["row 2", "outcome"]),
+        ("edp", numbers(&[0.1, f64::NAN]), vec!["row 2", "edp"]),
+        ("motion_id", texts(&["1", "1"]), vec!["1 repeated response"]),
+    ] {
+        two_responses(&path, column, values);
+        fail(folder.path(), &fits[0], 1, &[&["r.parquet"], &named[..]].concat());
+    }
+    two_responses(&path, "", outcomes(""));
+    succeed(folder.path(), &fits[0]);
 }
 
 #[test]
@@ -322,57 +339,25 @@ fn a_flipped_bit_among_the_numbers_is_an_error() {
     succeed(folder.path(), "run");
     let path = folder.path().join("motions.parquet");
     let whole = bytes(&path);
-    let footer = u32::from_le_bytes(whole[whole.len() - 8..whole.len() - 4].try_into().unwrap()) as usize;
-    let pages = whole.len() - 8 - footer;
     let simulate = format!("simulate {STRUCTURE} --force");
     succeed(folder.path(), &simulate);
     let read = ["motion_id", "dt_s", "acceleration_m_s2", "pga_m_s2"];
-    let reader =
-        parquet::file::reader::SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
-    let columns = parquet::file::reader::FileReader::metadata(&reader).row_group(0).columns();
-    let columns = columns.iter().filter(|column| read.contains(&column.column_path().parts()[0].as_str()));
-    let mut tries = 0;
-    for (start, length) in columns.map(|column| column.byte_range()) {
-        for at in [start, start + length / 2, start + length - 1] {
-            assert!((at as usize) < pages);
-            let mut damaged = whole.clone();
-            damaged[at as usize] ^= 16;
-            std::fs::write(&path, damaged).unwrap();
-            fail(folder.path(), &simulate, 1, &["motions.parquet"]);
-            tries += 1;
-        }
-    }
-    assert_eq!(tries, 12);
+    let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
+    let columns = reader.metadata().row_group(0).columns().iter();
+    let columns = columns.filter(|column| read.contains(&column.column_path().parts()[0].as_str()));
+    let places = columns.map(|column| column.byte_range());
+    let places: Vec<u64> =
+        places.flat_map(|(start, length)| [start, start + length / 2, start + length - 1]).collect();
+    assert_eq!(places.len(), 12);
     // Of another program, with a checksum of each page.
-    let mut foreign = reference("page_checksums.parquet");
+    let foreign = reference("page_checksums.parquet");
     std::fs::write(&path, &foreign).unwrap();
     succeed(folder.path(), &simulate);
-    let at = foreign.len() / 4;
-    foreign[at] ^= 16;
-    std::fs::write(&path, &foreign).unwrap();
-    fail(folder.path(), &simulate, 1, &["motions.parquet"]);
-}
-
-#[test]
-fn two_columns_of_one_name_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let batch = RecordBatch::try_new(
-        Arc::new(arrow_schema::Schema::new(vec![
-            arrow_schema::Field::new("pga_m_s2", DataType::Float64, true),
-            arrow_schema::Field::new("pga_m_s2", DataType::Float64, true),
-        ])),
-        vec![numbers(&[1.0]), numbers(&[2.0])],
-    );
-    let batch = batch.unwrap();
-    let file = std::fs::File::create(folder.path().join("m.parquet")).unwrap();
-    let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
-    writer.write(&batch).unwrap();
-    writer.close().unwrap();
-    for command in [
-        "inspect m.parquet",
-        "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.9",
-        "floor-motions --in m.parquet --period 1 --level 1",
-    ] {
-        fail(folder.path(), command, 1, &["m.parquet", "pga_m_s2"]);
+    let damaged = places.into_iter().map(|at| (&whole, at as usize)).chain([(&foreign, foreign.len() / 4)]);
+    for (file, at) in damaged {
+        let mut damaged = file.clone();
+        damaged[at] ^= 16;
+        std::fs::write(&path, damaged).unwrap();
+        fail(folder.path(), &simulate, 1, &["motions.parquet"]);
     }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{SMALL, bytes, fail, folder, folder_with, succeed};
+use crate::common::{SMALL, fail, folder, folder_with, ran, rows, succeed};
 
 const BLOCK: &str = "--width 0.5 --height 2";
 const HAZARD: &str = "pga_g,annual_rate\n0.1,0.01\n0.3,0.001\n1.0,0.00005\n";
@@ -23,8 +23,11 @@ fn record(peak_g: f64) -> String {
 }
 
 fn ids(folder: &Path, table: &str) -> Vec<String> {
-    let rows = succeed(folder, &format!("inspect --head 100 --format csv {table}")).0;
-    rows.lines().skip(1).map(|row| row.split(',').next().unwrap_or_default().to_string()).collect()
+    rows(folder, table)
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').next().unwrap_or_default().to_string())
+        .collect()
 }
 
 const IMPORT: &str = "import-motions --accept-implausible --pulses skip";
@@ -86,16 +89,11 @@ fn a_run_is_kept_where_it_goes_and_made_anew_where_a_file_is_missing() {
     for name in ["pipeline.yaml", "out"] {
         fs::rename(folder.path().join(name), moved.join(name)).unwrap();
     }
-    let ran = |folder: &Path, call: &str| {
-        let (_, stderr) = succeed(folder, call);
-        let lines = stderr.lines().filter(|line| line.ends_with(" s"));
-        lines.map(|line| line.split(' ').next().unwrap().to_string()).collect::<Vec<_>>()
-    };
-    assert!(ran(&moved, "run --threads 1").is_empty(), "moved");
-    assert!(ran(folder.path(), "run moved/pipeline.yaml").is_empty(), "from another folder");
+    assert!(ran(&succeed(&moved, "run --threads 1").1).is_empty(), "moved");
+    assert!(ran(&succeed(folder.path(), "run moved/pipeline.yaml").1).is_empty(), "from another folder");
     let figure = fs::read_dir(moved.join("out/report")).unwrap().next().unwrap().unwrap().path();
     fs::remove_file(&figure).unwrap();
-    assert_eq!(ran(&moved, "run"), ["report"], "a figure is missing");
+    assert_eq!(ran(&succeed(&moved, "run").1), ["report"], "a figure is missing");
     fs::write(&figure, "overwritten").unwrap();
     fail(&moved, "run", 1, &["--force"]);
     fs::remove_file(&figure).unwrap();
@@ -105,13 +103,11 @@ fn a_run_is_kept_where_it_goes_and_made_anew_where_a_file_is_missing() {
     fs::rename(moved.join("out/renamed.parquet"), moved.join("out/paper.parquet")).unwrap();
     // The parts of a stage are told apart.
     let (main, part) = (moved.join("out/pro.parquet"), moved.join("out/pro.parameters.parquet"));
+    let fit = "fit-pro --in out/responses.parquet --out out/pro.parquet";
     fs::copy(&part, &main).unwrap();
-    assert!(!is_kept(&moved, "fit-pro --in out/responses.parquet --out out/pro.parquet"), "swapped");
+    assert!(!is_kept(&moved, fit), "swapped");
     fs::remove_file(&part).unwrap();
-    assert!(
-        !is_kept(&moved, "fit-pro --in out/responses.parquet --out out/pro.parquet"),
-        "a part is missing"
-    );
+    assert!(!is_kept(&moved, fit), "a part is missing");
 }
 
 #[test]
@@ -156,38 +152,11 @@ fn the_word_paper_is_no_folder_and_a_path_may_be_written_in_two_ways() {
 }
 
 #[test]
-fn foreign_texts_are_not_replaced_and_own_ones_are() {
-    let folder = folder(&[
-        ("mine.csv", "object,p_nr,note\ncabinet,1,checked with rockfrag\n"),
-        ("notes.json", "{\"note\": \"made with rockfrag\", \"p_overturning\": 1}"),
-    ]);
-    let evaluate = |out: &str| format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --out {out}");
-    for name in ["mine.csv", "notes.json"] {
-        let before = bytes(&folder.path().join(name));
-        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
-        assert_eq!(bytes(&folder.path().join(name)), before);
-    }
-    for name in ["own.csv", "own.json"] {
-        succeed(folder.path(), &evaluate(name));
-        succeed(folder.path(), &evaluate(name).replace("0.4", "0.3"));
-    }
-    let export = format!("export --to pelicun {BLOCK} --out mine.csv");
-    fail(folder.path(), &export, 1, &["mine.csv", "--force"]);
-    fs::write(folder.path().join("f.xml"), "<?xml version=\"1.0\"?>\n<a>rockfrag</a>\n").unwrap();
-    fail(folder.path(), &format!("export --to openquake {BLOCK} --out f.xml"), 1, &["f.xml", "--force"]);
-    for height in ["2", "1.8"] {
-        succeed(folder.path(), &format!("export --to openquake --width 0.5 --height {height} --out own.xml"));
-    }
-}
-
-#[test]
 fn partitions_of_different_runs_are_no_table() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
     let call = |part: &str, more: &str| {
-        format!(
-            "synthesize-motions --in out/scenarios.parquet --out parts --partition {part} --dt 0.01 {more}"
-        )
+        format!("synthesize-motions --in out/scenarios.parquet --out parts --partition {part} {more}")
     };
     succeed(folder.path(), &call("0/2", "--seed 1"));
     succeed(folder.path(), &call("1/2", "--seed 2"));
@@ -204,47 +173,36 @@ fn partitions_of_different_runs_are_no_table() {
     fail(folder.path(), "fit-pro --in responses --out f.parquet", 1, &["responses", "z.parquet"]);
 }
 
-/// The number of a row that a pipeline in another folder writes.
-fn rate(folder: &Path) -> String {
-    succeed(folder, "run sub/pipeline.yaml");
-    succeed(folder, "inspect --head 5 --format csv sub/out/evaluated.parquet").0
-}
-
 #[test]
 fn paths_of_a_pipeline_are_relative_to_its_file() {
-    let folder =
-        folder(&[("second.csv", "pgv_m_s,annual_rate\n0.1,0.9\n1.0,0.5\n5,0.2\n"), ("h.csv", "no hazard\n")]);
+    let other = "pgv_m_s,annual_rate\n0.1,0.9\n1.0,0.5\n5,0.2\n";
+    let folder = folder(&[("second.csv", other), ("h.csv", "no hazard\n")]);
     let sub = folder.path().join("sub");
-    fs::create_dir(&sub).unwrap();
+    fs::create_dir_all(sub.join("fits")).unwrap();
     fs::write(sub.join("h.csv"), HAZARD).unwrap();
     fs::write(sub.join("second.csv"), "pgv_m_s,annual_rate\n0.1,0.01\n0.3,0.001\n1.0,0.00005\n").unwrap();
-    let pipeline = |hazard: &str| {
-        let yaml = format!("evaluate: {{ width: 0.5, height: 2, hazard: {hazard} }}\n");
+    let run = |yaml: &str| {
         fs::write(sub.join("pipeline.yaml"), yaml).unwrap();
+        succeed(folder.path(), "run sub/pipeline.yaml");
     };
-    pipeline("\"h.csv,second.csv\"");
-    let as_text = rate(folder.path());
-    pipeline("[h.csv, second.csv]");
-    assert_eq!(rate(folder.path()), as_text);
-    pipeline("h.csv");
-    assert_ne!(rate(folder.path()), as_text, "the second curve matters");
+    let rate = |hazard: &str| {
+        run(&format!("evaluate: {{ width: 0.5, height: 2, hazard: {hazard} }}\n"));
+        rows(folder.path(), "sub/out/evaluated.parquet")
+    };
+    let as_text = rate("\"h.csv,second.csv\"");
+    assert_eq!(rate("[h.csv, second.csv]"), as_text);
+    assert_ne!(rate("h.csv"), as_text, "the second curve matters");
     fs::rename(sub.join("second.csv"), sub.join("a,b.csv")).unwrap();
-    pipeline("[h.csv, \"a,b.csv\"]");
-    assert_eq!(rate(folder.path()), as_text, "a name may have a comma");
+    assert_eq!(rate("[h.csv, \"a,b.csv\"]"), as_text, "a name may have a comma");
     let direct = |hazard: &str| succeed(&sub, &format!("evaluate {BLOCK} {hazard} --format csv")).0;
     assert_eq!(direct("--hazard h.csv --hazard a,b.csv"), direct("--hazard a,b.csv --hazard h.csv"));
-    fs::write(
-        sub.join("pipeline.yaml"),
-        "sample-scenarios: { mw: \"7\", re: \"5\", samples: 2, out: s.parquet }\nsynthesize-motions: { in: s.parquet }\n\
-         export: { to: openquake, width: 0.5, height: 2 }\n",
-    )
-    .unwrap();
-    succeed(folder.path(), "run sub/pipeline.yaml");
+    run("sample-scenarios: { mw: \"7\", re: \"5\", samples: 2, out: s.parquet }\n\
+         synthesize-motions: { in: s.parquet }\n\
+         export: { to: openquake, width: 0.5, height: 2 }\n");
     assert!(sub.join("s.parquet").exists() && sub.join("out/fragility.xml").exists());
     assert!(!folder.path().join("s.parquet").exists() && !folder.path().join("fragility.xml").exists());
-    fs::create_dir(folder.path().join("fits")).unwrap();
-    fs::write(sub.join("pipeline.yaml"), "export: { to: openquake, width: 0.5, height: 2, fits: fits }\n")
-        .unwrap();
+    let fits = "export: { to: openquake, width: 0.5, height: 2, fits: fits }\n";
+    fs::write(sub.join("pipeline.yaml"), fits).unwrap();
     fail(folder.path(), "run sub/pipeline.yaml", 1, &["sub/fits"]);
 }
 
@@ -262,97 +220,11 @@ fn names_of_a_pipeline_are_texts() {
             "evaluate: {{ pga: 0.4, pgv: 0.5, structure: [{{ name: {name}, width: 0.6, height: 1.9 }}] }}\n"
         ));
         succeed(folder.path(), "run");
-        let rows = succeed(folder.path(), "inspect --head 5 --format csv out/evaluated.parquet").0;
+        let rows = rows(folder.path(), "out/evaluated.parquet");
         assert!(rows.lines().nth(1).unwrap().starts_with(&format!("{expected},")), "{name}: {rows}");
     }
     let folder = folder_with("fit-pro: { confidence: 0.9, confidence: 0.8 }\n");
     let output = crate::common::rockfrag(folder.path(), "run").output().unwrap();
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(stderr.contains("'confidence'") && !stderr.contains("DuplicateKeyPolicy"), "{stderr}");
-}
-
-#[test]
-fn a_pipe_is_read_once_and_never_replaced() {
-    let folder = folder(&[("h.csv", HAZARD), ("list.csv", "name,width,height\nshelf,0.5,2\n")]);
-    let shell = |call: &str| {
-        let program = env!("CARGO_BIN_EXE_rockfrag");
-        let line = call.replace("rockfrag", program);
-        let mut call = std::process::Command::new("timeout");
-        let output = call.args(["60", "bash", "-c", &line]).current_dir(folder.path()).output().unwrap();
-        (
-            output.status.code(),
-            String::from_utf8(output.stdout).unwrap(),
-            String::from_utf8(output.stderr).unwrap(),
-        )
-    };
-    let direct = shell(&format!("rockfrag evaluate {BLOCK} --hazard h.csv"));
-    assert_eq!(direct.0, Some(0), "{direct:?}");
-    for call in [
-        format!("rockfrag evaluate {BLOCK} --hazard <(cat h.csv)"),
-        format!("rockfrag evaluate {BLOCK} --hazard - < h.csv"),
-        format!("cat h.csv | rockfrag evaluate {BLOCK} --hazard /dev/stdin"),
-        format!("mkfifo f; cat h.csv > f & rockfrag evaluate {BLOCK} --hazard f"),
-    ] {
-        assert_eq!(
-            (shell(&call).0, shell(&call.replace("mkfifo f; ", "")).1),
-            (Some(0), direct.1.clone()),
-            "{call}"
-        );
-    }
-    let (code, _, stderr) = shell("rockfrag evaluate --structures - --hazard h.csv < list.csv");
-    assert_eq!(code, Some(0), "{stderr}");
-    let (code, _, stderr) = shell(&format!(
-        "rockfrag evaluate {BLOCK} --pga 0.3 --pgv 0.3 --out x.parquet; mkfifo p.parquet; rockfrag evaluate {BLOCK} --pga 0.3 --pgv 0.3 --out p.parquet --force"
-    ));
-    assert_eq!(code, Some(2), "{stderr}");
-    assert!(stderr.contains("p.parquet"), "{stderr}");
-}
-
-#[test]
-fn a_link_keeps_pointing_and_a_long_name_is_a_name() {
-    let folder = folder(&[]);
-    let path = |name: &str| folder.path().join(name);
-    fs::create_dir(path("there")).unwrap();
-    let sample = |out: &str| format!("sample-scenarios --mw 7 --re 5 --samples 2 --out {out}");
-    for _ in 0..2 {
-        let _ = fs::remove_file(path("link.parquet"));
-        std::os::unix::fs::symlink("there/s.parquet", path("link.parquet")).unwrap();
-        succeed(folder.path(), &format!("{} --force", sample("link.parquet")));
-        assert!(path("link.parquet").is_symlink() && path("there/s.parquet").is_file());
-    }
-    let name = format!("{}.parquet", "n".repeat(247));
-    succeed(folder.path(), &sample(&name));
-    assert!(is_kept(folder.path(), &sample(&name)));
-}
-
-#[test]
-fn absurd_numbers_of_threads_start_quickly() {
-    let folder = folder(&[]);
-    let start = std::time::Instant::now();
-    let mut call =
-        crate::common::rockfrag(folder.path(), "sample-scenarios --mw 7 --re 5 --samples 2 --threads 1000");
-    assert!(call.status().unwrap().success());
-    let mut call = std::process::Command::new("timeout");
-    call.args([
-        "120",
-        env!("CARGO_BIN_EXE_rockfrag"),
-        "sample-scenarios",
-        "--samples",
-        "2",
-        "--out",
-        "b.parquet",
-    ]);
-    call.env("RAYON_NUM_THREADS", "100000").current_dir(folder.path());
-    assert_eq!(call.status().unwrap().code(), Some(2));
-    assert!(start.elapsed().as_secs() < 60);
-}
-
-#[test]
-fn init_leaves_no_half_file() {
-    let folder = folder(&[]);
-    let line = format!("ulimit -f 0; {} init", env!("CARGO_BIN_EXE_rockfrag"));
-    let _ =
-        std::process::Command::new("bash").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
-    assert!(!folder.path().join("pipeline.yaml").exists());
-    succeed(folder.path(), "init");
 }

@@ -1,11 +1,6 @@
 //! What stood and what fell, from a list to probabilities; and blocks of FEMA P-58.
 
-use std::sync::Arc;
-
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
-use parquet::arrow::ArrowWriter;
-
-use crate::common::{evaluated, fail, folder, near, number, succeed};
+use crate::common::{evaluated, fail, folder, near, number, numbers, succeed, texts, write};
 
 const TOWN: &str = "\
 name;width (cm);height (cm);PGA (g);PGV (m/s);magnitude;earthquake;fell
@@ -21,21 +16,15 @@ fn a_list_of_what_fell_calibrates_other_objects() {
     let path = folder.path();
     succeed(path, "fit-pro --in town.csv --out csv/pro.parquet");
     // The same as Parquet.
-    let numbers = |values: [f64; 4]| Arc::new(Float64Array::from_iter_values(values)) as ArrayRef;
-    let fell: ArrayRef = Arc::new(StringArray::from(vec!["yes", "stood", "no", "fell"]));
-    let rows = RecordBatch::try_from_iter([
-        ("width_m", numbers([0.2, 0.2, 0.3, 0.15])),
-        ("height_m", numbers([0.8, 0.6, 0.9, 0.9])),
-        ("pga_g", numbers([0.4, 0.4, 0.5, 0.3])),
-        ("pgv_m_s", numbers([0.5, 0.5, 0.3, 0.4])),
-        ("mw", numbers([6.5; 4])),
-        ("fell", fell),
-    ]);
-    let rows = rows.unwrap();
-    let file = std::fs::File::create(path.join("town.parquet")).unwrap();
-    let mut writer = ArrowWriter::try_new(file, rows.schema(), None).unwrap();
-    writer.write(&rows).unwrap();
-    writer.close().unwrap();
+    let columns = vec![
+        ("width_m", numbers(&[0.2, 0.2, 0.3, 0.15])),
+        ("height_m", numbers(&[0.8, 0.6, 0.9, 0.9])),
+        ("pga_g", numbers(&[0.4, 0.4, 0.5, 0.3])),
+        ("pgv_m_s", numbers(&[0.5, 0.5, 0.3, 0.4])),
+        ("mw", numbers(&[6.5; 4])),
+        ("fell", texts(&["yes", "stood", "no", "fell"])),
+    ];
+    write(&path.join("town.parquet"), columns);
     succeed(path, "fit-pro --in town.parquet --out parquet/pro.parquet");
     let motion = "--structures others.csv --pga 0.4 --pgv 0.5 --magnitude 6.5";
     let of = |fits: &str| -> Vec<f64> {

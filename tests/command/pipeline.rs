@@ -1,17 +1,6 @@
 //! A run: what depends on a change is run again, and nothing else; threads and partitions do not matter.
 
-use std::path::Path;
-
-use crate::common::{FILES, SMALL, bytes, fail, folder_with, made, succeed};
-
-/// The stages that a run has run, by its lines on stderr.
-fn ran(stderr: &str) -> Vec<&str> {
-    stderr
-        .lines()
-        .filter(|line| line.ends_with(" s"))
-        .filter_map(|line| line.split_whitespace().next())
-        .collect()
-}
+use crate::common::{FILES, SMALL, bytes, fail, folder_with, made, ran, rows, succeed};
 
 #[test]
 fn what_depends_on_a_change_is_run_again_and_nothing_else() {
@@ -73,39 +62,23 @@ fn an_empty_section_of_simulate_takes_the_papers_structures() {
     let (structures, _) = structures.split_once("fit-pex").unwrap();
     std::fs::write(folder.path().join("pipeline.yaml"), SMALL.replace(structures, "  {}\n")).unwrap();
     succeed(folder.path(), "run --out bare");
-    let rows = |out: &str| {
-        succeed(folder.path(), &format!("inspect --head 100000 --format csv {out}/responses.parquet")).0
-    };
-    assert_eq!(rows("given"), rows("bare"));
+    assert_eq!(rows(folder.path(), "given/responses.parquet"), rows(folder.path(), "bare/responses.parquet"));
 }
 
 #[test]
 fn partitions_make_the_rows_of_the_whole() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
-    let at = |path: &str| folder.path().join(path);
+    let simulate = "simulate --config pipeline.yaml --in out/motions.parquet --out parts --partition";
     for part in 0..3 {
-        succeed(
-            folder.path(),
-            &format!(
-                "simulate --config pipeline.yaml --in out/motions.parquet --out parts --partition {part}/3"
-            ),
-        );
+        succeed(folder.path(), &format!("{simulate} {part}/3"));
     }
-    let rows = |path: &Path| {
-        succeed(folder.path(), &format!("inspect --head 100000 --format csv {}", path.display())).0
-    };
-    assert_eq!(rows(&at("parts")), rows(&at("out/responses.parquet")));
+    assert_eq!(rows(folder.path(), "parts"), rows(folder.path(), "out/responses.parquet"));
     succeed(folder.path(), "fit-pro --in parts --out parts.pro.parquet");
-    assert_eq!(rows(&at("parts.pro.parquet")), rows(&at("out/pro.parquet")));
-    std::fs::remove_file(at("parts/part-00001.parquet")).unwrap();
+    assert_eq!(rows(folder.path(), "parts.pro.parquet"), rows(folder.path(), "out/pro.parquet"));
+    std::fs::remove_file(folder.path().join("parts/part-00001.parquet")).unwrap();
     fail(folder.path(), "fit-pro --in parts --out again.parquet", 1, &["parts", "1/3"]);
-    fail(
-        folder.path(),
-        "simulate --in out/motions.parquet --p 1 --alpha 0.1 --eta 0.9 --partition 3/3",
-        2,
-        &["3/3"],
-    );
+    fail(folder.path(), &format!("{simulate} 3/3"), 2, &["3/3"]);
 }
 
 #[test]

@@ -1,16 +1,14 @@
 //! What one sees at a terminal: words, lists, traces.
 
-use std::path::Path;
-use std::sync::Arc;
-
-use arrow_array::builder::{Float64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, StringArray};
+use rockfrag::cli::stage_commands;
 use rockfrag::table::capacities::CapacityFitRow;
 use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
+use std::path::Path;
 
-use crate::common::{evaluated, fail, folder, number, rockfrag, succeed, write, write_motions};
+use crate::common::write_motions;
+use crate::common::{evaluated, fail, folder, lists, number, numbers, rockfrag, succeed, texts, write};
 
 fn trace(folder: &Path) -> Vec<TraceRow> {
     rows::read(&folder.join("responses.trace.parquet")).unwrap()
@@ -47,23 +45,6 @@ fn a_motion_that_cannot_be_traced_is_told_before_anything_is_simulated() {
     fail(folder.path(), &format!("{simulate} --trace 0"), 1, &["NaN"]);
 }
 
-const STAGES: [&str; 14] = [
-    "sample-scenarios",
-    "synthesize-motions",
-    "import-motions",
-    "floor-motions",
-    "simulate",
-    "ida",
-    "fit-pex",
-    "fit-pro",
-    "compare-paper",
-    "rank-ims",
-    "evaluate",
-    "export",
-    "validate",
-    "report",
-];
-
 /// The names of the options that a help lists.
 fn options(help: &str) -> Vec<&str> {
     // Lines of meanings are further to the right.
@@ -75,7 +56,7 @@ fn options(help: &str) -> Vec<&str> {
 #[test]
 fn short_help_has_the_options_of_its_examples_and_long_help_all() {
     let folder = tempfile::tempdir().unwrap();
-    for stage in STAGES {
+    for stage in stage_commands().iter().map(|command| command.get_name()) {
         let short = succeed(folder.path(), &format!("{stage} -h")).0;
         let long = succeed(folder.path(), &format!("{stage} --help")).0;
         let (few, all) = (options(&short), options(&long));
@@ -93,25 +74,24 @@ fn short_help_has_the_options_of_its_examples_and_long_help_all() {
 /// Twelve sines in three groups, those of a group alike, as motions of one magnitude and distance or of
 /// unknown ones.
 fn write_groups(path: &Path, is_known: bool) {
-    let mut samples = ListBuilder::new(Float64Builder::new());
-    let (mut ids, mut mw, mut re_km) = (Vec::new(), Vec::new(), Vec::new());
-    for (group, omega) in [(0, 3.0), (1, 5.0), (2, 8.0)] {
-        for one in 0..4 {
-            let omega = omega * (1.0 + 0.02 * f64::from(one));
-            let sine: Vec<f64> = (0..400).map(|k| 3.0 * (omega * 0.01 * f64::from(k)).sin()).collect();
-            samples.values().append_slice(&sine);
-            samples.append(true);
-            ids.push(format!("{group}-{one}"));
-            mw.push(is_known.then_some(6.0 + 0.5 * f64::from(group)));
-            re_km.push(is_known.then_some(10.0));
-        }
-    }
-    let columns: Vec<(&str, ArrayRef)> = vec![
-        ("motion_id", Arc::new(StringArray::from(ids))),
-        ("dt_s", Arc::new(Float64Array::from(vec![0.01; 12]))),
-        ("mw", Arc::new(Float64Array::from(mw))),
-        ("re_km", Arc::new(Float64Array::from(re_km))),
-        ("acceleration_m_s2", Arc::new(samples.finish())),
+    let places: Vec<(f64, f64, f64)> = [(0.0, 3.0), (1.0, 5.0), (2.0, 8.0)]
+        .into_iter()
+        .flat_map(|(group, omega)| [0.0, 1.0, 2.0, 3.0].map(|one| (group, one, omega * (1.0 + 0.02 * one))))
+        .collect();
+    let sines = places.iter().map(|(_, _, omega)| {
+        (0..400).map(|k| 3.0 * (omega * 0.01 * f64::from(k)).sin()).collect::<Vec<f64>>()
+    });
+    let sines: Vec<Vec<f64>> = sines.collect();
+    let ids: Vec<String> = places.iter().map(|(group, one, _)| format!("{group}-{one}")).collect();
+    // NaN is null.
+    let known = if is_known { 1.0 } else { f64::NAN };
+    let mw: Vec<f64> = places.iter().map(|(group, ..)| known * (6.0 + 0.5 * group)).collect();
+    let columns = vec![
+        ("motion_id", texts(&ids.iter().map(String::as_str).collect::<Vec<_>>())),
+        ("dt_s", numbers(&[0.01; 12])),
+        ("mw", numbers(&mw)),
+        ("re_km", numbers(&[10.0 * known; 12])),
+        ("acceleration_m_s2", lists(&sines.iter().map(Vec::as_slice).collect::<Vec<_>>())),
     ];
     write(path, columns);
 }
@@ -203,15 +183,12 @@ fn a_long_list_is_printed_by_its_worst() {
 #[test]
 fn control_characters_of_names_are_shown_and_not_sent() {
     let folder = folder(&[("list.csv", "name,width,height\n\"\u{1b}[31mred\nrow\",0.4,2.0\nB,0.5,2.0\n")]);
-    let ids: ArrayRef = Arc::new(StringArray::from(vec!["a\u{1b}[2J\nframe: 0 of 3 motions overturn it"]));
-    let mut samples = ListBuilder::new(Float64Builder::new());
-    samples.values().append_slice(&[9.0; 300]);
-    samples.append(true);
-    let dt: ArrayRef = Arc::new(Float64Array::from(vec![0.01]));
-    write(
-        &folder.path().join("motions.parquet"),
-        vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", Arc::new(samples.finish()))],
-    );
+    let columns = vec![
+        ("motion_id", texts(&["a\u{1b}[2J\nframe: 0 of 3 motions overturn it"])),
+        ("dt_s", numbers(&[0.01])),
+        ("acceleration_m_s2", lists(&[&[9.0; 300]])),
+    ];
+    write(&folder.path().join("motions.parquet"), columns);
     for call in [
         "evaluate --structures list.csv --pga 0.6 --pgv 0.8",
         "evaluate --structures list.csv --hazard hazard.csv",

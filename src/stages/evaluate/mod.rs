@@ -59,6 +59,11 @@ pub use self::words::{model_of_all, size, too_far};
 /// per year at a site
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag evaluate --width 0.5 --height 2.0\n\
+    rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
+    rockfrag evaluate --width 0.5 --height 2.0 --depth 0.4 --hazard pga.csv,sa.csv\n\
+    rockfrag evaluate --structures objects.csv --hazard pga.csv --out objects.parquet\n\
+    rockfrag evaluate --width 0.5 --height 2.0 --period 0.6 --level 0.5 --hazard pga.csv")]
 #[command(group(ArgGroup::new("site").multiple(true)))]
 pub struct Evaluate {
     /// Peak ground acceleration, g
@@ -92,7 +97,8 @@ pub struct Evaluate {
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Rename>,
     /// Exposure time, years
-    #[arg(long, value_name = "YEARS", default_value = "50", conflicts_with_all = ["in", "pga", "pgv"], value_parser = number(1e-3..=1e6, "years above 0"))]
+    #[arg(long, value_name = "YEARS", default_value = "50", requires = "hazard",
+          value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
     #[arg(long, value_name = "S", group = "site",
@@ -197,7 +203,7 @@ impl Stage for Evaluate {
 
 impl Evaluate {
     fn hazard_files(&self) -> Vec<PathBuf> {
-        let lists = self.hazard.iter().map(|list| paths::listed(Path::new(""), &list.to_string_lossy()));
+        let lists = self.hazard.iter().map(|list| paths::split_list(Path::new(""), &list.to_string_lossy()));
         lists.flatten().map(PathBuf::from).collect()
     }
 

@@ -1,7 +1,7 @@
 //! What a table says about records: magnitude, distance and earthquake, which few files have.
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::inputs::{Grid, Heading, InputError, decode};
 use crate::pipeline::UsageError;
@@ -47,44 +47,51 @@ impl About {
     /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or
     /// PEER's search results or flatfile.
     pub fn read(path: &Path) -> anyhow::Result<About> {
-        let problem = |problem: String| UsageError::because(format!("{}: {problem}", path.display()));
-        let grid = grid(path).map_err(|error| problem(error.to_string()))?;
-        let columns = Columns::find(&grid).map_err(problem)?;
-        let mut all = HashMap::new();
+        About::parse(path).map_err(|problem| UsageError::because(format!("{}: {problem}", path.display())))
+    }
+
+    fn parse(path: &Path) -> Result<About, String> {
+        let grid = grid(path).map_err(|error| error.to_string())?;
+        let columns = Columns::find(&grid)?;
+        let mut about = About::default();
         for row in 0..grid.lines.len() {
-            let known = columns.known(&grid, row).map_err(|error| problem(error.to_string()))?;
+            let known = columns.known(&grid, row).map_err(|error| error.to_string())?;
             for file in columns.keys(&grid, row) {
-                if all.insert(file.clone(), known.clone()).is_some_and(|before| before != known) {
-                    let line = grid.lines[row];
-                    return Err(problem(format!("line {line}: {file} again, with other values")));
+                if about.known.insert(file.clone(), known.clone()).is_some_and(|before| before != known) {
+                    return Err(format!("line {}: {file} again, with other values", grid.lines[row]));
                 }
             }
         }
         let unused = grid.headings.iter().enumerate().filter(|(at, _)| !columns.uses(*at));
-        Ok(About { known: all, unused: unused.map(|(_, heading)| heading.text.clone()).collect() })
+        about.unused = unused.map(|(_, heading)| heading.text.clone()).collect();
+        Ok(about)
     }
 
     /// Refuses a table that says nothing of any of these files.
-    pub fn expect_any(&self, path: &Path, files: &[PathBuf]) -> anyhow::Result<()> {
-        if files.iter().any(|file| self.of(file).is_some()) {
-            return Ok(());
+    pub fn expect_any<'a>(
+        &self,
+        path: &Path,
+        mut files: impl Iterator<Item = &'a Path>,
+    ) -> anyhow::Result<()> {
+        match files.any(|file| self.find(file).is_some()) {
+            true => Ok(()),
+            false => {
+                Err(UsageError::because(format!("{}: no row is about any of the files", path.display())))
+            }
         }
-        let problem = format!("{}: no row is about any of the {} files", path.display(), files.len());
-        Err(UsageError::because(problem))
     }
 
-    fn of(&self, file: &Path) -> Option<&Known> {
+    fn find(&self, file: &Path) -> Option<&Known> {
         let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
         // RSN6_IMPVALL.I_I-ELC180.AT2
-        let number =
-            stem.as_ref().and_then(|stem| stem.split('_').next()).filter(|word| word.starts_with("rsn"));
-        let number = number.map(str::to_string);
+        let number = stem.as_ref().and_then(|stem| stem.split('_').next());
+        let number = number.filter(|word| word.starts_with("rsn")).map(str::to_string);
         [name, stem, number].into_iter().flatten().find_map(|name| self.known.get(&name))
     }
 
     /// Adds to a record what the table says of its file.
     pub fn add(&self, file: &Path, motion: &mut RecordedMotion) {
-        let Some(Known { mw, re_km, earthquake }) = self.of(file).cloned() else { return };
+        let Some(Known { mw, re_km, earthquake }) = self.find(file).cloned() else { return };
         motion.mw = mw.or(motion.mw);
         motion.re_km = re_km.or(motion.re_km);
         motion.event = earthquake.or(motion.event.take());
@@ -105,28 +112,19 @@ fn grid(path: &Path) -> Result<Grid, InputError> {
 
 impl Columns {
     fn find(grid: &Grid) -> Result<Columns, String> {
-        let first = |names: &[&str]| names.iter().find_map(|name| grid.column(&[name]));
-        let is_file = |heading: &Heading| {
-            let name = heading.name.as_str();
-            matches!(name, "file" | "name" | "motion_id")
-                || name.contains("filename")
-                || name.contains("file_name")
-        };
         let files = grid.headings.iter().enumerate().filter(|(_, heading)| is_file(heading));
-        let columns = Columns {
-            files: files.map(|(at, _)| at).collect(),
-            number: grid.column(&["record_sequence_number", "rsn"]),
-            magnitude: first(&MAGNITUDE),
-            distance: first(&DISTANCE),
-            earthquake: first(&EARTHQUAKE),
-        };
+        let [magnitude, distance, earthquake] = [&MAGNITUDE[..], &DISTANCE, &EARTHQUAKE]
+            .map(|names| names.iter().find_map(|name| grid.column(&[name])));
+        let files = files.map(|(at, _)| at).collect();
+        let number = grid.column(&["record_sequence_number", "rsn"]);
+        let columns = Columns { files, number, magnitude, distance, earthquake };
         if columns.files.is_empty() && columns.number.is_none() {
             return Err("no column 'file' or 'name'".to_string());
         }
-        if columns.magnitude.or(columns.distance).or(columns.earthquake).is_none() {
+        if magnitude.or(distance).or(earthquake).is_none() {
             return Err("expected a column 'magnitude', 'distance' or 'earthquake'".to_string());
         }
-        let heading = columns.distance.map(|at| &grid.headings[at]);
+        let heading = distance.map(|at| &grid.headings[at]);
         match heading.filter(|heading| heading.unit.is_some_and(|unit| unit.name != "km")) {
             Some(heading) => Err(format!("column '{}'; expected km", heading.text)),
             None => Ok(columns),
@@ -154,8 +152,9 @@ impl Columns {
 
     /// The names under which a file may be the one of a row.
     fn keys(&self, grid: &Grid, row: usize) -> Vec<String> {
-        let file = |&column: &usize| grid.cell(row, column).rsplit(['/', '\\']).next().map(key);
-        let files = self.files.iter().filter_map(file).filter(|name| name.contains(char::is_alphanumeric));
+        let files = self.files.iter().map(|&column| grid.cell(row, column));
+        let files = files.filter_map(|path| path.rsplit(['/', '\\']).next().map(key));
+        let files = files.filter(|name| name.contains(char::is_alphanumeric));
         let number = self.number.map(|column| format!("rsn{}", grid.cell(row, column)));
         files.filter(|name| name != "-999").chain(number).collect()
     }
@@ -165,6 +164,11 @@ impl Columns {
 fn number(grid: &Grid, row: usize, column: Option<usize>) -> Result<Option<f64>, InputError> {
     let Some(column) = column.filter(|&column| !grid.cell(row, column).is_empty()) else { return Ok(None) };
     Ok(Some(grid.number(row, column)?).filter(|number| *number > UNKNOWN))
+}
+
+fn is_file(heading: &Heading) -> bool {
+    let name = heading.name.as_str();
+    matches!(name, "file" | "name" | "motion_id") || name.contains("filename") || name.contains("file_name")
 }
 
 fn key(name: &str) -> String {

@@ -1,6 +1,7 @@
 //! The files of a call: which are read, in which pairs, and what is done to each.
 
 use std::collections::{HashMap, HashSet};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -19,64 +20,54 @@ use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records}
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
-use crate::warning::Warning;
+use crate::warning::{Warning, Warnings};
 
 pub struct Importer {
-    pub files: Vec<PathBuf>,
-    /// How many files share a stem or a name.
-    names: HashMap<String, usize>,
-    /// The path of each file below the folder that has all.
-    paths: HashMap<PathBuf, String>,
-    reading: ReadOptions,
-    processing: Processing,
+    pub files: Vec<File>,
+    pub reading: ReadOptions,
+    pub processing: Processing,
     pub about: About,
     /// Whether vertical components are imported too.
-    vertical: bool,
-    left_out: LeftOut,
+    pub vertical: bool,
+    /// Components that were left out.
+    pub left_out_vertical: AtomicUsize,
+    pub left_out_in_borehole: AtomicUsize,
 }
 
-/// How many components were left out, and why.
-#[derive(Default)]
-pub struct LeftOut {
-    pub vertical: AtomicUsize,
-    pub in_borehole: AtomicUsize,
-}
-
-impl LeftOut {
-    /// The counts in words; none where all are imported.
-    pub fn words(&self) -> Option<String> {
-        let counts = [(&self.vertical, "vertical component"), (&self.in_borehole, "borehole component")];
-        let counts = counts.map(|(count, name)| (count.load(Ordering::Relaxed), name));
-        let words = counts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| counted(*count, name));
-        let words: Vec<String> = words.collect();
-        (!words.is_empty()).then(|| words.join(" and "))
-    }
+/// A file, or one in an archive.
+#[derive(Clone)]
+pub struct File {
+    pub path: PathBuf,
+    /// Its path below the folder that has all.
+    below: String,
+    /// The name of its record.
+    name: String,
 }
 
 /// What one thread imports: a file, or two components by their file and number.
 pub enum Work {
-    File(PathBuf),
-    Pair([(PathBuf, usize); 2]),
+    File(File),
+    Pair([(File, usize); 2]),
+}
+
+/// Names files without their ending where no other has the same, else with it (K-NET tells components by the
+/// ending), else by their path.
+pub fn named(paths: Vec<PathBuf>) -> Vec<File> {
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    for path in &paths {
+        let both: HashSet<String> = [path.file_stem(), path.file_name()].map(text).into();
+        both.into_iter().for_each(|name| *counts.entry(name).or_insert(0) += 1);
+    }
+    let below = names_below(&paths);
+    let files = paths.into_iter().zip(below).map(|(path, below)| {
+        let names = [path.file_stem(), path.file_name()].map(text);
+        let unique = names.into_iter().find(|name| counts.get(name) == Some(&1));
+        File { name: unique.unwrap_or(below.clone()), below, path }
+    });
+    files.collect()
 }
 
 impl Importer {
-    pub fn new(
-        files: Vec<PathBuf>,
-        reading: ReadOptions,
-        processing: Processing,
-        about: About,
-        vertical: bool,
-    ) -> anyhow::Result<Importer> {
-        let paths = files.iter().cloned().zip(names_below(&files)).collect();
-        let mut names = HashMap::new();
-        for file in &files {
-            let both: HashSet<String> = [file.file_stem(), file.file_name()].map(text).into();
-            both.into_iter().for_each(|name| *names.entry(name).or_insert(0) += 1);
-        }
-        let left_out = LeftOut::default();
-        Ok(Importer { files, names, paths, reading, processing, about, vertical, left_out })
-    }
-
     /// All work in order, and what cannot be read already.
     pub fn work(&self, context: &Context) -> anyhow::Result<(Vec<Work>, Vec<String>)> {
         if self.processing.direction.is_none() {
@@ -87,12 +78,11 @@ impl Importer {
             let (records, others): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
             refused.extend(others.into_iter().filter_map(Result::err));
             for (index, record) in records.into_iter().flatten().enumerate() {
-                if self.leaves_out(&record.motion) {
-                    continue;
-                }
                 // Samples are read again once a pair is found: that takes less memory than keeping all of
                 // them.
-                components.push((Component::new(&record.motion), (file.clone(), index)));
+                if !self.leaves_out(&record.motion) {
+                    components.push((Component::new(&record.motion), (file.clone(), index)));
+                }
             }
         }
         let horizontal = counted(components.len(), "horizontal component");
@@ -103,22 +93,30 @@ impl Importer {
                  Without --rotate each is imported by itself"
             );
         }
-        let warning = |(file, _): (PathBuf, usize)| (Warning::NoPartner, text(file.file_name()));
-        context.warn(left_out.into_iter().map(warning).collect());
+        let mut alone = Warnings::default();
+        left_out.iter().for_each(|(file, _)| alone.add(Warning::NoPartner, text(file.path.file_name())));
+        context.warn(alone);
         Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
     }
 
-    /// How many components were left out, in words.
+    /// Counts the components that were left out, in words.
     pub fn left_out(&self) -> Option<String> {
-        self.left_out.words()
+        let counts = [
+            (&self.left_out_vertical, "vertical component"),
+            (&self.left_out_in_borehole, "borehole component"),
+        ];
+        let counts = counts.map(|(count, name)| (count.load(Ordering::Relaxed), name)).into_iter();
+        let words = counts.filter(|(count, _)| *count > 0).map(|(count, name)| counted(count, name));
+        let words: Vec<String> = words.collect();
+        (!words.is_empty()).then(|| words.join(" and "))
     }
 
     /// Counts a component that is not to be imported. A column that was chosen is.
     fn leaves_out(&self, motion: &RecordedMotion) -> bool {
         let is_vertical = motion.is_vertical() && !self.vertical && self.reading.column.is_none();
         let counter = match (motion.is_in_borehole, is_vertical) {
-            (true, _) => &self.left_out.in_borehole,
-            (_, true) => &self.left_out.vertical,
+            (true, _) => &self.left_out_in_borehole,
+            (_, true) => &self.left_out_vertical,
             _ => return false,
         };
         counter.fetch_add(1, Ordering::Relaxed);
@@ -130,98 +128,84 @@ impl Importer {
             Work::File(file) => {
                 let mut records = self.read(file);
                 records.retain(|read| read.as_ref().map_or(true, |record| !self.leaves_out(&record.motion)));
-                let import = |read: Result<NamedRecord, String>| {
-                    self.processing.import(read?).map_err(|error| unprocessed(file, &error))
-                };
-                records.into_iter().map(import).collect()
+                let imported = records.into_iter().map(|record| {
+                    self.processing.import(record?).map_err(|error| unprocessed(&file.path, &error))
+                });
+                imported.collect()
             }
-            Work::Pair(pair) => {
-                let component = |(file, index): &(PathBuf, usize)| {
-                    let record = self.read(file).into_iter().flatten().nth(*index);
-                    record.ok_or_else(|| refusal(file, &"changed while it was read; run again"))
-                };
-                let both = || Ok([component(&pair[0])?, component(&pair[1])?]);
-                let import =
-                    |both| self.processing.import_pair(both).map_err(|error| unprocessed(&pair[0].0, &error));
-                vec![both().and_then(import)]
-            }
+            Work::Pair(pair) => vec![self.import_pair(pair)],
         }
     }
 
+    fn import_pair(&self, pair: &[(File, usize); 2]) -> Result<Vec<ImportedMotion>, String> {
+        let [first, second] = pair.each_ref().map(|(file, index)| {
+            let record = self.read(file).into_iter().flatten().nth(*index);
+            record.ok_or_else(|| refusal(&file.path, &"changed while it was read; run again"))
+        });
+        self.processing.import_pair([first?, second?]).map_err(|error| unprocessed(&pair[0].0.path, &error))
+    }
+
     /// Reads the records of a file, or of those in an archive; in words what is wrong with some.
-    fn read(&self, file: &Path) -> Vec<Result<NamedRecord, String>> {
-        let members = source::read(file).map_err(|error| refusal(file, &error));
-        let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(file, &error)));
+    fn read(&self, file: &File) -> Vec<Result<NamedRecord, String>> {
+        let members = source::read(&file.path).map_err(|error| refusal(&file.path, &error));
+        let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(&file.path, &error)));
         let members = match members {
             Ok(members) => members,
             Err(refusal) => return vec![Err(refusal)],
         };
-        let names = member_names(&members);
-        let read = |(member, name): (Member, Option<String>)| {
-            let within = file.join(member.name.as_deref().unwrap_or_default());
-            let path = if member.name.is_some() { &within } else { file };
-            let name = name.map_or_else(|| self.name(file), |name| format!("{}/{name}", self.name(file)));
-            let below = Path::new(&self.paths[file]).join(member.name.as_deref().unwrap_or_default());
-            let below =
-                if member.name.is_some() { below } else { Path::new(&self.paths[file]).to_path_buf() };
-            match self.read_one(path, &below, &name, &member.bytes) {
-                Ok(records) => records.into_iter().map(Ok).collect(),
-                Err(refusal) => vec![Err(refusal)],
-            }
-        };
-        members.into_iter().zip(names).flat_map(read).collect()
+        let records = file.unpacked(&members).into_iter().zip(&members).flat_map(|(file, member)| match self
+            .read_one(&file, &member.bytes)
+        {
+            Ok(records) => records.into_iter().map(Ok).collect(),
+            Err(refusal) => vec![Err(refusal)],
+        });
+        records.collect()
     }
 
-    /// Reads the records in the bytes of a file; `below` is its path below the folder that has all.
-    fn read_one(
-        &self,
-        file: &Path,
-        below: &Path,
-        name: &str,
-        bytes: &[u8],
-    ) -> Result<Vec<NamedRecord>, String> {
-        let (path, blake3) = (below.display().to_string(), blake3::hash(bytes).to_hex().to_string());
-        let source = SourceFile { path, blake3 };
-        let motions = read_records(bytes, &self.reading).map_err(|error| unread(file, &error))?;
+    /// Reads the records in the bytes of a file.
+    fn read_one(&self, file: &File, bytes: &[u8]) -> Result<Vec<NamedRecord>, String> {
+        let File { path, name, below } = file;
+        let source = SourceFile { path: below.clone(), blake3: blake3::hash(bytes).to_hex().to_string() };
+        let motions = read_records(bytes, &self.reading).map_err(|error| unread(path, &error))?;
         let several = motions.len() > 1;
-        let named = |(index, mut motion): (usize, RecordedMotion)| {
-            self.about.add(file, &mut motion);
+        let records = (1..).zip(motions).map(|(number, mut motion)| {
+            self.about.add(path, &mut motion);
             if several && motion.event.is_none() && motion.station.is_none() {
                 // The columns of a table are of one instrument.
-                motion.station = Some(name.to_string());
+                motion.station = Some(name.clone());
             }
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
-                return Err(refusal(file, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));
+                return Err(refusal(path, &format!("{samples} samples; expected {LONGEST_MOTION} at most")));
             }
-            Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(file, &problem))?;
-            let motion_id = if several { format!("{name}:{}", index + 1) } else { name.to_string() };
+            Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(path, &problem))?;
+            let motion_id = if several { format!("{name}:{number}") } else { name.clone() };
             Ok(NamedRecord { motion_id, source: source.clone(), motion })
-        };
-        motions.into_iter().enumerate().map(named).collect()
-    }
-
-    /// The name of a file without its ending where no other file has the same, else with it (K-NET tells
-    /// components by the ending), else its path.
-    fn name(&self, file: &Path) -> String {
-        let names = [file.file_stem(), file.file_name()].map(text);
-        let unique = names.into_iter().find(|name| self.names.get(name) == Some(&1));
-        unique.unwrap_or_else(|| self.paths[file].clone())
+        });
+        records.collect()
     }
 }
 
-/// Names of the files in an archive, without their endings if they still differ; none of a file that is none.
-fn member_names(members: &[Member]) -> Vec<Option<String>> {
-    let names = |of: fn(&Path) -> Option<&std::ffi::OsStr>| {
-        let name = move |member: &Member| Some(text(of(Path::new(member.name.as_ref()?))));
-        members.iter().map(name).collect::<Vec<_>>()
-    };
-    let stems = names(Path::file_stem);
-    let differ = stems.iter().collect::<HashSet<_>>().len() == stems.len();
-    if differ { stems } else { names(Path::file_name) }
+impl File {
+    /// The files in an archive, named without their endings if they still differ; the file itself if it is
+    /// none.
+    fn unpacked(&self, members: &[Member]) -> Vec<File> {
+        let stems = members.iter().map(|member| Path::new(member.name.as_deref()?).file_stem());
+        let differ = stems.collect::<HashSet<_>>().len() == members.len();
+        let files = members.iter().map(|member| {
+            let Some(inner) = member.name.as_deref().map(Path::new) else { return self.clone() };
+            let name = if differ { inner.file_stem() } else { inner.file_name() };
+            File {
+                path: self.path.join(inner),
+                below: Path::new(&self.below).join(inner).display().to_string(),
+                name: format!("{}/{}", self.name, text(name)),
+            }
+        });
+        files.collect()
+    }
 }
 
-fn text(name: Option<&std::ffi::OsStr>) -> String {
+fn text(name: Option<&OsStr>) -> String {
     name.unwrap_or_default().to_string_lossy().into_owned()
 }
 

@@ -7,6 +7,7 @@ mod importer;
 mod summary;
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicUsize;
 
 use clap::Args;
 use rayon::prelude::*;
@@ -37,6 +38,9 @@ const AT_ONCE: usize = 32;
 /// Import recorded ground motions from the files of strong-motion networks, or CSV
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag import-motions records --about records.csv --out motions.parquet\n\
+    rockfrag import-motions a.csv b.csv --unit g --dt 0.01 --column 2\n\
+    rockfrag import-motions records --keep-going --scale 0.5,1,2 --rotate strongest-pulse")]
 pub struct ImportMotions {
     /// Files and folders of records
     #[arg(value_name = "FILE|DIR")]
@@ -61,7 +65,8 @@ pub struct ImportMotions {
     #[arg(long, default_value = "none")]
     baseline: Baseline,
     /// Corner of a zero-phase high-pass filter of order 4, Hz
-    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1.0, "above 0 and up to 1 Hz: motions above 1 Hz rock structures"))]
+    #[arg(long, value_name = "HZ",
+          value_parser = number(1e-6..=1.0, "above 0 and up to 1 Hz: motions above 1 Hz rock structures"))]
     high_pass: Option<f64>,
     /// Resample to this time step, s
     #[arg(long, value_name = "S", value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
@@ -74,7 +79,8 @@ pub struct ImportMotions {
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
     scale: Option<Steps>,
     /// Scale each motion to this PGA, g
-    #[arg(long, value_name = "G", conflicts_with = "scale_pgv", value_parser = number(1e-9..=100.0, "a PGA above 0 g"))]
+    #[arg(long, value_name = "G", conflicts_with = "scale_pgv",
+          value_parser = number(1e-9..=100.0, "a PGA above 0 g"))]
     scale_pga: Option<f64>,
     /// Scale each motion to this PGV, m/s
     #[arg(long, value_name = "M/S", value_parser = number(1e-9..=100.0, "a PGV above 0 m/s"))]
@@ -128,12 +134,20 @@ impl Stage for ImportMotions {
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = self.records().files(&self.outputs(), &Planned::new())?;
-        let mut importer = Importer::new(files, reading, processing, about, self.vertical)?;
+        let mut importer = Importer {
+            files: importer::named(files),
+            reading,
+            processing,
+            about,
+            vertical: self.vertical,
+            left_out_vertical: AtomicUsize::default(),
+            left_out_in_borehole: AtomicUsize::default(),
+        };
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
             let about = std::path::absolute(&**path)?;
-            importer.files.retain(|file| std::path::absolute(file).is_ok_and(|file| file != about));
-            importer.about.expect_any(path, &importer.files)?;
+            importer.files.retain(|file| std::path::absolute(&file.path).is_ok_and(|file| file != about));
+            importer.about.expect_any(path, importer.files.iter().map(|file| &*file.path))?;
         }
         let (work, mut refused) = importer.work(context)?;
         let mut summary = Summary::default();

@@ -23,8 +23,8 @@ pub struct Summary {
     magnitudes: usize,
     /// How many motions came of each format and unit.
     kinds: BTreeMap<String, usize>,
-    /// PGA (g) and PGV (m/s) of each.
-    peaks: Vec<[f64; 2]>,
+    pga_g: Vec<f64>,
+    pgv_m_s: Vec<f64>,
 }
 
 impl Summary {
@@ -45,31 +45,32 @@ impl Summary {
             let kind = format!("{} in {}", motion.record.format, motion.record.unit.name);
             *self.kinds.entry(kind).or_default() += 1;
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
-            self.peaks.push([pga_m_s2 / G_M_S2, pgv_m_s]);
+            self.pga_g.push(pga_m_s2 / G_M_S2);
+            self.pgv_m_s.push(pgv_m_s);
         }
         Ok(())
     }
 
     pub fn is_empty(&self) -> bool {
-        self.peaks.is_empty()
+        self.pga_g.is_empty()
     }
 
     pub fn text(&self, left_out: Option<String>) -> String {
         let kinds: Vec<String> = self.kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
-        let range = |peak: usize| {
-            let values = self.peaks.iter().map(|peaks| peaks[peak]);
-            let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
-            format!("{} to {}", fixed(low, 3), fixed(high, 3))
-        };
         let left_out = left_out.map_or(String::new(), |components| format!("; {components} left out"));
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
-            counted(self.peaks.len(), "motion"),
+            counted(self.pga_g.len(), "motion"),
             listed(&kinds, NAMED),
             count(self.pulses),
             count(self.magnitudes),
-            range(0),
-            range(1)
+            range(&self.pga_g),
+            range(&self.pgv_m_s)
         )
     }
+}
+
+fn range(values: &[f64]) -> String {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    format!("{} to {}", fixed(low, 3), fixed(values.iter().copied().fold(0.0, f64::max), 3))
 }

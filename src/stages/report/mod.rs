@@ -27,6 +27,8 @@ use tables::Tables;
 /// Write a page with tables and figures of everything in a folder, or of files
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[command(after_help = "rockfrag report --in out --title \"Server room\" \
+    --author \"A. Engineer\" --out report.html")]
 pub struct Report {
     /// Folder or files of other commands; two evaluations of the same objects are before and after
     #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_delimiter = ',', default_value = ".")]

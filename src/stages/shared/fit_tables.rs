@@ -12,7 +12,7 @@ use crate::warning::Warnings;
 
 /// Calibrations as a table, the surface beside what was observed, with these headings of cases and events.
 pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: &Path) -> String {
-    let line = |row: &Calibration| {
+    let lines = rows.iter().map(|row| {
         let calibration = match (row.n, row.n_events) {
             (0, _) => "no case".to_string(),
             (_, 0) => format!("none of {} predicted", significant(row.expected, 2)),
@@ -22,11 +22,12 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: 
         let [cases, events] = [row.n, row.n_events].map(|n| count(n as usize));
         let name = [suite_name(&row.suite), row.structure.clone()].into_iter();
         name.chain(limit).chain([cases, events, calibration]).collect()
-    };
-    let limit = rows.iter().any(|row| row.limit_state.is_some()).then_some("limit");
-    let headings = ["suite", "structure"].into_iter().chain(limit).chain([cases, events, "calibration"]);
-    let headings: Vec<&str> = headings.collect();
-    text(&headings, rows.iter().map(line), headings.len() - 3..headings.len() - 1, out)
+    });
+    let mut headings = vec!["suite", "structure", "limit", cases, events, "calibration"];
+    if rows.iter().all(|row| row.limit_state.is_none()) {
+        headings.remove(2);
+    }
+    text(&headings, lines, headings.len() - 3..headings.len() - 1, out)
 }
 
 /// The first rows as a table, these columns of numbers flush right; all are in a file.
@@ -52,9 +53,12 @@ pub fn verdict(status: FitStatus) -> String {
 
 /// Warnings about calibrations, each with its structure and suite.
 pub fn warnings(rows: &[Calibration]) -> Warnings {
-    let about = |row: &Calibration| match &row.suite {
-        Some(suite) => format!("{} ({suite})", row.structure),
-        None => row.structure.clone(),
-    };
-    rows.iter().flat_map(|row| row.warnings().into_iter().map(move |warning| (warning, about(row)))).collect()
+    let mut warnings = Warnings::default();
+    for row in rows {
+        let suite = row.suite.as_ref().map_or(String::new(), |suite| format!(" ({suite})"));
+        for warning in row.warnings() {
+            warnings.add(warning, format!("{}{suite}", row.structure));
+        }
+    }
+    warnings
 }

@@ -71,9 +71,9 @@ impl ModelArgs {
     }
 
     pub fn input(&self) -> Read {
-        let files = |folder: &FitsFolder| self.files().iter().map(|name| folder.join(name)).collect();
+        let files = self.fits.iter().flat_map(|folder| self.files().iter().map(|name| folder.join(name)));
         // Fits to what stood and what fell have none of demands.
-        Read { optional: true, ..Read::new("fits", self.fits.as_ref().map_or(Vec::new(), files)) }
+        Read { optional: true, ..Read::new("fits", files) }
     }
 
     /// The fits of a run that makes some.
@@ -90,15 +90,16 @@ impl ModelArgs {
         fn read<R: Row>(folder: Option<&FitsFolder>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
-        let (fits, of_paper) = (self.fits.as_ref(), self.fits.as_ref().filter(|_| is_paper));
+        let fits = self.fits.as_ref();
+        let for_paper = fits.filter(|_| is_paper);
         let overturning: Vec<Calibration> = read(fits, "pro.calibration.parquet")?;
         // What stood and what fell tells nothing of demands.
         let with_demand = fits.filter(|_| !overturning.iter().all(Calibration::is_of_outcomes));
         Ok(Models {
             overturning,
             exceeding: read(with_demand, "pex.calibration.parquet")?,
-            curves: read(of_paper, "pro.parquet")?,
-            demand: read(of_paper, "pex.parquet")?,
+            curves: read(for_paper, "pro.parquet")?,
+            demand: read(for_paper, "pex.parquet")?,
             args: self.clone(),
         })
     }
@@ -123,11 +124,12 @@ impl Models {
     /// named; without one, the surface, with a warning if there are fits.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
-        let fitted = self.of_structure(structure)?;
+        let fitted = self.rows_for(structure)?;
         if fitted.is_empty() && model == ModelName::Paper {
             let (folder, name, names) = (self.folder(), &structure.name, self.names());
             bail!(
-                "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of {names} by --name"
+                "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of {names} \
+                 by --name"
             );
         }
         if fitted.is_empty() {
@@ -140,20 +142,21 @@ impl Models {
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
         }
-        let overturning = self.of_kind(&fitted)?;
+        let overturning = self.row_of_kind(&fitted)?;
         let exceeding = self.exceeding(overturning, structure)?;
-        let is_plane =
-            |fit: &DemandFit| fit.model == DemandModel::Biplanar && fit.group() == overturning.group();
         let model = match model {
             ModelName::Calibrated => {
                 Model::Calibrated { overturning: overturning.clone(), exceeding, floor: None }
             }
-            ModelName::Paper => Model::Paper {
-                demand: self.demand.iter().filter(|fit| is_plane(fit)).cloned().collect(),
-                overturning: self.curve(overturning)?,
-                limit_state,
-                peaks: overturning.peaks(),
-            },
+            ModelName::Paper => {
+                let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+                Model::Paper {
+                    demand: planes.filter(|fit| fit.group() == overturning.group()).cloned().collect(),
+                    overturning: self.curve(overturning)?,
+                    limit_state,
+                    peaks: overturning.peaks(),
+                }
+            }
         };
         let is_other = self.args.name.is_some()
             && !overturning.is_of_outcomes()
@@ -165,30 +168,29 @@ impl Models {
 
     /// All fitted structures, or the one named.
     pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
-        let is_wanted =
-            |row: &&Calibration| self.args.name.as_ref().is_none_or(|name| *name == row.structure);
-        let mut structures: Vec<Structure> =
-            self.overturning.iter().filter(is_wanted).map(structure_of).collect();
+        let mut structures: Vec<Structure> = self.overturning.iter().map(structure_of).collect();
+        structures.retain(|structure| self.args.name.as_ref().is_none_or(|name| *name == structure.name));
         let mut known = HashSet::new();
         structures.retain(|structure| known.insert(structure.name.clone()));
         match (&self.args.name, structures.is_empty()) {
             (_, false) => Ok(structures),
             (Some(name), true) => Err(self.not_fitted(name)),
-            (None, true) => {
-                Err(UsageError::because(format!("{}: no fits of overturning; run fit-pro", self.folder())))
-            }
+            (None, true) => Err(self.refuse("no fits of overturning; run fit-pro")),
         }
     }
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
     pub fn expect_ground(&self) -> anyhow::Result<()> {
         match self.overturning.iter().any(|row| is_floor(&row.suite)) {
-            true => Err(UsageError::because(format!(
-                "{}: fits to motions of a floor; expected fits to motions of the ground, with period and level",
-                self.folder()
-            ))),
+            true => Err(self.refuse(
+                "fits to motions of a floor; expected fits to motions of the ground, with period and level",
+            )),
             false => Ok(()),
         }
+    }
+
+    fn refuse(&self, problem: &str) -> anyhow::Error {
+        UsageError::because(format!("{}: {problem}", self.folder()))
     }
 
     fn folder(&self) -> String {
@@ -203,24 +205,20 @@ impl Models {
     }
 
     fn not_fitted(&self, name: &str) -> anyhow::Error {
-        let (folder, names) = (self.folder(), self.names());
-        UsageError::because(format!("{folder}: no structure '{name}'; expected one of {names}"))
+        self.refuse(&format!("no structure '{name}'; expected one of {}", self.names()))
     }
 
-    /// The rows of a structure, of one name.
-    fn of_structure(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
-        let named = |name: &str| self.overturning.iter().filter(|row| row.structure == name).collect();
-        let Some(name) = &self.args.name else {
+    /// The rows of the structure that is named, or else is like one, under one name.
+    fn rows_for(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
+        let name = self.args.name.as_ref().or_else(|| {
             let is_like = |row: &&Calibration| row.is_of_outcomes() || structure.is_like(&structure_of(row));
             let mut like = self.overturning.iter().filter(is_like);
             let row = like.clone().find(|row| row.structure == structure.name).or_else(|| like.next());
-            return Ok(row.map_or(Vec::new(), |row| named(&row.structure)));
-        };
-        let rows: Vec<&Calibration> = named(name);
-        if rows.is_empty() {
-            return Err(self.not_fitted(name));
-        }
-        Ok(rows)
+            row.map(|row| &row.structure)
+        });
+        let Some(name) = name else { return Ok(Vec::new()) };
+        let rows: Vec<&Calibration> = self.overturning.iter().filter(|row| row.structure == *name).collect();
+        if rows.is_empty() { Err(self.not_fitted(name)) } else { Ok(rows) }
     }
 
     /// Returns the requested kind of motion, or the only one of rows.
@@ -228,27 +226,24 @@ impl Models {
         let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();
         kinds.sort_unstable();
         kinds.dedup();
-        let (folder, names) = (self.folder(), kinds.join(", "));
+        let names = kinds.join(", ");
         match self.args.suite {
             Some(kind) if rows.iter().any(|row| row.kind == kind) => Ok(kind),
-            Some(kind) => Err(UsageError::because(format!("{folder}: no fits of {kind}, only of {names}"))),
+            Some(kind) => Err(self.refuse(&format!("no fits of {kind}, only of {names}"))),
             None if kinds.len() == 1 => Ok(rows[0].kind),
-            None => Err(UsageError::because(format!(
-                "{folder}: fits of {names}; expected --suite with one of them"
-            ))),
+            None => Err(self.refuse(&format!("fits of {names}; expected --suite with one of them"))),
         }
     }
 
     /// Returns the row of this kind of motion.
-    fn of_kind<'a>(&self, rows: &[&'a Calibration]) -> anyhow::Result<&'a Calibration> {
+    fn row_of_kind<'a>(&self, rows: &[&'a Calibration]) -> anyhow::Result<&'a Calibration> {
         let kind = self.kind(rows)?;
-        let of_kind: Vec<&Calibration> = rows.iter().filter(|row| row.kind == kind).copied().collect();
-        match of_kind.iter().find(|row| row.suite != of_kind[0].suite) {
-            None => Ok(of_kind[0]),
-            Some(other) => Err(UsageError::because(format!(
-                "{}: fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
-                self.folder(),
-                suite_name(&of_kind[0].suite),
+        let rows: Vec<&Calibration> = rows.iter().filter(|row| row.kind == kind).copied().collect();
+        match rows.iter().find(|row| row.suite != rows[0].suite) {
+            None => Ok(rows[0]),
+            Some(other) => Err(self.refuse(&format!(
+                "fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
+                suite_name(&rows[0].suite),
                 suite_name(&other.suite)
             ))),
         }
@@ -260,26 +255,26 @@ impl Models {
         if overturning.is_of_outcomes() {
             return Ok(Calibration::shipped(overturning.kind, structure, Some(limit_state)));
         }
-        let rows = || self.exceeding.iter().filter(|row| row.group() == overturning.group());
-        let is_same = |other: f64| (other - limit_state).abs() <= 1e-9 * limit_state;
-        if let Some(row) = rows().find(|row| row.limit_state.is_some_and(is_same)) {
+        let rows = self.exceeding.iter().filter(|row| row.group() == overturning.group());
+        let mut limits = rows.clone().filter_map(|row| Some((row, row.limit_state?)));
+        let (folder, name) = (self.folder(), &overturning.structure);
+        if let Some((row, _)) = limits.find(|(_, other)| (other - limit_state).abs() <= 1e-9 * limit_state) {
             // Fits to the same responses have the same PGV/PGA, to the last bit.
             if row.ratio_given_pga != overturning.ratio_given_pga {
-                let (folder, name) = (self.folder(), &overturning.structure);
                 bail!(
-                    "{folder}: P_ex and P_ro of '{name}' are of different responses; run fit-pex and fit-pro on one file"
+                    "{folder}: P_ex and P_ro of '{name}' are of different responses; run fit-pex and \
+                     fit-pro on one file"
                 );
             }
             return Ok(row.clone());
         }
-        let mut fitted: Vec<f64> = rows().filter_map(|row| row.limit_state).collect();
+        let mut fitted: Vec<f64> = rows.filter_map(|row| row.limit_state).collect();
         let found = if fitted.is_empty() { "none".to_string() } else { listed(&fitted, 8) };
         fitted.push(limit_state);
         bail!(
-            "{}: P_ex of '{}' has limit states {found}, not {limit_state}; run fit-pex --limit-state {}",
-            self.folder(),
-            overturning.structure,
-            fitted.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+            "{folder}: P_ex of '{name}' has limit states {found}, not {limit_state}; run fit-pex \
+             --limit-state {}",
+            listed(&fitted, usize::MAX).replace(", ", ",")
         )
     }
 
@@ -288,10 +283,8 @@ impl Models {
         let curves = self.curves.iter().filter(|fit| fit.event == Event::Overturning);
         let curves: Vec<&CurveFit> = curves.filter(|fit| fit.group() == row.group()).collect();
         let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
-        let fits: Vec<&CurveFit> = over
-            .iter()
-            .filter_map(|over| curves.iter().find(|fit| (fit.im_x, fit.im_y) == *over).copied())
-            .collect();
+        let fits = over.iter().filter_map(|over| curves.iter().find(|fit| (fit.im_x, fit.im_y) == *over));
+        let fits: Vec<&CurveFit> = fits.copied().collect();
         if let Some(usable) = fits.iter().find(|fit| fit.status.is_usable()) {
             return Ok((*usable).clone());
         }
@@ -313,7 +306,7 @@ pub fn words_of(model: &Model) -> String {
     match model {
         Model::Calibrated { overturning, .. } => {
             let Calibration { n, structure, kind, suite, .. } = overturning;
-            let of_floor = if is_floor(suite) { " of a floor" } else { "" };
+            let place = if is_floor(suite) { " of a floor" } else { "" };
             let (responses, motions) = (counted(*n as usize, "response"), words_of_kind(*kind));
             let calibrated = match n {
                 0 => " for".to_string(),
@@ -322,7 +315,7 @@ pub fn words_of(model: &Model) -> String {
                 }
                 _ => format!(", calibrated on {responses} of {structure} to"),
             };
-            format!("rockfrag's universal surface{calibrated} {motions}{of_floor}")
+            format!("rockfrag's universal surface{calibrated} {motions}{place}")
         }
         Model::Paper { overturning: CurveFit { n, structure, suite, .. }, .. } => {
             let responses = counted(*n as usize, "response");

@@ -2,15 +2,60 @@
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::Arc;
+
+use rayon::prelude::*;
 
 use crate::keyword;
 use crate::motion::{IntensityMeasures, MeasureScratch, Suite, SyntheticSuite, measures};
+use crate::pipeline::context::Context;
+use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::records::implausibility::implausibility;
 use crate::rocking::{Outcome, Record, Response, Structure};
 use crate::table::TableError;
-use crate::table::motions::Motion;
+use crate::table::file::Table;
+use crate::table::motions::{self, Motion, Part};
 use crate::table::responses::ResponseRow;
 use crate::warning::{Warning, Warnings};
+
+/// Parts of the file that are read at once, for each thread.
+const PARTS_A_THREAD: usize = 4;
+
+/// Passes all motions of a table through `work`, some (`at_once`) at a time on all threads, and what comes of
+/// them in order to `sink`. The motions must have distinct names.
+pub fn each<T: Send>(
+    context: &Context,
+    table: &Table,
+    at_once: usize,
+    work: impl Fn(&Path, &[Motion], &mut MeasureScratch) -> anyhow::Result<T> + Sync,
+    mut sink: impl FnMut(T) -> anyhow::Result<()> + Send,
+) -> anyhow::Result<()> {
+    let (mut known, pool) = (HashSet::new(), Pool::new(MeasureScratch::default));
+    let bar = context.bar(table.rows());
+    let work_on_part = |part: Part| -> anyhow::Result<Vec<_>> {
+        let chunks = motions::read_part(table, part, at_once)?.collect::<Result<Vec<_>, TableError>>()?;
+        let done = chunks.into_par_iter().map(|(path, some): (Arc<Path>, Vec<Motion>)| {
+            bar.advance(some.len())?;
+            let done = pool.with(|scratch| work(&path, &some, scratch))?;
+            Ok((path, some.into_iter().map(|motion| motion.motion_id).collect::<Vec<_>>(), done))
+        });
+        done.collect()
+    };
+    pipelined(
+        batches(motions::parts(table), PARTS_A_THREAD * rayon::current_num_threads()),
+        |parts| parts.into_par_iter().map(work_on_part).collect::<anyhow::Result<Vec<_>>>(),
+        |done| {
+            for (path, names, done) in done.into_iter().flatten() {
+                if let Some(name) = names.into_iter().find_map(|name| known.replace(name)) {
+                    let problem = format!("two motions are called '{name}'; expected distinct motion_id");
+                    return Err(TableError::table(&path, problem).into());
+                }
+                sink(done)?;
+            }
+            Ok(())
+        },
+    )
+}
 
 /// Measures of a motion: those of the file, or of the record where the file has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,10 +69,9 @@ pub struct Measures {
 impl Measures {
     pub fn new(motion: &Motion, record: &Record, scratch: &mut MeasureScratch) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        let pgv = || measures::peak(&measures::velocity(samples, dt_s));
         Measures {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
-            pgv_m_s: motion.pgv_m_s.unwrap_or_else(pgv),
+            pgv_m_s: motion.pgv_m_s.unwrap_or_else(|| measures::peak(&measures::velocity(samples, dt_s))),
             tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s, scratch)),
             tp_s: motion.tp_s,
         }
@@ -38,7 +82,7 @@ impl Measures {
     }
 
     /// The measures of Eq. 13.
-    pub fn of_structure(&self, structure: &Structure) -> IntensityMeasures {
+    pub fn dimensionless(&self, structure: &Structure) -> IntensityMeasures {
         IntensityMeasures::new(structure, self.pga_m_s2, self.pgv_m_s, self.tp_s, self.tm_s)
     }
 
@@ -70,34 +114,22 @@ const PEAK_TOLERANCE: f64 = 0.1;
 
 /// Warnings about a recorded motion of the ground.
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
-    let is_not_recorded =
-        |word: &str| word.ends_with(Suite::OF_FLOOR) || keyword::parse::<SyntheticSuite>(word).is_ok();
-    if motion.suite.as_deref().is_some_and(is_not_recorded) {
-        return Warnings::default();
+    let mut warnings = Warnings::default();
+    let suite = motion.suite.as_deref().unwrap_or_default();
+    if suite.ends_with(Suite::OF_FLOOR) || keyword::parse::<SyntheticSuite>(suite).is_ok() {
+        return warnings;
     }
     let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-    let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
-    let differs = |given: Option<f64>, peak: f64| {
-        given.is_some_and(|given| (given - peak).abs() > PEAK_TOLERANCE * peak)
-    };
-    let is_other = differs(motion.pga_m_s2, record.peak_m_s2()) || differs(motion.pgv_m_s, pgv_m_s);
-    let implausible = implausibility(samples, dt_s)
-        .map(|warning| (Warning::ImplausibleRecord, format!("{}: {}", motion.motion_id, warning)));
-    let other_peak = is_other.then(|| (Warning::OtherPeak, motion.motion_id.clone()));
-    implausible.into_iter().chain(other_peak).collect()
-}
-
-/// Adds the names of motions of the file at `path` to those so far, which must differ.
-pub fn expect_distinct(
-    known: &mut HashSet<String>,
-    path: &Path,
-    names: impl IntoIterator<Item = String>,
-) -> Result<(), TableError> {
-    match names.into_iter().find_map(|name| known.replace(name)) {
-        None => Ok(()),
-        Some(name) => {
-            let problem = format!("two motions are called '{name}'; expected distinct motion_id");
-            Err(TableError::table(path, problem))
-        }
+    if let Some(why) = implausibility(samples, dt_s) {
+        warnings.add(Warning::ImplausibleRecord, format!("{}: {why}", motion.motion_id));
     }
+    let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
+    let peaks = [(motion.pga_m_s2, record.peak_m_s2()), (motion.pgv_m_s, pgv_m_s)];
+    if peaks
+        .iter()
+        .any(|(given, peak)| given.is_some_and(|given| (given - peak).abs() > PEAK_TOLERANCE * peak))
+    {
+        warnings.add(Warning::OtherPeak, motion.motion_id.clone());
+    }
+    warnings
 }

@@ -1,6 +1,6 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use serde::Serialize;
 
 use crate::inputs::Renames;
@@ -43,8 +43,8 @@ pub struct ShapeArgs {
     #[arg(long, value_name = "M2", requires = "height", value_parser = field(Field::Inertia))]
     inertia: Option<f64>,
     /// Frame: mass of the beam over that of all columns
-    #[arg(long, value_name = "RATIO", conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"],
-          value_parser = field(Field::BeamMassRatio))]
+    #[arg(long, value_name = "RATIO", value_parser = field(Field::BeamMassRatio),
+          conflicts_with_all = ["p", "alpha", "depth", "centre_height", "centre_offset", "inertia"])]
     beam_mass_ratio: Option<f64>,
     /// Frequency parameter, rad/s
     #[arg(long, value_name = "RAD/S", value_parser = field(Field::P))]
@@ -78,6 +78,7 @@ impl ShapeArgs {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Object")]
+#[command(group(ArgGroup::new("on_floor").args(["period", "structure", "structures"]).multiple(true)))]
 pub struct PlaceArgs {
     /// First period of the building, s [default: the object stands on the ground]
     #[arg(long, value_name = "S", value_parser = field(Field::Period))]
@@ -86,7 +87,7 @@ pub struct PlaceArgs {
     #[arg(long, value_name = "Z", value_parser = field(Field::Level))]
     level: Option<f64>,
     /// Standard deviation of ln(period) [default: 0.25]
-    #[arg(long, value_name = "SD", value_parser = field(Field::PeriodSd))]
+    #[arg(long, value_name = "SD", requires = "on_floor", value_parser = field(Field::PeriodSd))]
     period_sd: Option<f64>,
     /// Coefficient of friction; if tan(alpha) exceeds it, the object slides
     #[arg(long, value_name = "MU", value_parser = field(Field::Friction))]
@@ -153,42 +154,32 @@ impl StructureArgs {
         StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
     }
 
-    /// Finds all structures, each of the weaker direction of an object, and warnings about them and their
-    /// list: of a list without its rows that do not rock on the ground.
-    pub fn resolve(&self) -> anyhow::Result<(Vec<Structure>, Warnings)> {
+    /// Finds the structures of all objects, one for each of its directions, the weaker first, and warnings
+    /// about them and their list: of a list without its rows that do not rock on the ground.
+    pub fn resolve(&self) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
         let (objects, mut warnings) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
-        let (mut structures, mut first) = (Vec::new(), None);
+        let (mut resolved, mut first) = (Vec::new(), None);
         for object in &objects {
             let name = &object.name;
-            let structure = match on_ground(object) {
-                Ok(structure) => structure,
+            match on_ground(object) {
+                Ok(directions) => {
+                    let one_direction = object.shape.depth.map(|_| Warning::OneDirection);
+                    for warning in structure_warnings(&directions[0]).into_iter().chain(one_direction) {
+                        warnings.add(warning, name.clone());
+                    }
+                    resolved.push(directions);
+                }
                 Err(problem) if self.structures.is_some() && !object.is_implausible() => {
-                    warnings.extend([(Warning::LeftOut, name.clone())].into_iter().collect());
+                    warnings.add(Warning::LeftOut, name.clone());
                     first.get_or_insert(problem);
-                    continue;
                 }
                 Err(problem) => return Err(problem),
-            };
-            let one_direction = object.shape.depth.map(|_| Warning::OneDirection);
-            let about = structure_warnings(&structure).into_iter().chain(one_direction);
-            warnings.extend(about.map(|warning| (warning, name.clone())).collect());
-            structures.push(structure);
+            }
         }
-        match first.filter(|_| structures.is_empty()) {
+        match first.filter(|_| resolved.is_empty()) {
             Some(problem) => Err(problem),
-            None => Ok((structures, warnings)),
+            None => Ok((resolved, warnings)),
         }
-    }
-
-    /// Finds the other direction of each structure; none of a body without depth.
-    pub fn other_directions(&self, structures: &[Structure]) -> anyhow::Result<Vec<Option<Structure>>> {
-        let (objects, _) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
-        let other = |structure: &Structure| {
-            let object = objects.iter().find(|object| object.name == structure.name)?;
-            let other = object.sides().ok()?.into_iter().nth(1)?.structure;
-            Some(Structure { name: format!("{}, other direction", structure.name), ..other })
-        };
-        Ok(structures.iter().map(other).collect())
     }
 
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
@@ -197,8 +188,8 @@ impl StructureArgs {
         let (mut all, mut unused): (Vec<Object>, _) = Default::default();
         match &self.structures {
             Some(list) if list.word().is_some() => {
-                let known = |structure| Object::with_parameters(structure, Restitution::Number);
-                all.extend(paper::structures().into_iter().map(known));
+                let paper = paper::structures().into_iter();
+                all.extend(paper.map(|known| Object::with_parameters(known, Restitution::Number)));
             }
             Some(path) => {
                 let common = Common { ground_floor: self.ground_floor, place: *place };
@@ -212,7 +203,8 @@ impl StructureArgs {
         }
         if all.is_empty() {
             return Err(UsageError::because(
-                "no structure; expected --width and --height of a block, or --p, --alpha and --eta, or --structures FILE",
+                "no structure; expected --width and --height of a block, or --p, --alpha and --eta, \
+                 or --structures FILE",
             ));
         }
         let all: Vec<Object> = all.into_iter().map(|object| object.at(place)).collect();
@@ -226,16 +218,18 @@ impl StructureArgs {
     }
 }
 
-/// Finds the structure of the weaker direction of an object, which must stand on the ground.
-fn on_ground(object: &Object) -> anyhow::Result<Structure> {
-    let mut sides = object.sides().map_err(|reason| named(object, &reason))?;
+/// Finds the structures of the directions of an object, which must stand on the ground.
+fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
+    let sides = object.sides().map_err(|reason| named(object, &reason))?;
     if object.place.floor().is_ok_and(|floor| floor.is_some()) {
         return Err(UsageError::because(format!(
             "{} stands on a floor: leave out level and period; floor-motions makes its motions",
             object.name
         )));
     }
-    Ok(sides.swap_remove(0).structure)
+    let mut structures: Vec<Structure> = sides.into_iter().map(|side| side.structure).collect();
+    structures.iter_mut().skip(1).for_each(|other| other.name += ", other direction");
+    Ok(structures)
 }
 
 /// Makes an error of why there is no answer for an object.

@@ -29,24 +29,25 @@ fn is_text(path: &Path) -> bool {
 
 /// Reads outcomes from CSV or Parquet.
 pub fn read(path: &Path) -> anyhow::Result<Vec<ObservedOutcome>> {
-    let bytes = match is_text(path) {
-        true => crate::source::read(path).with_context(|| path.display().to_string())?,
-        false => frame::show(&frame::read(&Table::open(path)?, usize::MAX)?, Format::Csv)?.into_bytes(),
+    let grid = match is_text(path) {
+        true => Grid::read(path),
+        false => {
+            let text = frame::show(&frame::read(&Table::open(path)?, usize::MAX)?, Format::Csv)?;
+            Grid::parse(text.as_bytes(), None)
+        }
     };
-    let outcomes = || outcomes(&Grid::parse(&bytes, None)?);
-    outcomes().with_context(|| path.display().to_string())
+    grid.map_err(Into::into).and_then(|grid| outcomes(&grid)).with_context(|| path.display().to_string())
 }
 
 fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
     let objects = objects::of_rows(sheet)?;
-    let of_peak = |wanted: Peak| {
-        let peaks = sheet.headings.iter().map(peak).enumerate();
-        let (column, (_, unit)) =
-            peaks.filter_map(|(at, of)| Some((at, of?))).find(|(_, of)| of.0 == wanted)?;
-        Some((column, unit))
-    };
-    let (Some(pga), Some(pgv), Some(fell)) = (of_peak(Peak::Pga), of_peak(Peak::Pgv), sheet.column(&OUTCOME))
-    else {
+    let [pga, pgv] = [Peak::Pga, Peak::Pgv].map(|wanted| {
+        let mut peaks = sheet.headings.iter().map(peak).enumerate();
+        peaks.find_map(|(column, found)| {
+            found.filter(|found| found.0 == wanted).map(|(_, unit)| (column, unit))
+        })
+    });
+    let (Some(pga), Some(pgv), Some(fell)) = (pga, pgv, sheet.column(&OUTCOME)) else {
         bail!("expected objects with pga_g, pgv_m_s and fell (yes or no), each");
     };
     let (magnitude, earthquake) = (sheet.column(&MAGNITUDE), sheet.column(&EARTHQUAKE));
@@ -61,7 +62,8 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         let fell = has_fallen(sheet, row, fell)?;
         if fell && pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
-                "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? leave it out"
+                "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? \
+                 leave it out"
             );
         }
         let name = earthquake.map_or("", |column| sheet.cell(row, column));
@@ -79,8 +81,8 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
             fell,
         });
     }
-    let peaks = |of: fn(&ObservedOutcome) -> f64| read.iter().map(of).collect::<Vec<f64>>();
-    judge_medians(&peaks(|outcome| outcome.pga_m_s2), &peaks(|outcome| outcome.pgv_m_s))?;
+    let (pga, pgv): (Vec<f64>, Vec<f64>) = read.iter().map(|row| (row.pga_m_s2, row.pgv_m_s)).unzip();
+    judge_medians(&pga, &pgv)?;
     Ok(read)
 }
 
@@ -91,19 +93,17 @@ fn peak_in(sheet: &Grid, row: usize, (column, unit): (usize, f64)) -> Result<f64
 
 fn magnitude_in(sheet: &Grid, row: usize, column: usize) -> Result<f64, InputError> {
     let mw = sheet.number(row, column)?;
-    if MAGNITUDES.contains(&mw) {
-        Ok(mw)
-    } else {
-        Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9"))
+    match MAGNITUDES.contains(&mw) {
+        true => Ok(mw),
+        false => Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9")),
     }
 }
 
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
     let word = sheet.cell(row, column).to_lowercase();
-    let is_in = |words: &str| words.split(' ').any(|other| other == word);
-    match (is_in(FELL), is_in(STOOD)) {
-        (true, _) => Ok(true),
-        (_, true) => Ok(false),
+    match [FELL, STOOD].map(|words| words.split(' ').any(|other| other == word)) {
+        [true, _] => Ok(true),
+        [_, true] => Ok(false),
         _ => Err(sheet.refusal(row, column, "fell or stood, or yes or no")),
     }
 }

@@ -19,6 +19,9 @@ use crate::table::frame;
 const COLUMNS: &str =
     "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
+/// The parameters of a structure.
+const PARAMETERS: [&str; 3] = ["p_rad_s", "alpha_rad", "eta"];
+
 /// Gives further measures by name, a column each, of the motions of these names and a structure.
 pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>>;
 
@@ -28,14 +31,16 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
     read_with(path, None)
 }
 
-/// The same of motions of the ground.
+/// Reads responses to motions of the ground.
 pub fn read_of_ground(path: &Path) -> anyhow::Result<Vec<Cases>> {
     let all = read(path)?;
-    if all.iter().any(|cases| is_floor(&cases.suite)) {
-        let problem = "responses to motions of a floor; expected those of the ground";
-        return Err(TableError::table(path, problem).into());
+    match all.iter().any(|cases| is_floor(&cases.suite)) {
+        true => {
+            let problem = "responses to motions of a floor; expected those of the ground";
+            Err(TableError::table(path, problem).into())
+        }
+        false => Ok(all),
     }
-    Ok(all)
 }
 
 /// Whether a suite is of motions of a floor.
@@ -45,13 +50,12 @@ pub fn is_floor(suite: &Option<String>) -> bool {
 
 /// Reads responses with candidate measures.
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
-    let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
-    let is_wanted = |name: &str| COLUMNS.split(' ').any(|column| column == name) || is_measure(name);
     let table = Table::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
-    for batch in table.batches(&is_wanted) {
-        let batch = batch?;
-        add(&mut all, &mut hashes, &batch, candidates)?;
+    let measures: Vec<&str> = Measure::SCALAR.iter().map(|measure| measure.as_str()).collect();
+    for batch in table.batches(&|name| measures.contains(&name) || COLUMNS.split(' ').any(|one| one == name))
+    {
+        add(&mut all, &mut hashes, &batch?, candidates)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
@@ -75,37 +79,36 @@ fn add(
     candidates: Option<Candidates>,
 ) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
-    let (p_rad_s, alpha_rad) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
-    let eta = batch.required_numbers("eta")?;
+    let [p_rad_s, alpha_rad, eta] = PARAMETERS.map(|name| batch.required_numbers(name));
+    let (p_rad_s, alpha_rad, eta) = (p_rad_s?, alpha_rad?, eta?);
+    let parameters: Vec<_> = (0..eta.len()).map(|row| [p_rad_s[row], alpha_rad[row], eta[row]]).collect();
     let outcomes = batch.required_words::<Outcome>("outcome")?;
     let edp = demands(batch, &outcomes)?;
     let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
     let (mw, re_km) = (or_nan(batch.numbers("mw")?), or_nan(batch.numbers("re_km")?));
     let earthquakes = batch.texts("earthquake")?;
-    let measure = |measure: &Measure| match measure {
+    let measures = Measure::SCALAR.iter().map(|measure| match measure {
         Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
         other => batch.numbers(other.as_str()).map(or_nan),
-    };
-    let measures = Measure::SCALAR.iter().map(measure).collect::<Result<Vec<_>, TableError>>()?;
+    });
+    let measures = measures.collect::<Result<Vec<_>, TableError>>()?;
     for (row, motion) in batch.texts("motion_id")?.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
         let mut hash = DefaultHasher::new();
         (&suites[row], &names[row], motion, pga[row].to_bits()).hash(&mut hash);
         hashes.push(hash.finish());
     }
     let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
-    let group = |row: usize| Group { suite: suites[row].as_deref(), structure: &names[row] };
-    let parameters = |row: usize| [p_rad_s[row], alpha_rad[row], eta[row]];
-    for rows in frame::groups((0..names.len()).map(group))? {
-        let group = group(rows[0]);
-        let cases = cases_of(all, batch, group, &rows, parameters)?;
-        let some = |column: &[f64]| rows.iter().map(|&row| column[row]).collect::<Vec<f64>>();
+    let groups = (0..names.len()).map(|row| Group { suite: suites[row].as_deref(), structure: &names[row] });
+    for rows in frame::groups(groups)? {
+        let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
+        let cases = find_cases(all, batch, group, &rows, &parameters)?;
         cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
-        cases.edp.extend(some(&edp));
-        cases.pga_m_s2.extend(some(&pga));
-        cases.pgv_m_s.extend(some(&pgv));
-        cases.mw.extend(some(&mw));
+        cases.edp.extend(rows.iter().map(|&row| edp[row]));
+        cases.pga_m_s2.extend(rows.iter().map(|&row| pga[row]));
+        cases.pgv_m_s.extend(rows.iter().map(|&row| pgv[row]));
+        cases.mw.extend(rows.iter().map(|&row| mw[row]));
         for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
-            cases.column_mut(measure).extend(some(column));
+            cases.column_mut(measure).extend(rows.iter().map(|&row| column[row]));
         }
         for &row in &rows {
             cases.push_cluster(Cluster::of(earthquakes[row].as_deref(), mw[row], re_km[row]));
@@ -123,17 +126,17 @@ fn add(
 }
 
 /// The cases of a suite and structure, which have room for these rows and their p, alpha and eta.
-fn cases_of<'a>(
+fn find_cases<'a>(
     all: &'a mut Vec<Cases>,
     batch: &Batch,
     group: Group,
     rows: &[usize],
-    parameters: impl Fn(usize) -> [f64; 3],
+    parameters: &[[f64; 3]],
 ) -> Result<&'a mut Cases, TableError> {
     let name = group.structure;
     let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
     if place == all.len() {
-        let structure = batch.structure(rows[0], name, parameters(rows[0]))?;
+        let structure = batch.structure(rows[0], name, parameters[rows[0]])?;
         all.push(Cases::new(group.suite, structure));
     }
     let cases = &mut all[place];
@@ -167,17 +170,17 @@ fn expect_same(
     batch: &Batch,
     structure: &Structure,
     rows: &[usize],
-    parameters: impl Fn(usize) -> [f64; 3],
+    parameters: &[[f64; 3]],
 ) -> Result<(), TableError> {
     let name = &structure.name;
     let known = [structure.p_rad_s, structure.alpha_rad, structure.eta];
-    let Some(&row) = rows.iter().find(|&&row| parameters(row) != known) else { return Ok(()) };
-    let found = parameters(row);
+    let Some(&row) = rows.iter().find(|&&row| parameters[row] != known) else { return Ok(()) };
+    let found = parameters[row];
     batch.structure(row, name, found)?;
     let other = (0..3).find(|&k| found[k] != known[k]).unwrap_or(0);
     let problem = format!(
         "{}; structure '{name}' has {} in another row: give each structure its own name",
         found[other], known[other]
     );
-    Err(batch.value_error(row, ["p_rad_s", "alpha_rad", "eta"][other], problem))
+    Err(batch.value_error(row, PARAMETERS[other], problem))
 }
