@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 
 use super::yaml;
 use crate::keyword::hint;
-use crate::pipeline::paths::{PathKind, Role, path_kind, split_list};
+use crate::pipeline::paths::{PathKind, path_kind, split_list};
 use crate::pipeline::{InRun, UsageError};
 use crate::stages::Stages;
 use crate::table::provenance::text_of;
@@ -123,14 +123,12 @@ pub fn arguments(
             }
             continue;
         }
-        let kind = path_kind(arg);
-        let texts = match (value, kind) {
-            (Value::Bool(false), _) => continue,
-            (Value::Array(items), _) if matches!(arg.get_action(), ArgAction::Append) => {
-                items.iter().map(structure_or_text).collect()
-            }
-            (value, Some(kind)) if kind.role == Role::List => split_list(folder, &text_of(&value)),
-            (value, _) => vec![structure_or_text(&value)],
+        let (kind, is_list) = (path_kind(arg), matches!(arg.get_action(), ArgAction::Append));
+        let texts = match value {
+            Value::Bool(false) => continue,
+            Value::Array(items) if is_list => items.iter().map(structure_or_text).collect(),
+            value if is_list && kind.is_some() => split_list(folder, &text_of(&value)),
+            value => vec![structure_or_text(&value)],
         };
         let values = texts.into_iter().map(|text| match kind {
             Some(kind) => path_in(folder, kind, &text),

@@ -121,7 +121,7 @@ fn option(arg: &Arg) -> Value {
     let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<usize>()];
     let value = arg.get_value_parser().type_id();
     let kind = match path.map(|path| path.role) {
-        Some(Role::Input | Role::List) => "input",
+        Some(Role::Input) => "input",
         Some(Role::Folder) => "folder",
         Some(Role::Fits) => "fits",
         Some(Role::Output) => "output",

@@ -5,6 +5,7 @@
 
 use std::any::TypeId;
 use std::ffi::OsString;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use clap::Arg;
@@ -16,8 +17,6 @@ use crate::table::file::Partition;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     Input,
-    /// Several inputs, with commas between.
-    List,
     Folder,
     Fits,
     Output,
@@ -59,7 +58,7 @@ macro_rules! path_types {
                 }
             }
 
-            impl std::ops::Deref for $type {
+            impl Deref for $type {
                 type Target = Path;
 
                 fn deref(&self) -> &Path {
@@ -96,8 +95,6 @@ path_types! {
     Input: Input, ["parquet"], [];
     /// A list, curve or table as people keep it.
     SheetInput: Input, ["csv"], [];
-    /// Several of them.
-    SheetInputs: List, ["csv"], [];
     /// Intensities, as a table or as people keep them.
     RowsInput: Input, ["parquet", "csv"], [];
     /// A list of structures, or the paper's two.
@@ -118,6 +115,12 @@ path_types! {
     FragilityOutput: Output, ["xml", "csv"], [];
     /// A page to write.
     PageOutput: Output, ["html"], [];
+}
+
+/// Returns the paths of lists with commas.
+pub fn split_lists<P: Deref<Target = Path>>(lists: &[P]) -> Vec<PathBuf> {
+    let paths = lists.iter().flat_map(|list| split_list(Path::new(""), &list.to_string_lossy()));
+    paths.map(PathBuf::from).collect()
 }
 
 /// Returns the paths of a list, of which one may have a comma in its name if it is there.

@@ -119,9 +119,15 @@ pub fn write_motions(path: &Path, dt_s: f64, motions: &[&[f64]]) {
     write(path, vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", lists(motions))]);
 }
 
-/// The first rows of a table as CSV.
+/// The rows of a table as CSV.
 pub fn rows(folder: &Path, table: &str) -> String {
     succeed(folder, &format!("inspect --head 100000 --format csv {table}")).0
+}
+
+/// The rows of a table, each as an object.
+pub fn objects(folder: &Path, table: &str) -> Vec<Value> {
+    let (printed, _) = succeed(folder, &format!("inspect --head 100000 --format json {table}"));
+    serde_json::from_str(&printed).unwrap()
 }
 
 /// The stages that a run has run, by its lines on stderr.

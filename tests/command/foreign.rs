@@ -15,8 +15,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
 
-use crate::common::{bytes, fail, folder_with, lists, near, numbers, rows, succeed, texts, write};
-use crate::common::{write_motions, write_with};
+use crate::common::{bytes, fail, folder_with, lists, near, numbers, objects, rows, succeed, texts};
+use crate::common::{write, write_motions, write_with};
 
 const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
 const SIMULATE: &str = "simulate --in m.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out r.parquet --force";
@@ -40,17 +40,12 @@ fn motion(columns: Vec<(&'static str, ArrayRef)>) -> Vec<(&'static str, ArrayRef
     all
 }
 
-fn responses(folder: &Path) -> Vec<Value> {
-    let (printed, _) = succeed(folder, "inspect r.parquet --head 9 --format json");
-    serde_json::from_str(&printed).unwrap()
-}
-
 /// The response to the sine with these columns.
 fn response(columns: Vec<(&'static str, ArrayRef)>) -> Value {
     let folder = tempfile::tempdir().unwrap();
     write(&folder.path().join("m.parquet"), motion(columns));
     succeed(folder.path(), SIMULATE);
-    responses(folder.path()).remove(0)
+    objects(folder.path(), "r.parquet").remove(0)
 }
 
 fn decimal(value: i128, precision: u8, scale: i8) -> ArrayRef {
@@ -125,7 +120,7 @@ fn every_codec_is_read() {
         let properties = WriterProperties::builder().set_compression(codec).build();
         write_with(&folder.path().join("m.parquet"), &batch, properties);
         succeed(folder.path(), SIMULATE);
-        assert_eq!(responses(folder.path())[0]["pga_m_s2"], 2.99, "{codec:?}");
+        assert_eq!(objects(folder.path(), "r.parquet")[0]["pga_m_s2"], 2.99, "{codec:?}");
     }
 }
 

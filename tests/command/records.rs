@@ -3,11 +3,15 @@
 use std::io::Write;
 use std::path::Path;
 
-use rockfrag::table::file::Table;
+use serde_json::Value;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
-use crate::common::{fail, folder, near, succeed};
+use crate::common::{fail, folder, near, number, objects, succeed};
+
+fn motions(folder: &Path) -> Vec<Value> {
+    objects(folder, "motions.parquet")
+}
 
 /// AT2 of 4 s of a decaying sine whose peak is near `pga_g`.
 fn at2(component: &str, pga_g: f64) -> String {
@@ -29,26 +33,6 @@ fn archive(path: &Path, files: &[(&str, &str)]) {
     zip.finish().unwrap();
 }
 
-/// Text and numbers of columns of the motions, row by row.
-type Row = (String, f64, Option<f64>, Option<f64>, Option<String>);
-
-fn motions(folder: &Path) -> Vec<Row> {
-    let table = Table::open(&folder.join("motions.parquet")).unwrap();
-    let mut all = Vec::new();
-    for batch in table.batches(&|_| true) {
-        let batch = batch.unwrap();
-        let (mw, re) = (batch.numbers("mw").unwrap(), batch.numbers("re_km").unwrap());
-        let (ids, pga) =
-            (batch.required_texts("motion_id").unwrap(), batch.required_numbers("pga_m_s2").unwrap());
-        let earthquakes = batch.texts("earthquake").unwrap();
-        for row in 0..ids.len() {
-            let earthquake = earthquakes[row].as_deref().map(str::to_string);
-            all.push((ids[row].to_string(), pga[row], mw[row], re[row], earthquake));
-        }
-    }
-    all
-}
-
 #[test]
 fn records_in_an_archive_are_imported_each() {
     let folder = folder(&[]);
@@ -58,9 +42,10 @@ fn records_in_an_archive_are_imported_each() {
     let (text, _) = succeed(folder.path(), "import-motions r.zip");
     assert!(text.contains("1 vertical component"), "{text}");
     let found = motions(folder.path());
-    let ids: Vec<&str> = found.iter().map(|motion| motion.0.as_str()).collect();
-    assert_eq!(ids, ["r/RSN1_140", "r/RSN1_230"]);
-    assert!(near(found[0].1, 0.3 * 9.81, 0.01) && near(found[1].1, 0.2 * 9.81, 0.01));
+    for (motion, (id, peak_g)) in found.iter().zip([("r/RSN1_140", 0.3), ("r/RSN1_230", 0.2)]) {
+        assert!(motion["motion_id"] == id && near(number(motion, "pga_m_s2"), peak_g * 9.81, 0.01));
+    }
+    assert_eq!(found.len(), 2);
     // Pairs are found within an archive.
     succeed(folder.path(), "import-motions r.zip --rotate 140 --force");
     assert_eq!(motions(folder.path()).len(), 1);
@@ -75,7 +60,7 @@ fn records_in_an_archive_are_imported_each() {
     packed.write_all(first.as_bytes()).unwrap();
     packed.finish().unwrap();
     succeed(folder.path(), "import-motions one.AT2.gz --force");
-    assert!(near(motions(folder.path())[0].1, 0.3 * 9.81, 0.01));
+    assert!(near(number(&motions(folder.path())[0], "pga_m_s2"), 0.3 * 9.81, 0.01));
 }
 
 const SEARCH: &str = "PEER Ground Motion Database,,
@@ -109,9 +94,9 @@ fn tables_of_peer_describe_records() {
         // The table lies among the records, as PEER packs it.
         let folder = folder(&[(names[0], &*first), (names[1], &second), ("_SearchResults.csv", about)]);
         succeed(folder.path(), "import-motions . --about _SearchResults.csv --out out/motions.parquet");
-        for (id, _, mw, re_km, earthquake) in motions(&folder.path().join("out")) {
-            assert_eq!((mw, re_km), (Some(6.53), Some(7.05)), "{id} of {names:?}");
-            assert_eq!(earthquake.as_deref(), Some("Imperial Valley-06"), "{id}");
+        for motion in motions(&folder.path().join("out")) {
+            assert!(motion["mw"] == 6.53 && motion["re_km"] == 7.05, "{motion} of {names:?}");
+            assert_eq!(motion["earthquake"], "Imperial Valley-06", "{motion}");
         }
     }
     let folder = folder(&[("other.AT2", &first), ("about.csv", SEARCH)]);
@@ -133,17 +118,11 @@ fn a_time_step_that_lowers_the_peak_is_told() {
     assert!(!kept.contains("lower") && lowered.contains("% lower"), "{kept} {lowered}");
 }
 
-/// Names of structures and motions in the responses.
+/// Names of motions and structures in the responses.
 fn responses(folder: &Path) -> Vec<(String, String)> {
-    let table = Table::open(&folder.join("responses.parquet")).unwrap();
-    let mut all = Vec::new();
-    for batch in table.batches(&|_| true) {
-        let batch = batch.unwrap();
-        let names = [batch.required_texts("motion_id").unwrap(), batch.required_texts("structure").unwrap()];
-        let rows = (0..names[0].len()).map(|row| (names[0][row].to_string(), names[1][row].to_string()));
-        all.extend(rows);
-    }
-    all
+    let name = |row: &Value, column: &str| row[column].as_str().unwrap().to_string();
+    let rows = objects(folder, "responses.parquet");
+    rows.iter().map(|row| (name(row, "motion_id"), name(row, "structure"))).collect()
 }
 
 #[test]

@@ -38,7 +38,7 @@ use crate::keyword::Keyword;
 use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{listed, number};
-use crate::pipeline::paths::{self, AnswersOutput, Input, Read, RowsInput, SheetInputs};
+use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, split_lists};
 use crate::pipeline::{InRun, Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::implausibility::rarity;
@@ -81,7 +81,7 @@ pub struct Evaluate {
     /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
     #[arg(long, value_name = "FILE,...", group = "site")]
-    hazard: Vec<SheetInputs>,
+    hazard: Vec<SheetInput>,
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
@@ -153,7 +153,7 @@ impl Stage for Evaluate {
     fn inputs(&self) -> Vec<Read> {
         vec![
             Read::new("in", self.input.iter().map(|path| &**path)),
-            Read::new("hazard", self.hazard_files()),
+            Read::new("hazard", split_lists(&self.hazard)),
             Read::new("responses", self.responses.iter().map(|path| &**path)),
             self.model.input(),
             self.structures.input(),
@@ -202,11 +202,6 @@ impl Stage for Evaluate {
 }
 
 impl Evaluate {
-    fn hazard_files(&self) -> Vec<PathBuf> {
-        let lists = self.hazard.iter().map(|list| paths::split_list(Path::new(""), &list.to_string_lossy()));
-        lists.flatten().map(PathBuf::from).collect()
-    }
-
     /// The motion that is given.
     fn motion(&self) -> anyhow::Result<Motion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
@@ -302,7 +297,7 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, renames: &mut Renames, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&self.hazard_files(), renames, self.effective_years)?;
+        let (mut hazard, unused) = hazard::read(&split_lists(&self.hazard), renames, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::number::counted;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::{InputFolder, PageOutput, Read};
+use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
 use crate::pipeline::{Stage, UsageError};
 use crate::report::{DPI, Figure, Page, made_in_words, png, svg};
 use crate::table::TableError;
@@ -31,7 +31,7 @@ use tables::Tables;
     --author \"A. Engineer\" --out report.html")]
 pub struct Report {
     /// Folder or files of other commands; two evaluations of the same objects are before and after
-    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_delimiter = ',', default_value = ".")]
+    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", default_value = ".")]
     input: Vec<InputFolder>,
     /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
     #[arg(long, value_name = "FILE")]
@@ -49,12 +49,12 @@ pub struct Report {
 
 impl Report {
     fn page(&self) -> PathBuf {
-        let beside = |first: &InputFolder| match first.is_dir() {
-            true => first.join("report.html"),
-            false => first.with_file_name("report.html"),
-        };
-        let default = || self.input.first().map_or(PathBuf::from("report.html"), beside);
-        self.out.as_deref().map_or_else(default, Path::to_path_buf)
+        let first = split_lists(&self.input).into_iter().next().unwrap_or_default();
+        match &self.out {
+            Some(out) => out.to_path_buf(),
+            None if first.is_dir() => first.join("report.html"),
+            None => first.with_file_name("report.html"),
+        }
     }
 }
 
@@ -67,7 +67,7 @@ impl Stage for Report {
             folders.sort_unstable();
             [vec![path.to_path_buf()], folders].concat()
         };
-        vec![Read::new("in", self.input.iter().flat_map(|path| folders(path)))]
+        vec![Read::new("in", split_lists(&self.input).iter().flat_map(|path| folders(path)))]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -86,10 +86,10 @@ impl Stage for Report {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        if let Some(missing) = self.input.iter().find(|path| !path.exists()) {
+        let paths = split_lists(&self.input);
+        if let Some(missing) = paths.iter().find(|path| !path.exists()) {
             bail!("{}: no such file or folder; expected tables of other commands", missing.display());
         }
-        let paths: Vec<PathBuf> = self.input.iter().map(|path| path.to_path_buf()).collect();
         let tables = Tables::read(&paths)?;
         let mut notes = Vec::new();
         let figures = figures::all(&tables, &mut notes)?;
