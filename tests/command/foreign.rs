@@ -140,6 +140,7 @@ fn files_of_pandas_and_pyarrow_are_read() {
         rows.lines().map(|line| line.split_once(',').unwrap().1.to_string()).collect::<Vec<_>>()
     };
     let own = edp();
+    // DataFrame.to_parquet: int32, float32, and an index.
     std::fs::write(&path, reference("pandas.parquet")).unwrap();
     assert_eq!(edp(), own);
     // Three motions, of which the third page of samples has none: an empty page ends no column.

@@ -71,7 +71,8 @@ impl ModelArgs {
     }
 
     pub fn input(&self) -> Read {
-        let files = self.fits.iter().flat_map(|folder| self.files().iter().map(move |name| folder.join(name)));
+        let files =
+            self.fits.iter().flat_map(|folder| self.files().iter().map(move |name| folder.join(name)));
         // Fits to what stood and what fell have none of demands.
         Read { optional: true, ..Read::new("fits", files) }
     }
