@@ -1,8 +1,9 @@
 //! From scenarios to a fragility curve, without a file: motions and responses of the paper's grid.
 
-use rockfrag::fragility::{Cases, Cluster, Event, Measure, fit_curve};
+use rockfrag::fragility::{Case, Cases, Cluster, Event, Measure, fit_curve};
 use rockfrag::motion::{
-    Design, Grid, IntensityMeasures, MeasureScratch, MotionMeasures, MotionModel, Synthesizer, SyntheticSuite,
+    Design, Grid, IntensityMeasures, MeasureScratch, MotionMeasures, MotionModel, Peaks, Synthesizer,
+    SyntheticSuite,
 };
 use rockfrag::rocking::{Record, Structure, simulate};
 
@@ -15,10 +16,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for scenario in (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)) {
         let motion = synthesizer.synthesize(&scenario);
         let of = MotionMeasures::of(&motion.combined, motion.dt_s, &mut MeasureScratch::default());
-        let (pga, pgv) = (of.pga_m_s2, of.pgv_m_s);
-        let measures = IntensityMeasures::new(&cabinet, pga, pgv, Some(scenario.tp_s), of.tm_s);
-        let response = simulate(&cabinet, &Record::new(&motion.combined, motion.dt_s)?);
-        cases.push(&response, &measures, [pga, pgv], Cluster::of(None, scenario.mw, scenario.re_km));
+        let peaks = Peaks { pga_m_s2: of.pga_m_s2, pgv_m_s: of.pgv_m_s };
+        let measures = IntensityMeasures::new(&cabinet, peaks, Some(scenario.tp_s), of.tm_s);
+        let outcome = simulate(&cabinet, &Record::new(&motion.combined, motion.dt_s)?).outcome;
+        let mw = Some(scenario.mw);
+        let case = Case { outcome, measures, peaks, mw, cluster: 0 };
+        cases.push(case, Cluster::new(None, mw, Some(scenario.re_km)));
     }
     let fit = fit_curve(&cases, Event::Overturning, Measure::Im5, None);
     println!("{} of {} that rocked overturned", fit.n_events, fit.n);

@@ -1,7 +1,7 @@
 //! The response of a block over time to a record in a file of AT2, COSMOS, ESM, K-NET or CSV.
 
 use rockfrag::records::{ReadOptions, read_records};
-use rockfrag::rocking::{Record, Structure, trace, with_tail};
+use rockfrag::rocking::{Outcome, Record, Structure, trace, with_tail};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).ok_or("expected the file of a record")?;
@@ -18,6 +18,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let event = point.solver_event.map_or(String::new(), |event| event.to_string());
         println!("{:.3},{:.5},{event}", point.time_s, point.theta_rad / block.alpha_rad);
     }
-    eprintln!("{}, |theta|max / alpha {:.3}", response.outcome, response.edp);
+    match response.outcome {
+        Outcome::NoRocking => eprintln!("stays on its base"),
+        Outcome::SafeRocking(demand) => eprintln!("rocks, |theta|max / alpha {demand:.3}"),
+        Outcome::Overturned => eprintln!("overturns"),
+    }
     Ok(())
 }

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::IntensityMeasures;
+use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
@@ -27,7 +27,7 @@ pub const EXAMPLE_LAMBDA: f64 = 1.5;
 /// Computes the measures of the worked example (section 3: PGA 0.5 g, PGA/PGV 2 1/s) for a structure.
 pub fn example(structure: &Structure) -> IntensityMeasures {
     let pga_m_s2 = 0.5 * G_M_S2;
-    IntensityMeasures::new(structure, pga_m_s2, pga_m_s2 / 2.0, None, None)
+    IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s: pga_m_s2 / 2.0 }, None, None)
 }
 
 /// A published number: a row of data/paper.csv.

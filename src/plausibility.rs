@@ -3,6 +3,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::motion::Peaks;
 use crate::number::{period, significant};
 
 /// A range within which a quantity can be right, in words.
@@ -125,11 +126,11 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
 const STRONGEST_MEDIAN: f64 = 3.0;
 const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
 
-/// Judges PGA (m/s2) and PGV (m/s) of the motions of a table by their medians, which show a wrong unit.
-pub fn judge_medians(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Result<(), ImplausibleHazard> {
-    let pga_g = median(pga_m_s2.iter().map(|pga| pga / crate::units::G_M_S2));
-    let pgv = median(pgv_m_s.iter().copied());
-    let ratio_s = median(pga_m_s2.iter().zip(pgv_m_s).map(|(pga, pgv)| pgv / pga));
+/// Judges the motions of a table by the medians of their peaks, which show a wrong unit.
+pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), ImplausibleHazard> {
+    let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / crate::units::G_M_S2));
+    let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));
+    let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
     let refuse = |name: &str, value: f64, expected: &str| {
         let value = significant(value, 3);
         Err(ImplausibleHazard(format!("half of the rows have {name} above {value}; {expected}")))
@@ -157,13 +158,14 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// Moves PGA (m/s2) and PGV (m/s) beyond any record to the rim of what was recorded: tails of ground-motion
-/// models have such motions.
-pub fn at_rim(pga_m_s2: f64, pgv_m_s: f64) -> [f64; 2] {
-    let pga = pga_m_s2.min(STRONGEST_PGA_G * crate::units::G_M_S2);
-    let pgv = pgv_m_s.min(STRONGEST_PGV_M_S);
-    let is_possible = pga == 0.0 || PGV_PGA_S.contains(&(pgv / pga));
-    [pga, if is_possible { pgv } else { pgv.clamp(PGV_PGA_S.start() * pga, PGV_PGA_S.end() * pga) }]
+/// Moves peaks beyond any record to the rim of what was recorded: tails of ground-motion models have such
+/// motions.
+pub fn at_rim(peaks: Peaks) -> Peaks {
+    let pga_m_s2 = peaks.pga_m_s2.min(STRONGEST_PGA_G * crate::units::G_M_S2);
+    let pgv = peaks.pgv_m_s.min(STRONGEST_PGV_M_S);
+    let is_possible = pga_m_s2 == 0.0 || PGV_PGA_S.contains(&(pgv / pga_m_s2));
+    let [least, most] = [PGV_PGA_S.start(), PGV_PGA_S.end()].map(|ratio_s| ratio_s * pga_m_s2);
+    Peaks { pga_m_s2, pgv_m_s: if is_possible { pgv } else { pgv.clamp(least, most) } }
 }
 
 /// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.

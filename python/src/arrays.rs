@@ -7,9 +7,10 @@ use rockfrag::keyword::Keyword;
 use rockfrag::object::{Object, structure_warnings};
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::implausibility::implausibility;
-use rockfrag::rocking::{Ground, Outcome, Record, TracePoint, simulate, trace, with_tail};
+use rockfrag::rocking::{Ground, Record, TracePoint, simulate, trace, with_tail};
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
+use rockfrag::table::responses::OutcomeWord;
 use rockfrag::units::G_M_S2;
 
 use crate::error::to_python;
@@ -78,8 +79,8 @@ pub fn simulate_motion<'py>(
     result.set_item("ground_velocity", of_ground(|ground| ground.velocity_m_s))?;
     let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
     result.set_item("events", events.collect::<Vec<_>>())?;
-    result.set_item("outcome", response.outcome.as_str())?;
-    result.set_item("demand", (response.outcome != Outcome::Overturning).then_some(response.edp))?;
+    result.set_item("outcome", OutcomeWord::from(response.outcome).as_str())?;
+    result.set_item("demand", response.outcome.demand())?;
     result.set_item("impacts", response.impacts)?;
     result.set_item("p", structure.p_rad_s)?;
     result.set_item("alpha", structure.alpha_rad)?;

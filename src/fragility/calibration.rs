@@ -6,12 +6,12 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event, Sample, grouped};
+use super::cases::{Case, Cases, Event, Sample, grouped};
 use super::measure::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, Cut, Kind, Predictor, Prior, Section, predictor};
 use super::tree::{LimitStates, Z_95};
-use crate::motion::IntensityMeasures;
+use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
@@ -105,10 +105,8 @@ pub struct Calibration {
 pub struct ObservedOutcome {
     /// The structure that it rocks like.
     pub structure: Structure,
-    /// Peak ground acceleration, m/s2.
-    pub pga_m_s2: f64,
-    /// Peak ground velocity, m/s.
-    pub pgv_m_s: f64,
+    /// Peaks of the motion.
+    pub peaks: Peaks,
     /// Magnitude, where it is known.
     pub mw: Option<f64>,
     /// Number of the earthquake: its outcomes depend on each other.
@@ -167,7 +165,7 @@ impl Calibration {
         let kind = Kind::of_word(cases.suite.as_deref());
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let sample = observed(cases, &shipped);
-        let peaks = JointPeaks::of(&cases.pga_m_s2, &cases.pgv_m_s).unwrap_or(surface::peaks(kind));
+        let peaks = JointPeaks::fit(cases.all.iter().map(|case| case.peaks)).unwrap_or(surface::peaks(kind));
         let suite = cases.suite.clone();
         Calibration {
             suite,
@@ -184,14 +182,14 @@ impl Calibration {
         let mut sample =
             Sample { ln_im: Vec::new(), y: Vec::new(), clusters: Vec::new(), ranges: Vec::new() };
         for outcome in outcomes {
-            let ObservedOutcome { structure, pga_m_s2, pgv_m_s, mw, .. } = outcome;
-            let measures = IntensityMeasures::new(structure, *pga_m_s2, *pgv_m_s, None, None);
+            let ObservedOutcome { structure, peaks, mw, .. } = outcome;
+            let measures = IntensityMeasures::new(structure, *peaks, None, None);
             let predictor = shipped.predictor(structure, &measures, *mw);
             let p = shipped.probability(structure, &measures, *mw, Scenarios::Many);
             let Some((predictor, p)) = predictor.zip(p) else { continue };
             if predictor.added.is_finite() {
-                let peaks = [*pga_m_s2, *pgv_m_s, pgv_m_s / pga_m_s2];
-                sample.y.push(Observed { predictor, happened: outcome.fell, expected: p.value, peaks });
+                let (happened, expected, peaks) = (outcome.fell, p.value, *peaks);
+                sample.y.push(Observed { predictor, happened, expected, peaks });
                 sample.clusters.push(outcome.earthquake);
             }
         }
@@ -209,8 +207,10 @@ impl Calibration {
         let prior = surface::prior(self.kind, self.limit_state);
         let expected = sample.y.iter().map(|case| case.expected).sum();
         let (at, covariance, n_clusters) = maximum(&sample, &prior);
-        let [(pga_low, pga_high), (pgv_low, pgv_high), (ratio_low, ratio_high)] =
-            [0, 1, 2].map(|k| ends(sample.y.iter().map(|case| case.peaks[k])));
+        let peaks = sample.y.iter().map(|case| case.peaks);
+        let (pga_low, pga_high) = ends(peaks.clone().map(|peaks| peaks.pga_m_s2));
+        let (pgv_low, pgv_high) = ends(peaks.clone().map(|peaks| peaks.pgv_m_s));
+        let (ratio_low, ratio_high) = ends(peaks.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
         Calibration {
             c: at[0],
             ln_s: at[1],
@@ -295,11 +295,11 @@ impl Calibration {
     /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
-        let [pga, pgv] = measures.peaks(structure);
+        let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
         let ranges = [
-            (pga, self.pga_low, self.pga_high),
-            (pgv, self.pgv_low, self.pgv_high),
-            (pgv / pga, self.ratio_low, self.ratio_high),
+            (pga_m_s2, self.pga_low, self.pga_high),
+            (pgv_m_s, self.pgv_low, self.pgv_high),
+            (pgv_m_s / pga_m_s2, self.ratio_low, self.ratio_high),
         ];
         ranges.iter().all(|(value, low, high)| {
             low.is_none_or(|low| *value >= low / LIKE) && high.is_none_or(|high| *value <= high * LIKE)
@@ -361,8 +361,8 @@ struct Observed {
     happened: bool,
     /// The probability by the surface for the kind of motion.
     expected: f64,
-    /// PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motion.
-    peaks: [f64; 3],
+    /// Peaks of the motion.
+    peaks: Peaks,
 }
 
 fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
@@ -371,14 +371,12 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
         None => (Event::Overturning, f64::INFINITY),
     };
     cases.sample(&[], |case| {
-        let happened = cases.happened(case, event, limit_state)?;
-        let mw = cases.magnitude(case);
-        let (structure, measures) = (&cases.structure, cases.measures(case));
-        let predictor = shipped.predictor(structure, &measures, mw)?;
-        let expected = shipped.probability(structure, &measures, mw, Scenarios::Many)?.value;
-        let (pga, pgv) = (cases.pga_m_s2[case], cases.pgv_m_s[case]);
+        let happened = event.happened(case.outcome, limit_state)?;
+        let (structure, Case { measures, peaks, mw, .. }) = (&cases.structure, case);
+        let predictor = shipped.predictor(structure, measures, *mw)?;
+        let expected = shipped.probability(structure, measures, *mw, Scenarios::Many)?.value;
         let is_finite = predictor.logit.is_finite() && predictor.added.is_finite();
-        is_finite.then_some(Observed { predictor, happened, expected, peaks: [pga, pgv, pgv / pga] })
+        is_finite.then_some(Observed { predictor, happened, expected, peaks: *peaks })
     })
 }
 

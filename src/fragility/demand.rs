@@ -72,8 +72,7 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
 
 /// ln EDP and ln IM of the cases that rocked safely and whose IM4 lies in `range`.
 fn demands(cases: &Cases, measures: &[Measure], range: &Range<f64>) -> Sample<f64> {
-    let im4 = cases.column(Measure::Im4);
-    cases.sample(measures, |case| cases.ln_demand(case).filter(|_| range.contains(&im4[case])))
+    cases.sample(measures, |case| case.ln_demand().filter(|_| range.contains(&case.measures.im4)))
 }
 
 /// The IM4 at which the planes may meet: first, step and number of places.

@@ -7,6 +7,7 @@ use super::model::{Direction, Model};
 use super::peaks::{Peak, RatioGiven};
 use super::ready::ReadyObject;
 use super::tree::LimitStates;
+use crate::motion::Peaks;
 use crate::statistics::Estimate;
 use crate::statistics::numerics::{first, quadrature};
 
@@ -56,13 +57,13 @@ impl<'a> GivenPeak<'a> {
         GivenPeak { directions, ready, peak, ratio, mw, bends, uplift_m_s2 }
     }
 
-    /// PGA and PGV (m/s2 and m/s) of the motions of an intensity whose PGV / PGA is this many standard
-    /// deviations above its median.
-    pub fn peaks(&self, intensity: f64, deviations: f64) -> [f64; 2] {
+    /// Peaks of the motions of an intensity whose PGV / PGA is this many standard deviations above its
+    /// median.
+    pub fn peaks(&self, intensity: f64, deviations: f64) -> Peaks {
         let ratio = self.ratio.ratio(intensity, deviations);
         match self.peak {
-            Peak::Pga => [intensity, intensity * ratio],
-            Peak::Pgv => [intensity / ratio, intensity],
+            Peak::Pga => Peaks { pga_m_s2: intensity, pgv_m_s: intensity * ratio },
+            Peak::Pgv => Peaks { pga_m_s2: intensity / ratio, pgv_m_s: intensity },
         }
     }
 
@@ -89,8 +90,8 @@ impl<'a> GivenPeak<'a> {
             }
             Peak::Pgv => {
                 for node in self.nodes(intensity) {
-                    let [pga, pgv] = self.peaks(intensity, node.deviations);
-                    add(&node, self.ready.at(pga).limit_states((pgv / pga).ln(), level));
+                    let Peaks { pga_m_s2, pgv_m_s } = self.peaks(intensity, node.deviations);
+                    add(&node, self.ready.at(pga_m_s2).limit_states((pgv_m_s / pga_m_s2).ln(), level));
                 }
             }
         }
@@ -154,7 +155,7 @@ impl<'a> GivenPeak<'a> {
             return pga_m_s2;
         }
         let [low, high] = SOUGHT_M_S.map(f64::ln);
-        first(low, high, |ln_pgv| self.peaks(ln_pgv.exp(), node)[0] >= pga_m_s2).exp()
+        first(low, high, |ln_pgv| self.peaks(ln_pgv.exp(), node).pga_m_s2 >= pga_m_s2).exp()
     }
 
     /// Motions that stand for those of an intensity; weights sum to 1, but for motions of too little PGA.

@@ -31,7 +31,7 @@ mod tree;
 pub(crate) use calibration::Level;
 pub use calibration::{Calibration, ObservedOutcome, Scenarios};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
-pub use cases::{Cases, Cluster, Event, Group, Sample};
+pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
 pub(crate) use cases::{MOST_CASES, grouped};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};

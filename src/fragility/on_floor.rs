@@ -38,9 +38,7 @@ pub(super) fn median_measures(
     structure: &Structure,
     ground: &IntensityMeasures,
 ) -> IntensityMeasures {
-    let [pga, pgv] = ground.peaks(structure);
-    let peaks = floor.peaks(pga, pgv);
-    IntensityMeasures::new(structure, peaks.pfa_m_s2, peaks.pfv_m_s, None, None)
+    IntensityMeasures::new(structure, floor.peaks(ground.peaks(structure)), None, None)
 }
 
 /// A structure on a floor.

@@ -34,7 +34,7 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
 /// [`log_likelihood`]: crate::statistics::log_likelihood
 pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> CurveFit {
     let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
-    let sample = cases.sample(&measures, |case| cases.happened(case, event, f64::INFINITY));
+    let sample = cases.sample(&measures, |case| event.happened(case.outcome, f64::INFINITY));
     let probit = tested_probit(&sample.x(), &sample.y, &sample.clusters);
     let fitted = probit.as_ref().ok();
     let limiting = fitted.map(|probit| probit.fit.limiting_covariance());

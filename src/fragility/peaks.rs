@@ -1,6 +1,7 @@
 //! How PGA and PGV of motions go together: what one of them predicts of the other.
 
 use crate::keyword::keywords;
+use crate::motion::Peaks;
 use crate::statistics::least_squares;
 use crate::units::G_M_S2;
 
@@ -109,11 +110,11 @@ impl RatioGiven {
 }
 
 impl JointPeaks {
-    /// That of these motions (m/s2 and m/s); none with fewer than three, or if a peak is not above 0 or the
-    /// same in all.
-    pub fn of(pga_m_s2: &[f64], pgv_m_s: &[f64]) -> Option<JointPeaks> {
-        let ln = |values: &[f64]| values.iter().map(|value| value.ln()).collect::<Vec<f64>>();
-        let (ln_pga, ln_pgv) = (ln(pga_m_s2), ln(pgv_m_s));
+    /// Fits the peaks of these motions; none with fewer than three, or if a peak is not above 0 or the same
+    /// in all.
+    pub fn fit(motions: impl Iterator<Item = Peaks>) -> Option<JointPeaks> {
+        let (ln_pga, ln_pgv): (Vec<f64>, Vec<f64>) =
+            motions.map(|peaks| (peaks.pga_m_s2.ln(), peaks.pgv_m_s.ln())).unzip();
         if ln_pga.len() < 3 || ln_pga.iter().chain(&ln_pgv).any(|ln| !ln.is_finite()) {
             return None;
         }

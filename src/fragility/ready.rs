@@ -9,7 +9,7 @@ use super::on_floor::{FloorMotions, OnFloor};
 use super::overturning::CurveFit;
 use super::surface::Cut;
 use super::tree::{GivenRocking, LimitStates, Probabilities, UNKNOWN, p_failure_given_rocking, p_no_rocking};
-use crate::motion::{Floor, IntensityMeasures};
+use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::Estimate;
 
@@ -163,8 +163,9 @@ impl DirectionAtPga<'_> {
                 LimitStates { rocking, failure: failure.min(rocking), overturning: overturning.min(rocking) }
             }
             By::Paper { demand, overturning, limit_state } => {
-                let (structure, pga) = (self.direction.structure, self.im4 * self.direction.uplift_m_s2);
-                let measures = IntensityMeasures::new(structure, pga, pga * ln_seconds.exp(), None, None);
+                let pga_m_s2 = self.im4 * self.direction.uplift_m_s2;
+                let peaks = Peaks { pga_m_s2, pgv_m_s: pga_m_s2 * ln_seconds.exp() };
+                let measures = IntensityMeasures::new(self.direction.structure, peaks, None, None);
                 let of = paper_probabilities(demand, overturning, &measures, *limit_state, CONFIDENCE);
                 let rocking = Estimate::exact(1.0 - of.p_nr);
                 let unknown = LimitStates { rocking, failure: UNKNOWN, overturning: UNKNOWN };
@@ -191,9 +192,9 @@ impl<'a> ReadyObject<'a> {
         ObjectAtPga(self.directions.iter().map(|of| of.at(pga_m_s2 / of.uplift_m_s2)).collect())
     }
 
-    /// Returns the probabilities of the limit states under motions of a PGA and PGV, m/s2 and m/s.
-    pub fn limit_states(&self, pga_m_s2: f64, pgv_m_s: f64, level: Level) -> LimitStates<f64> {
-        self.at(pga_m_s2).limit_states((pgv_m_s / pga_m_s2).ln(), level)
+    /// Returns the probabilities of the limit states under motions with these peaks.
+    pub fn limit_states(&self, peaks: Peaks, level: Level) -> LimitStates<f64> {
+        self.at(peaks.pga_m_s2).limit_states((peaks.pgv_m_s / peaks.pga_m_s2).ln(), level)
     }
 }
 

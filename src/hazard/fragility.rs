@@ -5,6 +5,7 @@ use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
 use super::site::{Hazard, Motions, Site, strongest};
 use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak};
+use crate::motion::Peaks;
 use crate::number::{Limited, plain, significant};
 use crate::object::{Subject, Unknown};
 use crate::statistics::numerics::first;
@@ -55,7 +56,7 @@ pub struct Fragility {
     /// nearest to one half.
     pub errors: Budget,
     /// PGA and PGV (m/s2 and m/s) there.
-    pub motion: [f64; 2],
+    pub motion: Peaks,
 }
 
 /// The probabilities at an intensity.

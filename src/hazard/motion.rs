@@ -3,6 +3,7 @@
 use super::budget::Budget;
 use super::pgv_pga::{PgvPgaRatio, magnitude};
 use crate::fragility::{Direction, GivenPeak, Level, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
+use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Estimate;
 
@@ -29,19 +30,20 @@ pub struct MotionProbabilities {
 }
 
 impl Motion {
-    /// PGA and PGV (m/s2 and m/s); the one that is not known is the median.
-    pub fn peaks(&self, model: &Model) -> [f64; 2] {
+    /// Both peaks; the one that is not known is the median.
+    pub fn peaks(&self, model: &Model) -> Peaks {
         let ratio = |peak: Peak, intensity: f64| {
             let velocity = PgvPgaRatio::of_model(model, peak, self.vs30_m_s);
             velocity.at(magnitude(self.mw, None).0, 0.0).ratio(intensity, 0.0)
         };
-        match (self.pga_m_s2, self.pgv_m_s) {
-            _ if self.is_still() => [0.0; 2],
-            (Some(pga), Some(pgv)) => [pga, pgv],
-            (Some(pga), None) => [pga, pga * ratio(Peak::Pga, pga)],
-            (None, Some(pgv)) => [pgv / ratio(Peak::Pgv, pgv), pgv],
-            (None, None) => [0.0; 2],
-        }
+        let (pga_m_s2, pgv_m_s) = match (self.pga_m_s2, self.pgv_m_s) {
+            _ if self.is_still() => (0.0, 0.0),
+            (Some(pga), Some(pgv)) => (pga, pgv),
+            (Some(pga), None) => (pga, pga * ratio(Peak::Pga, pga)),
+            (None, Some(pgv)) => (pgv / ratio(Peak::Pgv, pgv), pgv),
+            (None, None) => (0.0, 0.0),
+        };
+        Peaks { pga_m_s2, pgv_m_s }
     }
 
     /// Whether the ground stands still: a peak of 0.
@@ -100,9 +102,9 @@ impl Motion {
     ) -> LimitStates<Estimate> {
         match self.given().zip(velocity) {
             None => {
-                let [pga, pgv] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                let ready = ReadyObject::new(directions, self.mw);
-                Level::limit_states(scenarios, |level| ready.limit_states(pga, pgv, level))
+                let [pga_m_s2, pgv_m_s] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
+                let (ready, peaks) = (ReadyObject::new(directions, self.mw), Peaks { pga_m_s2, pgv_m_s });
+                Level::limit_states(scenarios, |level| ready.limit_states(peaks, level))
             }
             Some(((peak, intensity), (velocity, mw, ln))) => {
                 let (ratio, mw) = (velocity.at(mw, ln), velocity.magnitude(self.mw, mw));

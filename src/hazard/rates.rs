@@ -3,16 +3,15 @@
 
 use super::curve::HazardCurve;
 use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
+use crate::motion::Peaks;
 use crate::number::Limited;
 use crate::statistics::Estimate;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairOfPeaks {
-    /// Peak ground acceleration that stands for the bin, m/s2.
-    pub pga_m_s2: f64,
-    /// Peak ground velocity that stands for the bin, m/s.
-    pub pgv_m_s: f64,
+    /// Peaks that stand for the bin.
+    pub peaks: Peaks,
     /// Mean number of motions of the bin in a year: a rate of occurrence, not of exceedance.
     pub annual_rate: f64,
     /// Moment magnitude of the earthquakes, if it is known.
@@ -127,7 +126,7 @@ pub(super) fn rates_over_pairs(
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
-        ready.limit_states(bin.pga_m_s2, bin.pgv_m_s, Level::Estimate).into_array()
+        ready.limit_states(bin.peaks, Level::Estimate).into_array()
     };
     LimitStates::from(mean_annual_rates(bins, states)).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
 }

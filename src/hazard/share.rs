@@ -43,14 +43,14 @@ impl Site {
                 RateByIntensity { edges, rates, beyond: probability(last) * rate_beyond }
             }
             Hazard::Joint(pairs) => {
-                let peaks = pairs.iter().map(|pair| pair.pga_m_s2);
+                let peaks = pairs.iter().map(|pair| pair.peaks.pga_m_s2);
                 let (low, high) =
                     peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
                 let (edges, mut rates) = (edges(low, high * 1.001), vec![0.0; bins]);
                 for pair in pairs {
                     let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
-                    let p = ready.limit_states(pair.pga_m_s2, pair.pgv_m_s, Level::Estimate).overturning;
-                    let bin = edges.partition_point(|edge| *edge <= pair.pga_m_s2).clamp(1, bins) - 1;
+                    let p = ready.limit_states(pair.peaks, Level::Estimate).overturning;
+                    let bin = edges.partition_point(|edge| *edge <= pair.peaks.pga_m_s2).clamp(1, bins) - 1;
                     rates[bin] += p * pair.annual_rate;
                 }
                 RateByIntensity { edges, rates, beyond: 0.0 }

@@ -6,7 +6,8 @@ use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource, magnitude};
 use super::rates::{AnnualRate, PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitStates, Peak};
+use crate::fragility::{Case, Cases, Direction, GivenPeak, Kind, LimitStates, Peak};
+use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Outcome;
@@ -91,7 +92,7 @@ pub struct SiteRates {
     pub counted: Option<CountedRate>,
     /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint
     /// hazard those of the strongest.
-    pub motion: [f64; 2],
+    pub motion: Peaks,
     pub warnings: Vec<Warning>,
 }
 
@@ -115,8 +116,8 @@ impl Site {
                 let rates = |directions: &[Direction]| rates_over_pairs(directions, self.mw, bins);
                 let varied =
                     Varied { rates: rates(&subject.directions), ends: ends_of_subject(subject, rates) };
-                let strongest = bins.iter().max_by(|a, b| a.pga_m_s2.total_cmp(&b.pga_m_s2));
-                let motion = strongest.map_or([0.0; 2], |bin| [bin.pga_m_s2, bin.pgv_m_s]);
+                let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
+                let motion = strongest.map_or(Peaks { pga_m_s2: 0.0, pgv_m_s: 0.0 }, |bin| bin.peaks);
                 varied.with_limits(motion, false)
             }
         }
@@ -202,12 +203,12 @@ impl Site {
         let kind = model.kind();
         let is_same = |cases: &&Cases| kind_of(&cases.suite) == kind && structure.is_like(&cases.structure);
         let cases = self.responses.iter().find(is_same)?;
-        let motion = |case: usize| CountedMotion {
-            intensity: if given.peak == Peak::Pga { cases.pga_m_s2[case] } else { cases.pgv_m_s[case] },
-            event: cases.outcome[case] == Outcome::Overturning,
-            cluster: cases.cluster[case],
+        let motion = |case: &Case| CountedMotion {
+            intensity: if given.peak == Peak::Pga { case.peaks.pga_m_s2 } else { case.peaks.pgv_m_s },
+            event: case.outcome == Outcome::Overturned,
+            cluster: case.cluster,
         };
-        let motions: Vec<CountedMotion> = (0..cases.len()).map(motion).collect();
+        let motions: Vec<CountedMotion> = cases.all.iter().map(motion).collect();
         // Weaker motions uplift nothing.
         let least = match given.peak {
             Peak::Pga => structure.uplift_acceleration_m_s2(),
@@ -246,7 +247,7 @@ impl Motions {
 
 impl Varied {
     /// Gives the rates their limits; `ends_early` where the hazard does so for values.
-    fn with_limits(&self, motion: [f64; 2], ends_early: bool) -> SiteRates {
+    fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
         let LimitStates { rocking, failure, overturning } = &self.rates;
         let is_rocking_early = ends_early && rocking.beyond > NEGLIGIBLE * rocking.value;
         SiteRates {

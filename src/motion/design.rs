@@ -21,6 +21,13 @@ keywords! {
 const DIMENSIONS: usize = 4;
 
 /// The magnitude-distance grid and how its cells are sampled (section 2.1.1).
+///
+/// ```
+/// use rockfrag::motion::{Design, Grid};
+/// let grid = Grid { mw: vec![6.0, 7.0], re_km: vec![10.0], samples: 5, design: Design::Lhs, seed: 42 };
+/// let scenarios = grid.scenarios_of_cell(1);
+/// assert_eq!((grid.cells(), scenarios.len(), scenarios[0].mw), (2, 5, 7.0));
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
     /// Moment magnitudes.
@@ -43,14 +50,16 @@ impl Grid {
 
     /// Begins to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
     pub fn cell(&self, cell: usize) -> Cell<'_> {
-        let strata = |dimension: usize| {
-            let mut strata: Vec<u32> = (0..self.samples as u32).collect();
-            let row = (cell * DIMENSIONS + dimension) as u64;
-            strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
-            strata
-        };
-        let is_stratified = self.design == Design::Lhs;
-        Cell { grid: self, cell, strata: is_stratified.then(|| std::array::from_fn(strata)) }
+        let strata = || std::array::from_fn(|dimension| self.strata(cell, dimension));
+        Cell { grid: self, cell, strata: (self.design == Design::Lhs).then(strata) }
+    }
+
+    /// Draws the stratum of each sample of a cell, for one parameter.
+    fn strata(&self, cell: usize, dimension: usize) -> Vec<u32> {
+        let mut strata: Vec<u32> = (0..self.samples as u32).collect();
+        let row = (cell * DIMENSIONS + dimension) as u64;
+        strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
+        strata
     }
 
     /// Samples the scenarios of a cell.
@@ -73,8 +82,12 @@ impl Cell<'_> {
     pub fn scenario(&self, sample: usize) -> Scenario {
         let Grid { mw, re_km, .. } = self.grid;
         let (mw, re_km) = (mw[self.cell / re_km.len()], re_km[self.cell % re_km.len()]);
-        let (id, u) = (self.scenario_id(sample) as i64, self.quantiles(sample));
-        Scenario::at_quantiles(id, self.cell as i32, sample as i32, mw, re_km, u)
+        Scenario {
+            scenario_id: self.scenario_id(sample) as i64,
+            cell: self.cell as i32,
+            sample: sample as i32,
+            ..Scenario::at_quantiles(mw, re_km, self.quantiles(sample))
+        }
     }
 
     /// Samples a point of the unit cube.

@@ -4,30 +4,22 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::intensity_measures::Peaks;
 use super::measures::Oscillator;
 
 /// A floor of a building, or the ground: level 0.
+///
+/// ```
+/// use rockfrag::motion::{Floor, Peaks};
+/// let ground = Peaks { pga_m_s2: 2.0, pgv_m_s: 0.2 };
+/// assert!(Floor { period_s: 0.5, level: 1.0 }.peaks(ground).pga_m_s2 > ground.pga_m_s2);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Floor {
     /// First period of the building, s.
     pub period_s: f64,
     /// Height over that of the roof, 0 to 1.
     pub level: f64,
-}
-
-/// What the peaks of a floor are, given those of the ground: medians, and scatter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FloorPeaks {
-    /// Peak floor acceleration, m/s2.
-    pub pfa_m_s2: f64,
-    /// Peak floor velocity, m/s.
-    pub pfv_m_s: f64,
-    /// Standard deviation of ln PFA.
-    pub sd_ln_pfa: f64,
-    /// Standard deviation of ln PFV; the correlation of both is [`CORRELATION`].
-    pub sd_ln_pfv: f64,
-    /// Share of resonance in the squared velocity, 0 on the ground: how narrow the band of its motion is.
-    pub resonant_share: f64,
 }
 
 /// Correlation of the logarithms of a floor's peaks about their medians.
@@ -54,8 +46,9 @@ const OF_ACCELERATION: PeakByPeriod =
     PeakByPeriod { b: -0.090, k: 3.430, d: 3.635, e: 0.112, l: 0.434, h: 1.494 };
 const OF_VELOCITY: PeakByPeriod =
     PeakByPeriod { b: 0.930, k: 3.199, d: 3.569, e: -0.225, l: 1.574, h: 0.637 };
-/// Scatter s of both peaks, of a motion that is all resonance.
-const SCATTER: [f64; 2] = [0.284, 0.314];
+/// Standard deviation of ln of both peaks, of a motion that is all resonance.
+const SCATTER_OF_ACCELERATION: f64 = 0.284;
+const SCATTER_OF_VELOCITY: f64 = 0.314;
 
 impl Floor {
     /// Shares G_i of the modes.
@@ -90,16 +83,15 @@ impl Floor {
         floor
     }
 
-    /// Predicts the peaks of the floor from PGA (m/s2) and PGV (m/s) of the ground.
-    pub fn peaks(&self, pga_m_s2: f64, pgv_m_s: f64) -> FloorPeaks {
-        let amplified = self.amplifier().at((pgv_m_s / pga_m_s2).ln());
-        FloorPeaks {
-            pfa_m_s2: amplified.ln_pfa.exp() * pga_m_s2,
-            pfv_m_s: amplified.ln_pfv.exp() * pgv_m_s,
-            sd_ln_pfa: amplified.sd_ln_pfa,
-            sd_ln_pfv: amplified.sd_ln_pfv,
-            resonant_share: amplified.resonant_share,
-        }
+    /// Predicts the median peaks of the floor from those of the ground.
+    pub fn peaks(&self, ground: Peaks) -> Peaks {
+        let Amplified { ln_pfa, ln_pfv, .. } = self.amplified(ground);
+        Peaks { pga_m_s2: ln_pfa.exp() * ground.pga_m_s2, pgv_m_s: ln_pfv.exp() * ground.pgv_m_s }
+    }
+
+    /// Predicts by how much the floor amplifies the peaks of the ground.
+    pub fn amplified(&self, ground: Peaks) -> Amplified {
+        self.amplifier().at((ground.pgv_m_s / ground.pga_m_s2).ln())
     }
 
     /// The floor, ready for the peaks of many motions.
@@ -141,15 +133,18 @@ struct Mode {
     by_h: f64,
 }
 
-/// Peaks of a floor over those of the ground.
+/// Peaks of a floor over those of the ground: medians, and scatter of correlation [`CORRELATION`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Amplified {
-    /// Median ln(PFA / PGA) and its standard deviation.
+pub struct Amplified {
+    /// Median ln(PFA / PGA).
     pub ln_pfa: f64,
+    /// Standard deviation of ln PFA.
     pub sd_ln_pfa: f64,
-    /// Median ln(PFV / PGV) and its standard deviation.
+    /// Median ln(PFV / PGV).
     pub ln_pfv: f64,
+    /// Standard deviation of ln PFV.
     pub sd_ln_pfv: f64,
+    /// Share of resonance in the squared velocity, 0 on the ground: how narrow the band of the motion is.
     pub resonant_share: f64,
 }
 
@@ -162,9 +157,9 @@ impl Amplifier {
             [0, 1].map(|k| amplified([OF_ACCELERATION, OF_VELOCITY][k], &self.modes[k], u));
         Amplified {
             ln_pfa,
-            sd_ln_pfa: SCATTER[0] * resonant_a.sqrt(),
+            sd_ln_pfa: SCATTER_OF_ACCELERATION * resonant_a.sqrt(),
             ln_pfv,
-            sd_ln_pfv: SCATTER[1] * resonant_v.sqrt(),
+            sd_ln_pfv: SCATTER_OF_VELOCITY * resonant_v.sqrt(),
             resonant_share: resonant_v,
         }
     }

@@ -44,13 +44,15 @@ impl Transform {
 
 /// Returns the least even number of at least `n` without prime factors above 5, for fast transforms.
 pub fn even_smooth_at_least(n: usize) -> usize {
-    let smooth = |mut n: usize| {
-        for prime in [2, 3, 5] {
-            while n.is_multiple_of(prime) {
-                n /= prime;
-            }
+    (n.max(2)..).find(|&candidate| candidate % 2 == 0 && is_smooth(candidate)).unwrap_or(n)
+}
+
+/// Returns whether a number has no prime factors above 5.
+fn is_smooth(mut n: usize) -> bool {
+    for prime in [2, 3, 5] {
+        while n.is_multiple_of(prime) {
+            n /= prime;
         }
-        n == 1
-    };
-    (n.max(2)..).find(|&candidate| candidate % 2 == 0 && smooth(candidate)).unwrap_or(n)
+    }
+    n == 1
 }

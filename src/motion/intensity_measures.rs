@@ -8,8 +8,25 @@ use serde::{Deserialize, Serialize};
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
 
+/// The peaks of a ground motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peaks {
+    /// Peak ground acceleration, m/s2.
+    pub pga_m_s2: f64,
+    /// Peak ground velocity, m/s.
+    pub pgv_m_s: f64,
+}
+
 /// The dimensionless intensity measures of Eq. 13: the last columns of responses.parquet. Those of a period
 /// are missing where the period is.
+///
+/// ```
+/// use rockfrag::motion::{Dimension, IntensityMeasures, Peaks};
+/// let block = rockfrag::rocking::Structure::new("block", 2.5, 0.2, 0.92)?;
+/// let measures = IntensityMeasures::new(&block, Peaks { pga_m_s2: 3.0, pgv_m_s: 0.5 }, Some(1.2), None);
+/// assert_eq!((measures.im4, measures.im2), (Dimension::Acceleration.dimensionless(3.0, &block), None));
+/// # Ok::<(), rockfrag::rocking::StructureError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IntensityMeasures {
     /// wp / p.
@@ -27,18 +44,16 @@ pub struct IntensityMeasures {
 }
 
 impl IntensityMeasures {
-    /// Computes IM1 to IM6 (Eq. 13) of a motion with these peaks (m/s2, m/s) and periods (s) for a structure.
+    /// Computes IM1 to IM6 (Eq. 13) of a motion with these peaks and periods (s) for a structure.
     pub fn new(
         structure: &Structure,
-        pga_m_s2: f64,
-        pgv_m_s: f64,
+        Peaks { pga_m_s2, pgv_m_s }: Peaks,
         tp_s: Option<f64>,
         tm_s: Option<f64>,
     ) -> IntensityMeasures {
         let p = structure.p_rad_s;
         let g_tan_alpha = structure.uplift_acceleration_m_s2();
-        let circular = |period_s: Option<f64>| period_s.filter(|&period| period > 0.0).map(|t| 2.0 * PI / t);
-        let (wp, wm) = (circular(tp_s), circular(tm_s));
+        let [wp, wm] = [tp_s, tm_s].map(|period_s| Some(2.0 * PI / period_s.filter(|t| *t > 0.0)?));
         IntensityMeasures {
             im1: wp.map(|wp| wp / p),
             im2: wm.map(|wm| wm / p),
@@ -49,14 +64,14 @@ impl IntensityMeasures {
         }
     }
 
-    /// Computes PGA (m/s2) and PGV (m/s) of the motion from IM4 and IM5.
-    pub fn peaks(&self, structure: &Structure) -> [f64; 2] {
+    /// Computes the peaks of the motion from IM4 and IM5.
+    pub fn peaks(&self, structure: &Structure) -> Peaks {
         let g_tan_alpha = structure.uplift_acceleration_m_s2();
-        [self.im4 * g_tan_alpha, self.im5 * g_tan_alpha / structure.p_rad_s]
+        Peaks { pga_m_s2: self.im4 * g_tan_alpha, pgv_m_s: self.im5 * g_tan_alpha / structure.p_rad_s }
     }
 
-    /// Returns those of a motion without periods, of IM4 and IM5: IM3 = IM4 / IM5 (Eq. 13).
-    pub fn of_peaks(im4: f64, im5: f64) -> IntensityMeasures {
+    /// Returns the measures of a motion without periods: IM3 = IM4 / IM5 (Eq. 13).
+    pub fn from_peaks(im4: f64, im5: f64) -> IntensityMeasures {
         let im3 = (im5 > 0.0).then(|| im4 / im5);
         IntensityMeasures { im1: None, im2: None, im3, im4, im5, im6: None }
     }

@@ -40,6 +40,13 @@ pub struct MotionMeasures {
 }
 
 /// The measures to compute besides those of every motion.
+///
+/// ```
+/// use rockfrag::motion::{MeasurePlan, MeasureScratch};
+/// let plan = MeasurePlan { housner: true, sa_periods_s: vec![0.5] };
+/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01, &mut MeasureScratch::default());
+/// assert_eq!((measured.measures.pga_m_s2, measured.sa_m_s2.len()), (2.0, 1));
+/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
     /// Whether to compute the Housner intensity, which takes as long as all others together.
@@ -69,13 +76,16 @@ pub struct MeasureScratch {
 impl MeasurePlan {
     /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`.
     pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Measured {
-        let sa = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         Measured {
             measures: MotionMeasures {
                 housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
                 ..MotionMeasures::of(acceleration, dt_s, scratch)
             },
-            sa_m_s2: self.sa_periods_s.iter().map(sa).collect(),
+            sa_m_s2: self
+                .sa_periods_s
+                .iter()
+                .map(|period_s| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING))
+                .collect(),
         }
     }
 }
@@ -243,10 +253,12 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
 pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let (first, last, points) = HOUSNER_PERIODS;
     let step = (last - first) / (points - 1) as f64;
-    let pseudo_velocity = |k: usize| {
+    let parts = (0..points).map(|k| {
         let period = first + k as f64 * step;
-        spectral_acceleration(acceleration, dt_s, period, DAMPING) * period / (2.0 * PI)
-    };
-    let weight = |k: usize| if k == 0 || k == points - 1 { 0.5 } else { 1.0 };
-    (0..points).map(|k| weight(k) * step * pseudo_velocity(k)).sum()
+        let pseudo_velocity =
+            spectral_acceleration(acceleration, dt_s, period, DAMPING) * period / (2.0 * PI);
+        let weight = if k == 0 || k == points - 1 { 0.5 } else { 1.0 };
+        weight * step * pseudo_velocity
+    });
+    parts.sum()
 }

@@ -29,8 +29,8 @@ mod synthesis;
 
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
-pub use floor::{Floor, FloorPeaks};
-pub use intensity_measures::{Dimension, IntensityMeasures};
+pub use floor::{Amplified, Floor};
+pub use intensity_measures::{Dimension, IntensityMeasures, Peaks};
 pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite, SyntheticSuite};

@@ -38,16 +38,9 @@ const GAMMA: (f64, f64) = (1.93, 0.47);
 const NU_RAD: (f64, f64) = (1.83, 0.98);
 
 impl Scenario {
-    /// Makes the scenario of a cell (magnitude, distance in km) from quantiles `u` in (0, 1) of Vp, Tp, gamma
-    /// and nu: Vp and Tp lognormal (Eqs. 2 and 3), gamma normal truncated below at 1, nu normal.
-    pub fn at_quantiles(
-        scenario_id: i64,
-        cell: i32,
-        sample: i32,
-        mw: f64,
-        re_km: f64,
-        u: [f64; 4],
-    ) -> Scenario {
+    /// Makes the first scenario of a grid at a magnitude and a distance (km), from quantiles `u` in (0, 1) of
+    /// Vp, Tp, gamma and nu: Vp and Tp lognormal (Eqs. 2 and 3), gamma normal truncated below at 1, nu normal.
+    pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> Scenario {
         // Both sigmas are of the logarithm to base 10.
         let log10_vp = mean_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
         let log10_tp = mean_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
@@ -56,9 +49,9 @@ impl Scenario {
         let below = normal::cdf((1.0 - mean) / sd);
         let gamma = mean + sd * normal::quantile(below + u[2] * (1.0 - below));
         Scenario {
-            scenario_id,
-            cell,
-            sample,
+            scenario_id: 0,
+            cell: 0,
+            sample: 0,
             mw,
             re_km,
             vp_m_s: 10_f64.powf(log10_vp) / CM_PER_M,

@@ -1,6 +1,13 @@
 //! Site amplification V(f) of the stochastic method (section 2.1.2).
 
 /// Amplification from the source to the surface, as a function of frequency.
+///
+/// ```
+/// use rockfrag::motion::SiteAmplification;
+/// let site = SiteAmplification::table(vec![(0.1, 1.0), (10.0, 2.0)])?;
+/// assert_eq!((site.amplification(0.01), site.amplification(20.0)), (1.0, 2.0));
+/// # Ok::<(), rockfrag::motion::site::SiteTableError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum SiteAmplification {
     /// Generic rock (Boore & Joyner 1997).

@@ -24,6 +24,13 @@ pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
     / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
 
 /// The stochastic model apart from the scenario.
+///
+/// ```
+/// use rockfrag::motion::stochastic::{Source, StochasticModel, Window};
+/// let source = Source::new(6.5, 10.0);
+/// assert!(StochasticModel::default().fourier_amplitude_cm_s(&source, 1.0) > 0.0);
+/// assert_eq!(Window::new(source.duration_s()).value(-1.0), 0.0);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct StochasticModel {
     /// Site amplification V(f).
@@ -103,8 +110,8 @@ impl Source {
 
     /// Computes S(f) = (1 - epsilon) / (1 + (f/fa)^2) + epsilon / (1 + (f/fb)^2).
     fn shape(&self, f: f64) -> f64 {
-        let corner = |corner_hz: f64| 1.0 / (1.0 + (f / corner_hz).powi(2));
-        (1.0 - self.epsilon) * corner(self.fa_hz) + self.epsilon * corner(self.fb_hz)
+        let [low, high] = [self.fa_hz, self.fb_hz].map(|corner_hz| 1.0 / (1.0 + (f / corner_hz).powi(2)));
+        (1.0 - self.epsilon) * low + self.epsilon * high
     }
 }
 

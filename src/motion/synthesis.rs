@@ -93,6 +93,13 @@ impl Synthetic {
 
 /// Synthesizes motions, each independent of the motions before. Use one for each thread: it keeps transforms,
 /// and the values that scenarios of one magnitude and distance share.
+///
+/// ```
+/// use rockfrag::motion::{MotionModel, Scenario, SyntheticSuite, Synthesizer};
+/// let mut synthesizer = Synthesizer::new(MotionModel::default(), &[SyntheticSuite::Csgm]);
+/// let motion = synthesizer.synthesize(&Scenario::at_quantiles(6.5, 10.0, [0.5; 4]));
+/// assert_eq!((motion.dt_s, motion.samples(SyntheticSuite::Csgm)), (0.005, &motion.combined[..]));
+/// ```
 pub struct Synthesizer {
     model: MotionModel,
     /// Whether to compute the high frequencies, and the combined motion.

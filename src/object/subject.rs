@@ -4,7 +4,7 @@
 use super::given::{Object, Reason};
 use crate::fragility::{Direction, Kind, Model, Z_95};
 use crate::keyword::keywords;
-use crate::motion::{Floor, IntensityMeasures};
+use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::LEAST_P_RAD_S;
 use crate::rocking::Structure;
 use crate::warning::Warning;
@@ -193,11 +193,11 @@ impl Subject {
         self.directions.iter().flat_map(|direction| structure_warnings(&direction.structure)).collect()
     }
 
-    /// Warns of structures that are hardly possible, and of predictions at a PGA and PGV (m/s2 and m/s).
-    pub fn warnings(&self, [pga_m_s2, pgv_m_s]: [f64; 2]) -> Vec<Warning> {
+    /// Warns of structures that are hardly possible, and of predictions under a motion.
+    pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
         let mut warnings = self.structure_warnings();
-        for Direction { structure, model } in self.directions.iter().filter(|_| pga_m_s2 > 0.0) {
-            let measures = IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None);
+        for Direction { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0) {
+            let measures = IntensityMeasures::new(structure, motion, None, None);
             warnings.extend(model.warnings(structure, &measures));
         }
         warnings.sort();

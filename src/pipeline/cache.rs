@@ -28,7 +28,7 @@ pub fn freshness(plan: &Plan) -> Result<Provenance, String> {
     for (place, path) in plan.outputs.iter().enumerate() {
         let planned = plan.output(place);
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        match Provenance::of_file(path) {
+        match Provenance::read(path) {
             Ok(Some(made)) if made.key() == planned.key() => {
                 if let Some(other) = made.further.iter().find_map(|further| changed(path, further)) {
                     return Err(format!("{other} is missing or changed"));

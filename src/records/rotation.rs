@@ -10,9 +10,10 @@ use crate::motion::measures::{peak, velocity};
 const DIRECTIONS: usize = 180;
 
 /// What tells which components are of one instrument.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Component {
+    #[serde(rename = "earthquake")]
     pub event: Option<String>,
     pub station: Option<String>,
     pub dt_s: f64,

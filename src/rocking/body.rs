@@ -4,6 +4,12 @@ use super::structure::{Structure, StructureError};
 use crate::units::G_M_S2;
 
 /// A rigid body on the edges of a base, in the plane in which it rocks.
+///
+/// ```
+/// use rockfrag::rocking::Body;
+/// let (block, bottom_heavy) = (Body::solid(0.4, 1.6), Body { centre_height_m: 0.5, ..Body::solid(0.4, 1.6) });
+/// assert!(bottom_heavy.alpha_rad() > block.alpha_rad());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Width of the base, m.
@@ -54,8 +60,7 @@ impl Body {
     pub fn eta(&self) -> f64 {
         let [(weak_r, weak_alpha), (strong_r, strong_alpha)] = self.sides();
         let common = self.inertia_m2 + weak_r * strong_r * (weak_alpha + strong_alpha).cos();
-        let about = |radius: f64| self.inertia_m2 + radius * radius;
-        common / (about(weak_r) * about(strong_r)).sqrt()
+        common / ((self.inertia_m2 + weak_r * weak_r) * (self.inertia_m2 + strong_r * strong_r)).sqrt()
     }
 
     /// The structure that rocks as it does: of its weaker side, with its own restitution or `eta`.

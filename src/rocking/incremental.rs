@@ -27,6 +27,19 @@ const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// The intensities of an incremental dynamic analysis: levels in equal ratios, halved where the structure
 /// rocks, and halved further where the outcome changes or a peak may graze the tipping point.
+///
+/// ```
+/// use rockfrag::rocking::{Outcome, Response, Scan, ScanPoint};
+/// // A structure that overturns from an intensity of 3 on; others are simulated.
+/// let respond = |point: &ScanPoint| {
+///     let outcome = if point.intensity < 3.0 { Outcome::SafeRocking(0.5) } else { Outcome::Overturned };
+///     Response { outcome, impacts: 0 }
+/// };
+/// let scan = Scan::new(1.0, 10.0, 8);
+/// let found = scan.run(1, |points| Ok::<_, ()>(points.iter().map(respond).collect()))?;
+/// assert!(scan.capacity(&found[0]).overturning.is_some_and(|intensity| (intensity - 3.0).abs() < 0.003));
+/// # Ok::<(), ()>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     /// Intensities at which every case is simulated, ascending.
@@ -56,11 +69,8 @@ pub struct ScanPoint {
 impl Scan {
     /// Divides the range from `from` to `to` in `steps` equal ratios.
     pub fn new(from: f64, to: f64, steps: usize) -> Scan {
-        let level = |k: usize| from * (to / from).powf(k as f64 / steps as f64);
-        Scan {
-            levels: (0..steps).map(level).chain([to]).collect(),
-            ratio: (to / from).powf(1.0 / steps as f64),
-        }
+        let below = (0..steps).map(|k| from * (to / from).powf(k as f64 / steps as f64));
+        Scan { levels: below.chain([to]).collect(), ratio: (to / from).powf(1.0 / steps as f64) }
     }
 
     /// Returns the resolution: the ratio of neighbouring intensities simulated wherever a case rocks.
@@ -81,8 +91,9 @@ impl Scan {
         respond: impl Fn(&[ScanPoint]) -> Result<Vec<Response>, E>,
     ) -> Result<Vec<Vec<ScanResponse>>, E> {
         let mut found: Vec<Vec<ScanResponse>> = vec![Vec::new(); cases];
-        let levels = |case| self.levels.iter().map(move |&intensity| ScanPoint { case, intensity });
-        let mut points: Vec<ScanPoint> = (0..cases).flat_map(levels).collect();
+        let mut points: Vec<ScanPoint> = (0..cases)
+            .flat_map(|case| self.levels.iter().map(move |&intensity| ScanPoint { case, intensity }))
+            .collect();
         while !points.is_empty() {
             for (&ScanPoint { case, intensity }, response) in points.iter().zip(respond(&points)?) {
                 found[case].push(ScanResponse { intensity, response });
@@ -100,8 +111,10 @@ impl Scan {
     fn missing<'a>(&'a self, found: &'a [ScanResponse]) -> impl Iterator<Item = f64> + 'a {
         let first = found.iter().position(ScanResponse::overturns).unwrap_or(found.len());
         let runs = found.chunk_by(|a, b| a.overturns() == b.overturns());
-        let part = |run: &[ScanResponse]| self.is_window(run).then(|| width(run).powf(1.0 / WINDOW_PARTS));
-        let window_parts = runs.flat_map(move |run| std::iter::repeat_n(part(run), run.len()));
+        let window_parts = runs.flat_map(move |run| {
+            let part = self.is_window(run).then(|| width(run).powf(1.0 / WINDOW_PARTS));
+            std::iter::repeat_n(part, run.len())
+        });
         found.windows(2).zip(window_parts).enumerate().filter_map(move |(step, (pair, window_part))| {
             let [below, above] = [&pair[0], &pair[1]];
             let widest = if below.overturns() != above.overturns() {
@@ -148,17 +161,19 @@ impl Scan {
     /// Computes the overturning share of each band between levels, in logarithms of the intensity. A step
     /// with one overturning end counts half.
     pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
-        let overturning = |pair: &[ScanResponse]| {
-            let ends = pair.iter().filter(|end| end.overturns()).count();
-            0.5 * ends as f64 * (pair[1].intensity / pair[0].intensity).ln()
-        };
-        let share = |level: &[f64]| {
-            let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < level[end]));
-            let sum: f64 = responses[from..=to].windows(2).map(overturning).sum();
-            (sum / (level[1] / level[0]).ln()).min(1.0)
-        };
-        self.levels.windows(2).map(share).collect()
+        let bands = self.levels.windows(2).map(|band| {
+            let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < band[end]));
+            let sum: f64 = responses[from..=to].windows(2).map(overturning_width).sum();
+            (sum / (band[1] / band[0]).ln()).min(1.0)
+        });
+        bands.collect()
     }
+}
+
+/// Returns the part of a step that overturns, in logarithms: half of it where one end does.
+fn overturning_width(step: &[ScanResponse]) -> f64 {
+    let ends = step.iter().filter(|end| end.overturns()).count();
+    0.5 * ends as f64 * (step[1].intensity / step[0].intensity).ln()
 }
 
 /// Returns the ratio of the last intensity of a run to its first.
@@ -170,19 +185,19 @@ fn width(run: &[ScanResponse]) -> f64 {
 /// near.
 fn may_tip(found: &[ScanResponse], step: usize) -> bool {
     let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
-    let rate = |pair: &[ScanResponse]| {
-        (pair[1].response.edp - pair[0].response.edp).abs() / (pair[1].intensity / pair[0].intensity).ln()
-    };
-    let safe = beside.windows(2).filter(|pair| !pair.iter().any(ScanResponse::overturns));
-    let [below, above] = [&found[step], &found[step + 1]];
-    let growth = GROWTH * safe.map(rate).fold(0.0, f64::max) * (above.intensity / below.intensity).ln();
-    below.response.edp.max(above.response.edp) + growth > TIPPING
+    let rates = beside.windows(2).filter_map(|pair| {
+        let change = pair[1].response.outcome.demand()? - pair[0].response.outcome.demand()?;
+        Some(change.abs() / (pair[1].intensity / pair[0].intensity).ln())
+    });
+    let ends = &found[step..=step + 1];
+    let growth = GROWTH * rates.fold(0.0, f64::max) * (ends[1].intensity / ends[0].intensity).ln();
+    ends.iter().filter_map(|end| end.response.outcome.demand()).any(|demand| demand + growth > TIPPING)
 }
 
 impl ScanResponse {
     /// Whether the structure overturns.
     pub fn overturns(&self) -> bool {
-        self.response.outcome == Outcome::Overturning
+        self.response.outcome == Outcome::Overturned
     }
 }
 

@@ -4,7 +4,7 @@
 use pulp::Simd;
 
 use super::record::Record;
-use super::response::{Response, Tail, free_rocking};
+use super::response::{Response, free_rocking};
 use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, Slenderness, State};
 use super::uplift::Uplift;
@@ -16,6 +16,15 @@ use crate::units::G_PER_M_S2;
 const LONGEST_STEP: f64 = 0.03;
 
 /// A structure, initially at rest, and its ground motion.
+///
+/// ```
+/// use rockfrag::rocking::{Problem, Record, Structure, simulate_all};
+/// let structures = [Structure::new("a", 2.5, 0.2, 0.92)?, Structure::new("b", 1.0, 0.1, 0.92)?];
+/// let record = Record::new(&[0.0, 4.0, -4.0, 0.0], 0.1)?;
+/// let responses = simulate_all(&structures.each_ref().map(|structure| Problem { structure, record }));
+/// assert_eq!(responses.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
     /// The structure.
@@ -114,7 +123,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
     #[inline(never)]
     pub fn handle(&mut self, events: Events) {
         for lane in each(events.overturned) {
-            self.finish(lane, Tail::Overturns);
+            self.finish(lane, None);
         }
         for lane in each(events.ended) {
             let structure = self.problems[self.problem[lane]].structure;
@@ -123,16 +132,17 @@ impl<'a, S: Simd> Lanes<'a, S> {
         }
         for lane in each(events.rested) {
             if !self.leave_rest(lane) {
-                self.finish(lane, Tail::Settles(0.0));
+                self.finish(lane, Some(0.0));
             }
         }
     }
 
-    fn finish(&mut self, lane: usize, tail: Tail) {
+    /// Ends the response of a lane, with the largest rotation (rad) in free rocking, none if it overturns.
+    fn finish(&mut self, lane: usize, later: Option<f64>) {
         let problem = self.problem[lane];
         let alpha = self.problems[problem].structure.alpha_rad;
         let (peak, impacts) = (self.peak.lane(lane), self.impacts.lane(lane) as u32);
-        self.responses[problem] = Response::of_rocking(tail, peak, alpha, impacts);
+        self.responses[problem] = Response::after_rocking(later, peak, alpha, impacts);
         self.refill(lane);
     }
 

@@ -3,6 +3,14 @@
 use crate::plausibility::{LARGEST_M_S2, TIME_STEPS_S};
 
 /// A ground acceleration sampled at a constant step: linear between samples, zero after the last one.
+///
+/// ```
+/// use rockfrag::rocking::Record;
+/// let record = Record::new(&[0.0, 3.0, -1.0], 0.01)?;
+/// assert_eq!((record.peak_m_s2(), record.acceleration_at(0.005)), (3.0, 1.5));
+/// assert!((record.ground_at([0.0, 0.01])[1].velocity_m_s - 0.015).abs() < 1e-12);
+/// # Ok::<(), rockfrag::rocking::RecordError>(())
+/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Record<'a> {
     acceleration_m_s2: &'a [f64],
@@ -41,14 +49,15 @@ impl<'a> Record<'a> {
         // Infinite or NaN if any sample is: their bits exceed those of all finite numbers.
         let peak_m_s2 =
             acceleration_m_s2.iter().map(|value| value.abs().to_bits()).max().map_or(0.0, f64::from_bits);
-        if !peak_m_s2.is_finite() {
-            let sample = acceleration_m_s2.iter().position(|value| !value.is_finite()).unwrap_or_default();
-            return Err(RecordError::NotFinite { sample, value: acceleration_m_s2[sample] });
-        }
-        if peak_m_s2 > LARGEST_M_S2 {
-            let too_large = |value: &f64| value.abs() > LARGEST_M_S2;
-            let sample = acceleration_m_s2.iter().position(too_large).unwrap_or_default();
-            return Err(RecordError::TooLarge { sample, value: acceleration_m_s2[sample] });
+        let accepted = -LARGEST_M_S2..=LARGEST_M_S2;
+        if !accepted.contains(&peak_m_s2) {
+            let sample = acceleration_m_s2.iter().position(|value| !accepted.contains(value));
+            let sample = sample.unwrap_or_default();
+            let value = acceleration_m_s2[sample];
+            return Err(match value.is_finite() {
+                true => RecordError::TooLarge { sample, value },
+                false => RecordError::NotFinite { sample, value },
+            });
         }
         Ok(Record { acceleration_m_s2, dt_s, peak_m_s2 })
     }
@@ -83,16 +92,17 @@ impl<'a> Record<'a> {
     /// and the last of them: by trapezoids, exact for what is linear between samples. The ground is at rest
     /// at the first time.
     pub fn ground_at(&self, times_s: impl IntoIterator<Item = f64>) -> Vec<Ground> {
-        let mut last: Option<(f64, Ground)> = None;
-        let follow = |time_s: f64| {
+        let (mut ground, mut before_s): (Vec<Ground>, f64) = (Vec::new(), 0.0);
+        for time_s in times_s {
             let acceleration_m_s2 = self.acceleration_at(time_s);
-            let velocity_m_s = last.map_or(0.0, |(before_s, before)| {
+            let velocity_m_s = ground.last().map_or(0.0, |before| {
                 let mean = 0.5 * (before.acceleration_m_s2 + acceleration_m_s2);
                 before.velocity_m_s + mean * (time_s - before_s)
             });
-            last.insert((time_s, Ground { acceleration_m_s2, velocity_m_s })).1
-        };
-        times_s.into_iter().map(follow).collect()
+            ground.push(Ground { acceleration_m_s2, velocity_m_s });
+            before_s = time_s;
+        }
+        ground
     }
 }
 

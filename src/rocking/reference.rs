@@ -8,7 +8,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::record::Record;
-use super::response::{Response, Tail, free_rocking};
+use super::response::{Response, free_rocking};
 use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
 use super::uplift::Uplift;
@@ -77,6 +77,15 @@ keywords! {
 }
 
 /// A point of a traced response: a sample of the record, or an event between two samples.
+///
+/// ```
+/// use rockfrag::rocking::{Record, SolverEvent, Structure, trace};
+/// let block = Structure::new("block", 2.5, 0.2, 0.92)?;
+/// let (_, points) = trace(&block, &Record::new(&[0.0, 4.0, 0.0], 0.1)?);
+/// let uplift = points.iter().find(|point| point.solver_event == Some(SolverEvent::Uplift));
+/// assert!(uplift.is_some_and(|point| 0.0 < point.time_s && point.time_s < 0.1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {
     /// Time from the start of the record, s.
@@ -124,7 +133,7 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
             (t, state, peak) = (t + h, Some(next), peak.max(now.side * top.theta));
             if overturns(next) {
                 note(sample_s + t, state, Some(SolverEvent::Overturn));
-                return Response::of_rocking(Tail::Overturns, peak, alpha, impacts);
+                return Response::after_rocking(None, peak, alpha, impacts);
             }
             if strikes(next) {
                 let after = impact(structure, next);
@@ -140,12 +149,12 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
     }
     note((samples.len() - 1) as f64 * dt_s, state, None);
     let Rocking { side, theta, velocity } = state.unwrap_or_default();
-    let tail = free_rocking(
+    let later = free_rocking(
         State { rotation: side * theta, velocity: side * velocity / structure.p_rad_s },
         alpha,
         structure.eta,
     );
-    if uplifted { Response::of_rocking(tail, peak, alpha, impacts) } else { Response::NO_ROCKING }
+    if uplifted { Response::after_rocking(later, peak, alpha, impacts) } else { Response::NO_ROCKING }
 }
 
 /// Simulates as [`solve`] and returns the rotation at each sample and event. The record ends with its last

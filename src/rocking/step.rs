@@ -146,7 +146,7 @@ impl<S: Simd> Lanes<'_, S> {
         let passes = !below & (step.concave | (plain & monotone));
         let mut until = if strikes.any() { strikes.select(falling_root(c, strikes), one) } else { one };
         for lane in each((candidates & !strikes & !passes).bits()) {
-            until.set(lane, first_impact(&of_lane(c, lane)).unwrap_or(1.0));
+            until.set(lane, first_impact(&in_lane(c, lane)).unwrap_or(1.0));
         }
         until
     }
@@ -156,7 +156,7 @@ impl<S: Simd> Lanes<'_, S> {
     fn overturned(&self, step: &Step<S>, until: Vector<S>) -> u32 {
         let high = Vector::splat(self.simd, FRAC_PI_2).le(step.high).bits() & self.busy;
         let overturns = |lane: &usize| {
-            first_overturning(&of_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
+            first_overturning(&in_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
         };
         each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
@@ -180,7 +180,7 @@ impl<S: Simd> Lanes<'_, S> {
             self.peak = turning.select(self.peak.max(highest), self.peak);
         }
         for lane in each((higher & !ends & !turns).bits()) {
-            let highest = largest(&of_lane(r, lane), until.lane(lane));
+            let highest = largest(&in_lane(r, lane), until.lane(lane));
             self.peak.set(lane, highest.max(self.peak.lane(lane)));
         }
     }
@@ -200,6 +200,6 @@ impl<S: Simd> Lanes<'_, S> {
     }
 }
 
-fn of_lane<S: Simd>(c: &Polynomial<Vector<S>>, lane: usize) -> Polynomial {
+fn in_lane<S: Simd>(c: &Polynomial<Vector<S>>, lane: usize) -> Polynomial {
     std::array::from_fn(|k| c[k].lane(lane))
 }

@@ -7,6 +7,13 @@ use crate::plausibility::FREQUENCIES_RAD_S;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
+///
+/// ```
+/// use rockfrag::rocking::Structure;
+/// let cabinet = Structure::rectangular_block("cabinet", 0.5, 1.9, None)?;
+/// assert!((cabinet.p_rad_s - 2.74).abs() < 0.01 && (cabinet.alpha_rad - 0.257).abs() < 0.001);
+/// # Ok::<(), rockfrag::rocking::StructureError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
     /// Name in tables.
@@ -108,14 +115,14 @@ impl Structure {
 
     /// Whether p, alpha and eta are those of another structure, each within 1 %.
     pub fn is_like(&self, other: &Structure) -> bool {
-        let parameters = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta];
-        parameters(self).into_iter().zip(parameters(other)).all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+        [(self.p_rad_s, other.p_rad_s), (self.alpha_rad, other.alpha_rad), (self.eta, other.eta)]
+            .into_iter()
+            .all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
     }
 
-    /// Returns width and height (m) of the solid rectangular block that has this p and alpha.
-    pub fn block_m(&self) -> [f64; 2] {
-        let diagonal_m = 1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s);
-        [diagonal_m * self.alpha_rad.sin(), diagonal_m * self.alpha_rad.cos()]
+    /// Returns the diagonal (m) of the solid rectangular block that has this p.
+    pub fn block_diagonal_m(&self) -> f64 {
+        1.5 * G_M_S2 / (self.p_rad_s * self.p_rad_s)
     }
 
     /// Computes the uplift acceleration g tan(alpha), m/s2 (Eq. 5): the unit of IM4 to IM6.

@@ -60,7 +60,7 @@ impl Stage for ComparePaper {
         let differences = [other_structures(&demand), other_options(&self.pex)].concat();
         let mut summary = verdict(&compared, &differences);
         summary += &match self.all {
-            true => frame::show(&frame::of_batch(&rows::batch(&compared)?)?, Format::Text)?,
+            true => frame::show(&frame::from_batch(&rows::batch(&compared)?)?, Format::Text)?,
             false => planes(&compared) + &example(&compared),
         };
         context.write::<Comparison>(&self.out, &compared, &summary)?;
@@ -115,9 +115,9 @@ const BEFORE: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.pa
 /// What options of the stages before the fits are not the paper's, which are the defaults; as far as the
 /// files of these stages are beside the fits.
 fn other_options(fits: &Path) -> Vec<String> {
-    let (mut differences, mut child) = (Vec::new(), Provenance::of_file(fits).ok().flatten());
+    let (mut differences, mut child) = (Vec::new(), Provenance::read(fits).ok().flatten());
     for file in BEFORE {
-        let made = Provenance::of_file(&fits.with_file_name(file)).ok().flatten();
+        let made = Provenance::read(&fits.with_file_name(file)).ok().flatten();
         let (Some(made), Some(of_child)) = (made, child) else { break };
         if of_child.input("in") != Some(made.key()) {
             break;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
 use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
-use crate::motion::{IntensityMeasures, MeasureScratch};
+use crate::motion::MeasureScratch;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
@@ -25,7 +25,7 @@ use crate::statistics::FitStatus;
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
 use crate::table::motions::{self, ACCELERATION, Motion};
-use crate::table::responses::{self, ResponseRow};
+use crate::table::responses::ResponseRow;
 use crate::table::{frame, rows};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
@@ -137,7 +137,7 @@ impl Stage for Ida {
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
-        let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[], &[])?.schema())?;
+        let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[])?.schema())?;
         let mut scanned = Vec::new();
         each(
             context,
@@ -188,8 +188,7 @@ impl Ida {
             }
         }
         let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
-        let (mut rows, mut measured, mut stripes) = (Vec::new(), Vec::new(), Vec::new());
-        let mut scanned = Vec::new();
+        let (mut rows, mut stripes, mut scanned) = (Vec::new(), Vec::new(), Vec::new());
         for (case, responses) in cases.iter().zip(&responses) {
             let at_levels = responses
                 .iter()
@@ -203,11 +202,10 @@ impl Ida {
                 let scale = intensity / case.unscaled;
                 let measures = case.measures.scaled(scale);
                 rows.push(measures.response_row(case.motion, case.structure, response));
-                measured.push(measures.dimensionless(case.structure));
                 stripes.push(StripeRow { measure: self.measure, intensity, scale, overturning_above });
             }
         }
-        Ok(Analysed { stripes: side_by_side(&rows, &measured, &stripes)?, scanned, warnings: warned })
+        Ok(Analysed { stripes: side_by_side(&rows, &stripes)?, scanned, warnings: warned })
     }
 
     fn capacity(&self, capacity: &Capacity, case: &Case) -> CapacityRow {
@@ -260,8 +258,7 @@ impl Ida {
 fn clusters(cases: &[&Scanned]) -> Vec<u32> {
     let mut numbers = BTreeMap::new();
     let numbered = (0..).zip(cases).map(|(next, Scanned { capacity, .. })| {
-        let [mw, re_km] = [capacity.mw, capacity.re_km].map(|value| value.unwrap_or(f64::NAN));
-        let cluster = Cluster::of(capacity.earthquake.as_deref(), mw, re_km);
+        let cluster = Cluster::new(capacity.earthquake.as_deref(), capacity.mw, capacity.re_km);
         cluster.map_or(next, |cluster| *numbers.entry(cluster).or_insert(next))
     });
     numbered.collect()
@@ -296,8 +293,8 @@ impl ScaledMeasure {
         let dimensionless = measures.dimensionless(structure);
         let value = match self {
             ScaledMeasure::Scale => Some(1.0),
-            ScaledMeasure::Pga => Some(measures.pga_m_s2 / G_M_S2),
-            ScaledMeasure::Pgv => Some(measures.pgv_m_s),
+            ScaledMeasure::Pga => Some(measures.peaks.pga_m_s2 / G_M_S2),
+            ScaledMeasure::Pgv => Some(measures.peaks.pgv_m_s),
             ScaledMeasure::Im4 => Some(dimensionless.im4),
             ScaledMeasure::Im5 => Some(dimensionless.im5),
             ScaledMeasure::Im6 => dimensionless.im6,
@@ -307,12 +304,8 @@ impl ScaledMeasure {
 }
 
 /// Responses and what stripes have besides, side by side.
-fn side_by_side(
-    responses: &[ResponseRow],
-    measures: &[IntensityMeasures],
-    stripes: &[StripeRow],
-) -> anyhow::Result<RecordBatch> {
-    rows::side_by_side(&[responses::batch(responses, measures)?, rows::batch(stripes)?])
+fn side_by_side(responses: &[ResponseRow], stripes: &[StripeRow]) -> anyhow::Result<RecordBatch> {
+    rows::side_by_side(&[rows::batch(responses)?, rows::batch(stripes)?])
 }
 
 /// Simulates scaled copies of motions, as many at once as fit.

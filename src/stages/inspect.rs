@@ -50,7 +50,7 @@ impl Inspect {
         let metadata = table.metadata().metadata();
         let fields = table.schema().fields();
         let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata)).collect();
-        let made = Provenance::of_footer(metadata);
+        let made = Provenance::from_footer(metadata);
         if self.format == Format::Json {
             let path = self.file.display().to_string();
             return Ok(format!(
@@ -58,7 +58,7 @@ impl Inspect {
                 json!({ "file": path, "rows": table.rows(), "made": made, "columns": columns })
             ));
         }
-        let shown = frame::show(&frame::of_batch(&rows::batch(&columns)?)?, self.format)?;
+        let shown = frame::show(&frame::from_batch(&rows::batch(&columns)?)?, self.format)?;
         if self.format == Format::Csv {
             return Ok(shown);
         }

@@ -123,7 +123,7 @@ fn best(sets: &[RankedSet]) -> anyhow::Result<String> {
             None => shown.push(set.clone()),
         }
     }
-    let frame = frame::of_batch(&rows::batch(&shown)?)?;
+    let frame = frame::from_batch(&rows::batch(&shown)?)?;
     const COLUMNS: &str = "suite structure target rank measures form log_score loss loss_error aic status";
     let order = SortMultipleOptions::default().with_maintain_order(true);
     Ok(frame::text(&frame.select(COLUMNS.split(' '))?.sort(["suite", "structure", "target", "rank"], order)?))
@@ -152,8 +152,7 @@ struct Further {
 struct FurtherMeasure {
     column: String,
     quantity: Dimension,
-    /// NaN where unknown.
-    values: Vec<f64>,
+    values: Vec<Option<f64>>,
 }
 
 impl Further {
@@ -178,20 +177,23 @@ impl Further {
         for batch in table.batches(&|name| name == "motion_id" || columns.contains(name)) {
             let batch = batch?;
             for measure in &mut further.measures {
-                let values = batch.numbers(&measure.column)?;
-                measure.values.extend(values.into_iter().map(|value| value.unwrap_or(f64::NAN)));
+                measure.values.extend(batch.numbers(&measure.column)?);
             }
             let ids = batch.required_texts("motion_id")?.into_iter().map(Cow::into_owned);
             further.places.extend(ids.zip(rows..));
             rows += batch.rows.num_rows();
         }
         // A measure that no motion has does not compete.
-        further.measures.retain(|measure| measure.values.iter().any(|value| !value.is_nan()));
+        further.measures.retain(|measure| measure.values.iter().any(Option::is_some));
         Ok(further)
     }
 
     /// The measures of motions, made dimensionless for a structure, by their names without units.
-    fn candidates(&self, motions: &[&str], structure: &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
+    fn candidates(
+        &self,
+        motions: &[&str],
+        structure: &Structure,
+    ) -> anyhow::Result<Vec<(String, Vec<Option<f64>>)>> {
         if self.measures.is_empty() {
             return Ok(Vec::new());
         }
@@ -204,7 +206,7 @@ impl Further {
         let places = places.collect::<anyhow::Result<Vec<usize>>>()?;
         let candidates = self.measures.iter().map(|FurtherMeasure { column, quantity, values }| {
             let name = UNITS.iter().find_map(|(unit, _)| column.strip_suffix(unit)).unwrap_or(column);
-            let values = places.iter().map(|&place| quantity.dimensionless(values[place], structure));
+            let values = places.iter().map(|&place| Some(quantity.dimensionless(values[place]?, structure)));
             (name.to_string(), values.collect())
         });
         Ok(candidates.collect())

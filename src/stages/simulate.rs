@@ -19,7 +19,7 @@ use crate::pipeline::{InRun, Stage};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion};
-use crate::table::responses::{self, TraceRow};
+use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
 
@@ -84,7 +84,7 @@ impl Stage for Simulate {
         let (objects, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
         let second = match objects.iter().any(|directions| directions.len() > 1) {
-            true => motions::second_of_pairs(&Table::open(&self.input)?)?,
+            true => motions::second_of_pairs(&self.input)?,
             false => HashSet::new(),
         };
         if !second.is_empty() {
@@ -94,7 +94,7 @@ impl Stage for Simulate {
         context.warn(warnings);
         self.expect_traced(&motions)?;
         let out = out_of_partition(&self.out, self.partition);
-        let mut writer = context.create(&out, &responses::batch(&[], &[])?.schema())?;
+        let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
         let mut traces = match self.trace.is_empty() {
             true => None,
             false => Some(context.create(&part(&self.out, "trace"), &rows::schema::<TraceRow>())?),
@@ -195,18 +195,17 @@ impl Simulate {
             plan.structures(motion).map(move |structure| Problem { structure, record })
         });
         let mut responses = simulate_all(&problems.collect::<Vec<_>>()).into_iter();
-        let (mut rows, mut measured, mut overturned) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut rows, mut overturned) = (Vec::new(), Vec::new());
         let (mut traces, mut warned) = (Vec::new(), Warnings::default());
         for (motion, record) in pairs {
             let measures = Measures::new(motion, record, scratch);
             let is_traced = self.trace.iter().any(|traced| *traced == ALL || *traced == motion.motion_id);
             let responded = plan.structures(motion).zip(&mut responses);
             for (index, (structure, response)) in responded.enumerate() {
-                if response.outcome == Outcome::Overturning {
+                if response.outcome == Outcome::Overturned {
                     overturned.push((index, motion.motion_id.clone()));
                 }
                 rows.push(measures.response_row(motion, structure, response));
-                measured.push(measures.dimensionless(structure));
                 if is_traced {
                     traces.extend(trace_rows(motion, record, structure)?);
                 }
@@ -214,7 +213,7 @@ impl Simulate {
             warned.extend(warnings(motion, record));
         }
         Ok(Responded {
-            rows: responses::batch(&rows, &measured)?,
+            rows: rows::batch(&rows)?,
             traces: (!traces.is_empty()).then(|| rows::batch(&traces)).transpose()?,
             warnings: warned,
             overturned,
@@ -228,7 +227,7 @@ fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow
     let record = Record::new(&ended, record.dt_s())?;
     let points = trace(structure, &record).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));
-    let [block_width_m, block_height_m] = structure.block_m();
+    let diagonal_m = structure.block_diagonal_m();
     let rows = points.into_iter().zip(ground).map(|(point, ground)| TraceRow {
         motion_id: motion.motion_id.clone(),
         structure: structure.name.clone(),
@@ -242,8 +241,8 @@ fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow
         p_rad_s: structure.p_rad_s,
         alpha_rad: structure.alpha_rad,
         eta: structure.eta,
-        block_width_m,
-        block_height_m,
+        block_width_m: diagonal_m * structure.alpha_rad.sin(),
+        block_height_m: diagonal_m * structure.alpha_rad.cos(),
     });
     Ok(rows.collect())
 }

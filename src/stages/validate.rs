@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
-use crate::fragility::{Cases, Event, Kind, Model, Scenarios};
+use crate::fragility::{Case, Cases, Event, Kind, Model, Scenarios};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::{InRun, Stage};
@@ -85,7 +85,7 @@ impl Validate {
     /// Whether the fits were made from these responses.
     fn are_own(&self) -> anyhow::Result<bool> {
         let Some(folder) = &self.fits.fits else { return Ok(false) };
-        let made = Provenance::of_file(&folder.join("pro.calibration.parquet"))?;
+        let made = Provenance::read(&folder.join("pro.calibration.parquet"))?;
         Ok(made.and_then(|made| made.input("in")) == Some(key_of(&self.input)?))
     }
 }
@@ -99,11 +99,9 @@ fn validate(
 ) -> (Option<Validation>, Vec<ReliabilityBin>, Warnings) {
     let (mut probabilities, mut happened, mut clusters) = (Vec::new(), Vec::new(), Vec::new());
     let mut outside = false;
-    for case in 0..cases.len() {
-        let Some(has_happened) = cases.happened(case, event, limit_state) else { continue };
-        let measures = cases.measures(case);
-        let mw = cases.magnitude(case);
-        let predicted = model.probabilities(&cases.structure, &measures, mw, Scenarios::Many).given_rocking;
+    for Case { outcome, measures, mw, cluster, .. } in &cases.all {
+        let Some(has_happened) = event.happened(*outcome, limit_state) else { continue };
+        let predicted = model.probabilities(&cases.structure, measures, *mw, Scenarios::Many).given_rocking;
         let Some(given) = predicted else { continue };
         let p = match event {
             Event::Overturning => given.p_ro,
@@ -113,10 +111,10 @@ fn validate(
         if p.value.is_nan() {
             continue;
         }
-        outside |= model.warnings(&cases.structure, &measures).contains(&Warning::Extrapolated);
+        outside |= model.warnings(&cases.structure, measures).contains(&Warning::Extrapolated);
         probabilities.push(p.value);
         happened.push(has_happened);
-        clusters.push(cases.cluster[case]);
+        clusters.push(*cluster);
     }
     let forecasts = Forecasts {
         suite: cases.suite.as_deref(),
@@ -138,7 +136,7 @@ fn validate(
 
 /// A line a suite, structure and event.
 fn summary(scores: &[Validation]) -> anyhow::Result<String> {
-    let frame = frame::of_batch(&rows::batch(scores)?)?;
+    let frame = frame::from_batch(&rows::batch(scores)?)?;
     const COLUMNS: &str = "suite structure event model n observed expected expected_error log_score brier";
     Ok(frame::text(&frame.select(COLUMNS.split(' '))?))
 }

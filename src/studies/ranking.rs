@@ -8,8 +8,9 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{Cases, Event, Measure};
+use crate::fragility::{Case, Cases, Measure};
 use crate::keyword::{Keyword, keywords};
+use crate::rocking::Outcome;
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::{FitStatus, Folds, LinearFit, ProbitFit, least_squares, normal, predict, probit};
 
@@ -73,14 +74,14 @@ pub struct RankedSet {
 impl RankedSet {
     /// Whether it is the same model by other measures, such as IM3 and IM5 in place of IM4 and IM5.
     fn is_one_with(&self, other: &RankedSet) -> bool {
-        let is_near = |a: Option<f64>, b: Option<f64>| match (a, b) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-8 * a.abs().max(1.0),
-            _ => false,
-        };
         (self.form, self.terms) == (other.form, other.terms)
             && is_near(self.log_likelihood, other.log_likelihood)
             && is_near(self.log_score, other.log_score)
     }
+}
+
+fn is_near(a: Option<f64>, b: Option<f64>) -> bool {
+    a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= 1e-8 * a.abs().max(1.0))
 }
 
 /// All sets of measures of a structure and suite, best first.
@@ -97,7 +98,7 @@ struct Contest {
     target: Target,
     names: Vec<String>,
     ln_im: Vec<Vec<f64>>,
-    /// ln EDP.
+    /// ln EDP, where that is the target.
     y: Vec<f64>,
     /// Whether the structure overturned.
     events: Vec<bool>,
@@ -119,19 +120,17 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
         Target::Demand => &[Form::Single, Form::Biplanar],
         Target::Overturning => &[Form::Single],
     };
-    let rate = |set: &[usize], form: Form| {
+    let sets = subsets(contest.names.len(), rules.terms);
+    let rated = sets.par_iter().flat_map_iter(|set| forms.iter().map(move |form| (set, *form)));
+    let rated = rated.map(|(set, form)| {
         let scores = folds.as_ref().and_then(|folds| contest.left_out(set, form, folds));
         (contest.rate(cases, set, form, scores.as_deref()), scores)
-    };
-    let sets = subsets(contest.names.len(), rules.terms);
-    let of_set = |set: &Vec<usize>| forms.iter().map(|&form| rate(set, form)).collect::<Vec<_>>();
-    let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = sets.par_iter().flat_map_iter(of_set).collect();
-    // Rounded, so that of equal power laws (IM4 = IM3 IM5) the first stays first.
-    let rounded = |value: Option<f64>, worst: f64| value.map_or(worst, |value| (value * 1e9).round());
+    });
+    let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = rated.collect();
     rated.sort_by(|(a, _), (b, _)| {
-        let score = |set: &RankedSet| rounded(set.log_score, f64::NEG_INFINITY);
-        let aic = |set: &RankedSet| rounded(set.aic, f64::INFINITY);
-        score(b).total_cmp(&score(a)).then(aic(a).total_cmp(&aic(b)))
+        let by_score =
+            rounded(b.log_score, f64::NEG_INFINITY).total_cmp(&rounded(a.log_score, f64::NEG_INFINITY));
+        by_score.then(rounded(a.aic, f64::INFINITY).total_cmp(&rounded(b.aic, f64::INFINITY)))
     });
     let best = rated.first().and_then(|(_, scores)| scores.clone());
     for at in 0..rated.len() {
@@ -149,43 +148,54 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
     Ranking { sets: rated.into_iter().map(|(set, _)| set).collect(), incomplete }
 }
 
+/// Rounds a score, so that of equal power laws (IM4 = IM3 IM5) the first stays first.
+fn rounded(score: Option<f64>, worst: f64) -> f64 {
+    score.map_or(worst, |score| (score * 1e9).round())
+}
+
 /// Returns all sets of up to `most` numbers below `count`, by size.
 fn subsets(count: usize, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = Vec::new();
     let mut last = vec![Vec::new()];
     for _ in 0..most {
-        let longer = |set: &Vec<usize>| {
+        let mut longer = Vec::new();
+        for set in &last {
             let next = set.last().map_or(0, |last| last + 1);
-            (next..count).map(|more| [&set[..], &[more]].concat()).collect::<Vec<_>>()
-        };
-        last = last.iter().flat_map(longer).collect();
-        all.extend(last.clone());
+            longer.extend((next..count).map(|more| [&set[..], &[more]].concat()));
+        }
+        all.extend(longer.clone());
+        last = longer;
     }
     all
 }
 
 impl Contest {
     fn new(cases: &Cases, target: Target, transition: f64) -> (Contest, Vec<(String, usize)>) {
-        let counts = |case: &usize| match target {
-            Target::Demand => cases.ln_demand(*case).is_some(),
-            Target::Overturning => cases.happened(*case, Event::Overturning, f64::INFINITY).is_some(),
-        };
-        let rows: Vec<usize> = (0..cases.len()).filter(counts).collect();
-        let im4 = cases.column(Measure::Im4);
+        let counted = cases.all.iter().enumerate().filter(|(_, case)| match target {
+            Target::Demand => case.ln_demand().is_some(),
+            Target::Overturning => case.outcome != Outcome::NoRocking,
+        });
+        let (places, rows): (Vec<usize>, Vec<&Case>) = counted.unzip();
         let mut contest = Contest {
             target,
             names: Vec::new(),
             ln_im: Vec::new(),
-            y: rows.iter().map(|&row| cases.edp[row].ln()).collect(),
-            events: rows.iter().map(|&row| cases.edp[row].is_nan()).collect(),
-            is_low: rows.iter().map(|&row| im4[row] < transition).collect(),
-            clusters: rows.iter().map(|&row| cases.cluster[row]).collect(),
+            y: rows.iter().filter_map(|case| case.ln_demand()).collect(),
+            events: rows.iter().map(|case| case.outcome == Outcome::Overturned).collect(),
+            is_low: rows.iter().map(|case| case.measures.im4 < transition).collect(),
+            clusters: rows.iter().map(|case| case.cluster).collect(),
         };
-        let of_paper = Measure::SCALAR.iter().map(|measure| (measure.as_str(), cases.column(*measure)));
-        let candidates = cases.candidates.iter().map(|(name, values)| (name.as_str(), &values[..]));
+        let of_paper = Measure::SCALAR.iter().map(|measure| {
+            let values = rows.iter().map(|case| measure.raw_value_of(&case.measures));
+            (measure.as_str(), values.collect::<Vec<_>>())
+        });
+        let candidates = cases.candidates.iter().map(|(name, values)| {
+            (name.as_str(), places.iter().map(|place| values[*place]).collect::<Vec<_>>())
+        });
         let mut incomplete = Vec::new();
         for (name, values) in of_paper.chain(candidates) {
-            let ln: Vec<f64> = rows.iter().map(|&row| values[row].ln()).filter(|ln| ln.is_finite()).collect();
+            let ln: Vec<f64> =
+                values.into_iter().flatten().map(f64::ln).filter(|ln| ln.is_finite()).collect();
             if ln.len() == rows.len() {
                 contest.names.push(name.to_string());
                 contest.ln_im.push(ln);
@@ -196,22 +206,28 @@ impl Contest {
         (contest, incomplete)
     }
 
+    fn columns(&self, set: &[usize], rows: &[usize]) -> Vec<Vec<f64>> {
+        set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()
+    }
+
+    /// Fits one power law of the demand.
+    fn law(&self, set: &[usize], rows: &[usize]) -> Result<LinearFit, FitStatus> {
+        let y: Vec<f64> = rows.iter().map(|&row| self.y[row]).collect();
+        least_squares(&self.columns(set, rows), &y)
+    }
+
     fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Model, FitStatus> {
-        let columns = |rows: &[usize]| -> Vec<Vec<f64>> {
-            set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()
-        };
-        let law = |rows: &[usize]| {
-            least_squares(&columns(rows), &rows.iter().map(|&row| self.y[row]).collect::<Vec<_>>())
-        };
         match (self.target, form) {
             (Target::Overturning, _) => {
                 let events: Vec<bool> = rows.iter().map(|&row| self.events[row]).collect();
-                Ok(Model::Overturning(probit(&columns(rows), &events)?))
+                Ok(Model::Overturning(probit(&self.columns(set, rows), &events)?))
             }
-            (Target::Demand, Form::Single) => law(rows).map(|law| Model::Demand([law.clone(), law])),
+            (Target::Demand, Form::Single) => {
+                self.law(set, rows).map(|law| Model::Demand([law.clone(), law]))
+            }
             (Target::Demand, Form::Biplanar) => {
                 let (low, high): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&row| self.is_low[row]);
-                Ok(Model::Demand([law(&low)?, law(&high)?]))
+                Ok(Model::Demand([self.law(set, &low)?, self.law(set, &high)?]))
             }
         }
     }
@@ -229,19 +245,19 @@ impl Contest {
             }
             Model::Demand(laws) => {
                 let means = laws.each_ref().map(|law| predict(law.fit.coefficients.as_slice(), &x));
-                let density = |row: usize| {
+                let densities = (0..self.y.len()).map(|row| {
                     let side = usize::from(!self.is_low[row]);
                     let sd = sd(&laws[side]);
                     -0.5 * (((self.y[row] - means[side][row]) / sd).powi(2) + (2.0 * PI).ln()) - sd.ln()
-                };
-                (0..self.y.len()).map(density).collect()
+                });
+                densities.collect()
             }
         }
     }
 
     /// Computes the log-likelihood of each case by the fit without its fold; none if a fold has no fit.
     fn left_out(&self, set: &[usize], form: Form, folds: &Folds) -> Option<Vec<f64>> {
-        let mut scores = vec![0.0; self.y.len()];
+        let mut scores = vec![0.0; self.clusters.len()];
         for fold in 0..folds.count {
             let (kept, left_out) = folds.split(fold);
             let by_others =
@@ -252,11 +268,12 @@ impl Contest {
     }
 
     fn rate(&self, cases: &Cases, set: &[usize], form: Form, scores: Option<&[f64]>) -> RankedSet {
-        let n = self.y.len();
+        let n = self.clusters.len();
         let model = self.fit(set, form, &(0..n).collect::<Vec<_>>());
-        let most_likely_sd = |law: &LinearFit| (law.rss / law.fit.n as f64).sqrt();
-        let log_likelihood = |model| self.log_likelihoods(set, model, most_likely_sd).iter().sum::<f64>();
-        let log_likelihood = model.as_ref().ok().map(log_likelihood);
+        let log_likelihood = model.as_ref().ok().map(|model| {
+            let by_case = self.log_likelihoods(set, model, |law| (law.rss / law.fit.n as f64).sqrt());
+            by_case.iter().sum::<f64>()
+        });
         let parameters = match (self.target, form) {
             (Target::Overturning, _) => set.len() + 1,
             (Target::Demand, Form::Single) => set.len() + 2,

@@ -13,6 +13,15 @@ const BINS: usize = 10;
 const LEAST: f64 = 1e-15;
 
 /// Probabilities of an event in some cases of a structure and suite by one model, and whether it happened.
+///
+/// ```
+/// use rockfrag::fragility::Event;
+/// use rockfrag::studies::Forecasts;
+/// let (probabilities, happened, clusters) = (&[0.1, 0.8, 0.3], &[false, true, false], &[0, 1, 2]);
+/// let (suite, structure, event, model) = (None, "cabinet", Event::Overturning, "mine");
+/// let forecasts = Forecasts { suite, structure, event, model, probabilities, happened, clusters };
+/// assert!(forecasts.validate().is_some_and(|scores| scores.observed == 1 && scores.brier < 0.05));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Forecasts<'a> {
@@ -107,7 +116,8 @@ impl Forecasts<'_> {
         let Forecasts { probabilities, happened, .. } = *self;
         let mut order: Vec<usize> = (0..happened.len()).collect();
         order.sort_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]));
-        let bin = |cases: &[usize]| {
+        let bins = (0..BINS).map(|k| &order[order.len() * k / BINS..order.len() * (k + 1) / BINS]);
+        let bins = bins.filter(|cases| !cases.is_empty()).map(|cases| {
             let n = cases.len();
             let observed = cases.iter().filter(|&&case| happened[case]).count();
             let share = observed_share(observed, n);
@@ -123,10 +133,8 @@ impl Forecasts<'_> {
                 n: n as i64,
                 observed: observed as i64,
             }
-        };
-        let edge = |bin: usize| order.len() * bin / BINS;
-        let bins = (0..BINS).map(|k| &order[edge(k)..edge(k + 1)]);
-        bins.filter(|cases| !cases.is_empty()).map(bin).collect()
+        });
+        bins.collect()
     }
 }
 

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::responses::OutcomeWord;
 use crate::fragility::grouped;
 use crate::keyword::keywords;
 use crate::number::Limited;
-use crate::rocking::{CapacityStatus, Outcome};
+use crate::rocking::CapacityStatus;
 use crate::statistics::FitStatus;
 
 keywords! {
@@ -65,7 +66,7 @@ pub struct Stripe {
     pub suite: Option<String>,
     pub structure: String,
     pub intensity: f64,
-    pub outcome: Outcome,
+    pub outcome: OutcomeWord,
 }
 
 grouped!(CapacityRow, CapacityFitRow, Stripe);

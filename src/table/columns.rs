@@ -27,48 +27,39 @@ impl Batch {
     /// Returns the numbers of a column, each in the range of its quantity; `None` for null, for NaN, which
     /// some programs write for null, and if the column is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, TableError> {
-        let Some(column) = self.rows.column_by_name(name) else {
-            return Ok(vec![None; self.rows.num_rows()]);
-        };
+        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
         let numbers = numbers(column).ok_or_else(|| self.other_type(name, column, "a number"))?;
         let range = range_of_column(name);
         match numbers.iter().position(|number| number.is_some_and(|number| !range.contains(number))) {
-            Some(row) => Err(self.out_of_range(row, name, numbers[row])),
+            Some(row) => {
+                let found = numbers[row].unwrap_or_default();
+                Err(self.value_error(row, name, format!("{found:?}; expected {}", range.expected)))
+            }
             None => Ok(numbers),
         }
     }
 
     /// Returns the numbers of a column without nulls.
     pub fn required_numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
-        self.expect(name)?;
-        let number =
-            |(row, number): (usize, Option<f64>)| number.ok_or_else(|| self.out_of_range(row, name, None));
-        self.numbers(name)?.into_iter().enumerate().map(number).collect()
+        self.required(name, self.numbers(name)?)
     }
 
-    fn out_of_range(&self, row: usize, name: &str, found: Option<f64>) -> TableError {
-        let found = found.map_or("no number".to_string(), |number| format!("{number:?}"));
-        self.value_error(row, name, format!("{found}; expected {}", range_of_column(name).expected))
-    }
-
-    /// Returns the integers of a column, `None` for null.
-    pub fn counts<T: TryFrom<i128>>(&self, name: &str) -> Result<Vec<Option<T>>, TableError> {
-        let column = self.expect(name)?;
+    /// Returns the integers of a column, `None` for null and if the column is missing.
+    pub fn counts<T: TryFrom<i128> + Clone>(&self, name: &str) -> Result<Vec<Option<T>>, TableError> {
+        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
         let whole = integers(column).ok_or_else(|| self.other_type(name, column, "whole numbers"))?;
-        let count = |(row, number): (usize, Option<i128>)| {
-            let refusal = |number: i128| {
-                self.value_error(row, name, format!("{number}; expected {}", dictionary::meaning(name)))
-            };
-            number.map(|number| T::try_from(number).map_err(|_| refusal(number))).transpose()
-        };
-        whole.into_iter().enumerate().map(count).collect()
+        let counts = whole.iter().enumerate().map(|(row, number)| {
+            number.map(T::try_from).transpose().map_err(|_| {
+                let found = number.unwrap_or_default();
+                self.value_error(row, name, format!("{found}; expected {}", dictionary::meaning(name)))
+            })
+        });
+        counts.collect()
     }
 
-    /// Returns the texts of a column (integers as texts), `None` for null or if it is missing.
+    /// Returns the texts of a column (integers as texts), `None` for null and if the column is missing.
     pub fn texts(&self, name: &str) -> Result<Vec<Option<Cow<'_, str>>>, TableError> {
-        let Some(column) = self.rows.column_by_name(name) else {
-            return Ok(vec![None; self.rows.num_rows()]);
-        };
+        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
         if let Some(texts) = column.as_string_opt::<i32>() {
             return Ok(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
         }
@@ -77,39 +68,52 @@ impl Batch {
     }
 
     pub fn required_texts(&self, name: &str) -> Result<Vec<Cow<'_, str>>, TableError> {
-        self.expect(name)?;
-        let text = |(row, text): (usize, Option<_>)| {
-            text.ok_or_else(|| self.value_error(row, name, "null; expected a text"))
-        };
-        self.texts(name)?.into_iter().enumerate().map(text).collect()
+        self.required(name, self.texts(name)?)
     }
 
     pub fn required_words<T: Keyword>(&self, name: &str) -> Result<Vec<T>, TableError> {
-        let word = |(row, text): (usize, Cow<str>)| {
-            keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown))
-        };
-        self.required_texts(name)?.into_iter().enumerate().map(word).collect()
+        let texts = self.required_texts(name)?.into_iter().enumerate();
+        texts
+            .map(|(row, text)| keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown)))
+            .collect()
     }
 
-    /// Makes the structure of a row from its p (rad/s), alpha (rad) and eta.
-    pub fn structure(&self, row: usize, name: &str, of: [f64; 3]) -> Result<Structure, TableError> {
-        let [p_rad_s, alpha_rad, eta] = of;
-        Structure::new(name, p_rad_s, alpha_rad, eta).map_err(|error| {
-            let column = match error.parameter {
-                "alpha" => "alpha_rad",
-                "eta" => "eta",
-                _ => "p_rad_s",
-            };
-            self.value_error(row, column, error)
-        })
+    /// Makes the structures of the rows, which have these names.
+    pub fn structures(&self, names: &[Cow<str>]) -> Result<Vec<Structure>, TableError> {
+        let (p, alpha) = (self.required_numbers("p_rad_s")?, self.required_numbers("alpha_rad")?);
+        let eta = self.required_numbers("eta")?;
+        let structure = |(row, name): (usize, &Cow<str>)| {
+            Structure::new(name, p[row], alpha[row], eta[row]).map_err(|error| {
+                let column = match error.parameter {
+                    "alpha" => "alpha_rad",
+                    "eta" => "eta",
+                    _ => "p_rad_s",
+                };
+                self.value_error(row, column, error)
+            })
+        };
+        names.iter().enumerate().map(structure).collect()
+    }
+
+    /// Returns the values of a column that must have one in each row.
+    fn required<T>(&self, name: &str, values: Vec<Option<T>>) -> Result<Vec<T>, TableError> {
+        if self.rows.column_by_name(name).is_none() {
+            return Err(TableError::missing_column(&self.path, name));
+        }
+        let known = values.into_iter().enumerate();
+        known.map(|(row, value)| value.ok_or_else(|| self.null_error(row, name))).collect()
+    }
+
+    fn missing<T: Clone>(&self) -> Vec<Option<T>> {
+        vec![None; self.rows.num_rows()]
+    }
+
+    pub fn null_error(&self, row: usize, column: &str) -> TableError {
+        self.value_error(row, column, format!("none; expected {}", dictionary::meaning(column)))
     }
 
     pub fn value_error(&self, row: usize, column: &str, problem: impl ToString) -> TableError {
         TableError::value(&self.path, self.first_row + row, column, problem)
-    }
-
-    fn expect(&self, name: &str) -> Result<&ArrayRef, TableError> {
-        self.rows.column_by_name(name).ok_or_else(|| TableError::missing_column(&self.path, name))
     }
 
     fn other_type(&self, name: &str, column: &ArrayRef, expected: &'static str) -> TableError {

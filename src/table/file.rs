@@ -1,5 +1,6 @@
 //! A table on disk: a Parquet file, or a folder of them in the order of their names.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::HashSet;
 use std::fmt;
@@ -107,11 +108,11 @@ impl Table {
     /// Opens a file, or a folder with the parts of one table.
     pub fn open(path: &Path) -> Result<Table, TableError> {
         let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
-        let open = |path: PathBuf| Ok(TableFile { metadata: metadata(&path)?, path: path.into() });
-        let files = paths.into_iter().map(open).collect::<Result<Vec<_>, TableError>>()?;
-        files.iter().try_for_each(TableFile::expect_distinct_columns)?;
-        if path.is_dir() {
-            expect_all_parts(path, &files)?;
+        let files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
+        if path.is_dir()
+            && let Some(problem) = unlike_partitions(&files)
+        {
+            return Err(TableError::table(path, problem));
         }
         let total = files.iter().map(TableFile::rows).sum();
         Ok(Table { files, rows: 0..total })
@@ -119,18 +120,15 @@ impl Table {
 
     /// Opens one partition: a range of rows of a file, or one file of a folder.
     pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
-        let Some(partition) = partition else { return Table::open(path) };
-        if path.is_dir() {
-            let file = partition.file_of(path)?;
-            let table = Table::open(&file)?;
-            return match table.files[0].partition().filter(|made| made.of != partition.of) {
-                Some(made) => {
-                    Err(TableError::table(&file, format!("partition {made}; expected {partition}")))
-                }
-                None => Ok(table),
-            };
+        let Some(wanted) = partition.filter(|_| path.is_dir()) else {
+            return Ok(Table::open(path)?.part(partition));
+        };
+        let file = wanted.file_of(path)?;
+        let table = Table::open(&file)?;
+        match table.files[0].partition().filter(|made| made.of != wanted.of) {
+            Some(made) => Err(TableError::table(&file, format!("partition {made}; expected {wanted}"))),
+            None => Ok(table),
         }
-        Ok(Table::open(path)?.part(Some(partition)))
     }
 
     /// Keeps the rows of a partition.
@@ -227,14 +225,15 @@ impl Table {
 }
 
 impl TableFile {
-    fn expect_distinct_columns(&self) -> Result<(), TableError> {
+    fn open(path: PathBuf) -> Result<TableFile, TableError> {
+        let metadata = metadata(&path)?;
         let mut known = HashSet::new();
-        match self.metadata.schema().fields().iter().find(|field| !known.insert(field.name())) {
+        match metadata.schema().fields().iter().find(|field| !known.insert(field.name())) {
             Some(field) => {
                 let problem = format!("two columns are called '{}'; leave out one", field.name());
-                Err(TableError::table(&self.path, problem))
+                Err(TableError::table(&path, problem))
             }
-            None => Ok(()),
+            None => Ok(TableFile { path: path.into(), metadata }),
         }
     }
 
@@ -242,13 +241,18 @@ impl TableFile {
         self.metadata.metadata().row_groups().iter().map(|group| group.num_rows() as usize).sum()
     }
 
-    fn made(&self) -> Option<Provenance> {
-        Provenance::of_footer(self.metadata.metadata())
+    fn name(&self) -> Cow<'_, str> {
+        self.path.file_name().unwrap_or_default().to_string_lossy()
     }
 
     /// Returns which partition it is; none if it is a whole table.
     fn partition(&self) -> Option<Partition> {
-        self.made()?.partition()?.parse().ok()
+        Provenance::from_footer(self.metadata.metadata())?.partition()?.parse().ok()
+    }
+
+    /// Returns the key that all partitions of its table share.
+    fn whole(&self) -> Option<String> {
+        Provenance::from_footer(self.metadata.metadata()).map(|made| made.whole())
     }
 }
 
@@ -303,43 +307,36 @@ pub fn is_table(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "parquet")
 }
 
-/// Checks that no partition is missing: rows are sorted by magnitude, so that a gap would bias fits.
-fn expect_all_parts(folder: &Path, files: &[TableFile]) -> Result<(), TableError> {
-    let refuse = |problem: String| Err(TableError::table(folder, problem));
+/// What shows that files are not all the partitions of one table: rows are sorted by magnitude, so that a gap
+/// would bias fits.
+fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     if files.is_empty() {
-        return refuse("a folder without Parquet files".to_string());
+        return Some("a folder without Parquet files".to_string());
     }
-    let made: Vec<Option<Provenance>> = files.iter().map(TableFile::made).collect();
-    let parts: Vec<Option<Partition>> =
-        made.iter().map(|made| made.as_ref()?.partition()?.parse().ok()).collect();
-    let Some(first) = parts.iter().position(Option::is_some) else { return Ok(()) };
-    let of = parts[first].map_or(0, |part| part.of);
-    let whole = |place: usize| made[place].as_ref().map(Provenance::whole);
+    let parts: Vec<Option<Partition>> = files.iter().map(TableFile::partition).collect();
+    let first = parts.iter().position(Option::is_some)?;
+    let (of, whole) = (parts[first]?.of, files[first].whole());
     let is_other =
-        |&place: &usize| parts[place].is_none_or(|part| part.of != of) || whole(place) != whole(first);
+        |place: &usize| parts[*place].is_none_or(|part| part.of != of) || files[*place].whole() != whole;
     if let Some(other) = (0..files.len()).find(is_other) {
-        let [first, other] =
-            [first, other].map(|place| files[place].path.file_name().unwrap_or_default().to_string_lossy());
-        return refuse(format!(
-            "{first} and {other} are no parts of one table: they were made by other options, of other files or by \
-             another program"
+        return Some(format!(
+            "{} and {} are no parts of one table: they were made by other options, of other files or by another \
+             program",
+            files[first].name(),
+            files[other].name()
         ));
     }
-    let part = |index: usize| Partition { index, of };
-    if let Some(index) = (0..of).find(|&index| !parts.contains(&Some(part(index)))) {
-        let part = part(index);
-        return refuse(format!("partition {part} is missing; make it with --partition {part}"));
+    if let Some(part) =
+        (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(&Some(*part)))
+    {
+        return Some(format!("partition {part} is missing; make it with --partition {part}"));
     }
-    match (0..files.len()).find(|&place| parts[place] != Some(part(place))) {
-        None => Ok(()),
-        Some(_) if files.len() > of => {
-            refuse(format!("{} files; expected the {of} partitions of one table", files.len()))
-        }
-        Some(place) => {
-            let name = files[place].path.file_name().unwrap_or_default().to_string_lossy();
-            refuse(format!("{name} is not partition {}; the order of names is that of rows", part(place)))
-        }
+    if files.len() > of {
+        return Some(format!("{} files; expected the {of} partitions of one table", files.len()));
     }
+    let place = (0..of).find(|index| parts[*index] != Some(Partition { index: *index, of }))?;
+    let (name, part) = (files[place].name(), Partition { index: place, of });
+    Some(format!("{name} is not partition {part}; the order of names is that of rows"))
 }
 
 /// Checks that the `wanted` columns of a row group are not too large.
@@ -350,8 +347,13 @@ pub(super) fn expect_small(
 ) -> Result<(), TableError> {
     let columns = group.columns().iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf));
     let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();
-    let cause = || format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
-    if bytes > MOST_BYTES { Err(TableError::parquet(path, cause())) } else { Ok(()) }
+    match bytes <= MOST_BYTES {
+        true => Ok(()),
+        false => {
+            let cause = format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
+            Err(TableError::parquet(path, cause))
+        }
+    }
 }
 
 thread_local! {

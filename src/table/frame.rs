@@ -26,7 +26,7 @@ pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
     for group in table.row_groups() {
         for batch in table.read(&group, &|_| true, most.clamp(1, NARROW_BATCH))? {
             let rows = batch?.rows;
-            let some = of_batch(&rows.slice(0, rows.num_rows().min(most - whole.height())))?;
+            let some = from_batch(&rows.slice(0, rows.num_rows().min(most - whole.height())))?;
             whole = if whole.width() == 0 { some } else { whole.vstack(&some)? };
             if whole.height() == most {
                 return Ok(whole);
@@ -36,7 +36,7 @@ pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
     Ok(whole)
 }
 
-pub fn of_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
+pub fn from_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
     let schema = rows.schema();
     let columns =
         schema.fields().iter().zip(rows.columns()).map(|(field, array)| column(field.name(), array));

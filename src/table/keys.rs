@@ -67,7 +67,7 @@ pub fn key_of(path: &Path) -> Result<String, TableError> {
 /// rockfrag wrote it, else the hash of its bytes.
 pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
     if is_table(path)
-        && let Ok(Some(made)) = Provenance::of_file(path)
+        && let Ok(Some(made)) = Provenance::read(path)
     {
         return Ok(InputFile { name, key: made.key(), whole: made.partition().map(|_| made.whole()) });
     }

@@ -32,7 +32,7 @@ type Half = <Float16Type as ArrowPrimitiveType>::Native;
 /// Levels that are searched at once.
 const BLOCK: usize = 512;
 
-/// Reads the lists of the next rows, none where one is null.
+/// Reads the lists of the next rows, none where a list or one of its numbers is null.
 type Next = dyn FnMut(usize) -> Result<Vec<Option<Vec<f64>>>, ParquetError> + Send;
 
 impl Lists {
@@ -40,10 +40,11 @@ impl Lists {
     pub fn open(table: &Table, group: &RowGroup, column: &'static str) -> Result<Lists, TableError> {
         let TableFile { path, metadata } = &table.files[group.file];
         let (data, schema) = (metadata.metadata().row_group(group.group), metadata.parquet_schema());
-        let missing = || TableError::missing_column(path, column);
         let leaf = (0..schema.num_columns()).find(|leaf| schema.get_column_root(*leaf).name() == column);
-        let leaf = leaf.ok_or_else(missing)?;
-        let found = metadata.schema().field_with_name(column).map_err(|_| missing())?.data_type();
+        let Some((leaf, (_, field))) = leaf.zip(metadata.schema().column_with_name(column)) else {
+            return Err(TableError::missing_column(path, column));
+        };
+        let found = field.data_type();
         let item = match found {
             List(item) | LargeList(item) | FixedSizeList(item, _) => item.data_type(),
             _ => &Null,
@@ -53,68 +54,62 @@ impl Lists {
             _ if item.is_numeric() => 1.0,
             _ => return Err(TableError::other_type(path, column, found, "a list of numbers")),
         };
-        let item = item.clone();
+        let (is_unsigned, is_half) = (matches!(item, UInt32 | UInt64), *item == Float16);
         let mask = ProjectionMask::leaves(schema, [leaf]);
         expect_small(path, data, &mask)?;
         let pages = Arc::new(Pages::open(path, metadata.metadata(), group.group, &mask)?);
         let rows = data.num_rows() as usize;
-        let next = guarded(path, || {
-            let pages = SerializedPageReader::new(pages, data.column(leaf), rows, None)?;
-            let (of, skipped) = (schema.column(leaf), group.rows.start);
-            Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(Filled(pages))) {
-                ColumnReader::FloatColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
-                ColumnReader::DoubleColumnReader(reader) => next(reader, &of, skipped, |x| *x),
-                ColumnReader::Int32ColumnReader(reader) if item == UInt32 => {
-                    next(reader, &of, skipped, |x| f64::from(*x as u32))
-                }
-                ColumnReader::Int32ColumnReader(reader) => {
-                    next(reader, &of, skipped, move |x| f64::from(*x) / scale)
-                }
-                ColumnReader::Int64ColumnReader(reader) if item == UInt64 => {
-                    next(reader, &of, skipped, |x| *x as u64 as f64)
-                }
-                ColumnReader::Int64ColumnReader(reader) => {
-                    next(reader, &of, skipped, move |x| *x as f64 / scale)
-                }
-                ColumnReader::FixedLenByteArrayColumnReader(reader) if item == Float16 => {
-                    next(reader, &of, skipped, |bytes| half(bytes.data()))
-                }
-                ColumnReader::FixedLenByteArrayColumnReader(reader) => {
-                    next(reader, &of, skipped, move |bytes| big_endian(bytes.data()) / scale)
-                }
-                ColumnReader::ByteArrayColumnReader(reader) => {
-                    next(reader, &of, skipped, move |bytes| big_endian(bytes.data()) / scale)
-                }
-                _ => Box::new(|_| Ok(Vec::new())),
-            })
-        })?;
+        let next =
+            guarded(path, || {
+                let pages = SerializedPageReader::new(pages, data.column(leaf), rows, None)?;
+                let (of, skipped) = (schema.column(leaf), group.rows.start);
+                Ok::<_, ParquetError>(match get_column_reader(of.clone(), Box::new(Filled(pages))) {
+                    ColumnReader::FloatColumnReader(reader) => next(reader, &of, skipped, |x| f64::from(*x)),
+                    ColumnReader::DoubleColumnReader(reader) => next(reader, &of, skipped, |x| *x),
+                    ColumnReader::Int32ColumnReader(reader) => next(reader, &of, skipped, move |x| {
+                        if is_unsigned { f64::from(*x as u32) } else { f64::from(*x) / scale }
+                    }),
+                    ColumnReader::Int64ColumnReader(reader) => next(reader, &of, skipped, move |x| {
+                        if is_unsigned { *x as u64 as f64 } else { *x as f64 / scale }
+                    }),
+                    ColumnReader::FixedLenByteArrayColumnReader(reader) => {
+                        next(reader, &of, skipped, move |x| {
+                            if is_half { half(x.data()) } else { big_endian(x.data()) / scale }
+                        })
+                    }
+                    ColumnReader::ByteArrayColumnReader(reader) => {
+                        next(reader, &of, skipped, move |x| big_endian(x.data()) / scale)
+                    }
+                    _ => Box::new(|_| Ok(Vec::new())),
+                })
+            })?;
         Ok(Lists { path: path.clone(), column, next_row: group.first_row, next })
     }
 
-    /// Reads the next `rows` lists; NaN where an item is null.
+    /// Reads the next `rows` lists.
     pub fn read(&mut self, rows: usize) -> Result<Vec<Vec<f64>>, TableError> {
-        let first_row = self.next_row;
-        self.next_row += rows;
         let lists = guarded(&self.path, || (self.next)(rows))?;
         if lists.len() < rows {
             return Err(TableError::parquet(&self.path, format!("column '{}' ends early", self.column)));
         }
-        let list = |(row, list): (usize, Option<Vec<f64>>)| {
-            let problem = "null; expected a list of numbers";
-            list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem))
-        };
-        (first_row..).zip(lists).map(list).collect()
+        let rows = self.next_row..self.next_row + rows;
+        self.next_row = rows.end;
+        let problem = "null, or with a null; expected a list of numbers";
+        let known = rows
+            .zip(lists)
+            .map(|(row, list)| list.ok_or_else(|| TableError::value(&self.path, row, self.column, problem)));
+        known.collect()
     }
 }
 
 fn half(bytes: &[u8]) -> f64 {
-    bytes.try_into().map_or(f64::NAN, |bytes| Half::from_le_bytes(bytes).into())
+    Half::from_le_bytes([bytes[0], bytes[1]]).into()
 }
 
 /// Reads the unscaled integer of a decimal number.
 fn big_endian(bytes: &[u8]) -> f64 {
-    let Some((first, rest)) = bytes.split_first() else { return f64::NAN };
-    rest.iter().fold(f64::from(*first as i8), |value, byte| 256.0 * value + f64::from(*byte))
+    let sign = bytes.first().map_or(0.0, |byte| f64::from(*byte as i8));
+    bytes.iter().skip(1).fold(sign, |value, byte| 256.0 * value + f64::from(*byte))
 }
 
 /// The pages of a column but for empty ones, at which the reader of Parquet would stop.
@@ -177,12 +172,7 @@ fn next<T: Number>(
             }
             let (its, later) = rest.split_at(items.iter().filter(|level| **level == known).count());
             rest = later;
-            let mut numbers = its.iter().map(number);
-            if its.len() == items.len() {
-                return Some(numbers.collect());
-            }
-            let mut number = |level: &i16| if *level == known { numbers.next() } else { None };
-            Some(items.iter().map(|level| number(level).unwrap_or(f64::NAN)).collect())
+            (its.len() == items.len()).then(|| its.iter().map(number).collect())
         };
         // Most blocks are within a list.
         let mut starts = Vec::with_capacity(rows + 1);

@@ -22,14 +22,14 @@ const PROPERTIES: &str = "docProps/custom.xml";
 
 impl Provenance {
     /// Reads the provenance in a PNG; `None` if another program wrote it.
-    pub fn of_picture(png: &[u8]) -> Option<Provenance> {
+    pub fn from_picture(png: &[u8]) -> Option<Provenance> {
         let (length, rest) = png.get(BEHIND_HEAD..)?.split_first_chunk::<4>()?;
         let chunk = rest.get(..u32::from_be_bytes(*length) as usize + 4)?;
-        Provenance::of_json(&String::from_utf8_lossy(chunk.strip_prefix(IN_PICTURE)?))
+        Provenance::from_json(&String::from_utf8_lossy(chunk.strip_prefix(IN_PICTURE)?))
     }
 
     /// Reads the provenance in a workbook, which is written in parts; `None` if another program wrote it.
-    pub fn of_workbook(bytes: Vec<u8>) -> Option<Provenance> {
+    pub fn from_workbook(bytes: Vec<u8>) -> Option<Provenance> {
         let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).ok()?;
         let mut text = String::new();
         archive.by_name(PROPERTIES).ok()?.read_to_string(&mut text).ok()?;
@@ -37,22 +37,22 @@ impl Provenance {
         let part =
             |part: &str| Some(part.split_once("<vt:lpwstr>")?.1.split_once("</vt:lpwstr>")?.0.to_string());
         let json = parts.map(part).collect::<Option<String>>()?;
-        Provenance::of_json(&unescaped(&json))
+        Provenance::from_json(&unescaped(&json))
     }
 
     /// Reads the provenance in a file; `None` if another program wrote it, or if files of its kind have none.
-    pub fn of_file(path: &Path) -> Result<Option<Provenance>, TableError> {
+    pub fn read(path: &Path) -> Result<Option<Provenance>, TableError> {
         let read = || std::fs::read(path).map_err(|source| TableError::io(path, source));
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("html" | "svg") => {
                 let text = read()?;
                 let json = between(&String::from_utf8_lossy(&text), META).map(unescaped);
-                Ok(json.and_then(|json| Provenance::of_json(&json)))
+                Ok(json.and_then(|json| Provenance::from_json(&json)))
             }
-            Some("png") => Ok(Provenance::of_picture(&read()?)),
-            Some("xlsx") => Ok(Provenance::of_workbook(read()?)),
+            Some("png") => Ok(Provenance::from_picture(&read()?)),
+            Some("xlsx") => Ok(Provenance::from_workbook(read()?)),
             Some("csv" | "json" | "xml") => read().map(|_| None),
-            _ => Ok(Provenance::of_footer(file::metadata(path)?.metadata())),
+            _ => Ok(Provenance::from_footer(file::metadata(path)?.metadata())),
         }
     }
 }
@@ -72,7 +72,7 @@ pub fn is_ours(path: &Path, content: &[u8]) -> bool {
         Some("xml") => {
             String::from_utf8_lossy(&there()).lines().nth(1).is_some_and(|line| line.starts_with(XML))
         }
-        _ => Provenance::of_file(path).is_ok_and(|made| made.is_some()),
+        _ => Provenance::read(path).is_ok_and(|made| made.is_some()),
     }
 }
 

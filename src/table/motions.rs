@@ -1,7 +1,6 @@
 //! The motions file: one motion per row, its samples as a list. The required columns are motion_id, dt_s and
 //! acceleration_m_s2.
 
-use std::borrow::Cow;
 use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
@@ -9,26 +8,24 @@ use std::sync::Arc;
 use arrow_array::builder::{Float32Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema};
+use serde::{Deserialize, Serialize};
 
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
 use super::file::{Partition, RowGroup, Table, or_error};
 use super::lists::Lists;
-use super::rows::side_by_side;
+use super::rows::{self, side_by_side};
 use crate::records::rotation::{Component, pairs};
 use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
-/// Columns to read besides the samples.
-const COLUMNS: [&str; 10] =
-    ["motion_id", "suite", "mw", "re_km", "earthquake", "dt_s", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"];
 /// Row groups of more motions are read in parts of this size.
 const LARGEST_PART: usize = 128;
 
 /// A motion, with the measures that the file has.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
     pub motion_id: String,
     pub suite: Option<String>,
@@ -40,7 +37,9 @@ pub struct Motion {
     pub pgv_m_s: Option<f64>,
     pub tm_s: Option<f64>,
     pub tp_s: Option<f64>,
+    #[serde(skip)]
     pub acceleration_m_s2: Vec<f64>,
+    #[serde(skip)]
     pub row: usize,
 }
 
@@ -106,7 +105,8 @@ fn read_group(
     group: &RowGroup,
     at_once: usize,
 ) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
-    let read = read(table, group, &|name| COLUMNS.contains(&name), at_once)?;
+    let schema = rows::schema::<Motion>();
+    let read = read(table, group, &|name| schema.index_of(name).is_ok(), at_once)?;
     Ok(read.map(|read| read.and_then(motions)))
 }
 
@@ -127,26 +127,11 @@ pub fn read(
 }
 
 fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
-    let [mw, re_km, pga, pgv, tm, tp] =
-        ["mw", "re_km", "pga_m_s2", "pgv_m_s", "tm_s", "tp_s"].map(|name| batch.numbers(name));
-    let (mw, re_km, pga, pgv, tm, tp) = (mw?, re_km?, pga?, pgv?, tm?, tp?);
-    let (suites, earthquakes) = (batch.texts("suite")?, batch.texts("earthquake")?);
-    let (ids, dt) = (batch.required_texts("motion_id")?, batch.required_numbers("dt_s")?);
-    let motion = |(at, acceleration_m_s2): (usize, Vec<f64>)| Motion {
-        motion_id: ids[at].to_string(),
-        suite: suites[at].clone().map(Cow::into_owned),
-        earthquake: earthquakes[at].clone().map(Cow::into_owned),
-        mw: mw[at],
-        re_km: re_km[at],
-        dt_s: dt[at],
-        pga_m_s2: pga[at],
-        pgv_m_s: pgv[at],
-        tm_s: tm[at],
-        tp_s: tp[at],
-        acceleration_m_s2,
-        row: batch.first_row + at,
-    };
-    Ok((batch.path.clone(), samples.into_iter().enumerate().map(motion).collect()))
+    let mut motions = rows::from_batch::<Motion>(&batch)?;
+    for (row, (motion, samples)) in (batch.first_row..).zip(motions.iter_mut().zip(samples)) {
+        (motion.row, motion.acceleration_m_s2) = (row, samples);
+    }
+    Ok((batch.path, motions))
 }
 
 /// The record of samples in a row of the file at `path`.
@@ -163,20 +148,14 @@ pub fn record<'a>(
 }
 
 /// The names of motions that are the second of two horizontal components of an instrument.
-pub fn second_of_pairs(table: &Table) -> Result<HashSet<String>, TableError> {
-    const COLUMNS: [&str; 5] = ["motion_id", "earthquake", "station", "azimuth_deg", "dt_s"];
-    let mut components = Vec::new();
-    for batch in table.batches(&|name| COLUMNS.contains(&name)) {
-        let batch = batch?;
-        let (events, stations) = (batch.texts("earthquake")?, batch.texts("station")?);
-        let (azimuths, dt) = (batch.numbers("azimuth_deg")?, batch.required_numbers("dt_s")?);
-        for (row, id) in batch.required_texts("motion_id")?.into_iter().enumerate() {
-            let [event, station] = [&events, &stations].map(|texts| texts[row].clone().map(Cow::into_owned));
-            let component = Component { event, station, dt_s: dt[row], azimuth_deg: azimuths[row] };
-            components.push((component, id.into_owned()));
-        }
+pub fn second_of_pairs(path: &Path) -> Result<HashSet<String>, TableError> {
+    #[derive(Serialize, Deserialize)]
+    struct Named {
+        motion_id: String,
+        component: Component,
     }
-    Ok(pairs(components).0.into_iter().map(|[_, second]| second).collect())
+    let named = rows::read::<Named>(path)?.into_iter().map(|named| (named.component, named.motion_id));
+    Ok(pairs(named.collect()).0.into_iter().map(|[_, second]| second).collect())
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.

@@ -123,15 +123,15 @@ impl Provenance {
     }
 
     /// Reads the provenance in a footer; `None` if another program wrote it.
-    pub fn of_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
+    pub fn from_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
         let footer = metadata.file_metadata();
         let pairs = footer.key_value_metadata().filter(|_| is_ours(footer))?;
         let pair = pairs.iter().find(|pair| pair.key == KEY)?;
-        Provenance::of_json(pair.value.as_ref()?)
+        Provenance::from_json(pair.value.as_ref()?)
     }
 
     /// Reads JSON; of another version it has stage, version and summary at least.
-    pub fn of_json(json: &str) -> Option<Provenance> {
+    pub fn from_json(json: &str) -> Option<Provenance> {
         let value: Value = serde_json::from_str(json).ok()?;
         let text = |name: &str| value[name].as_str().unwrap_or_default().to_string();
         let [stage, version, summary] = ["stage", "version", "summary"].map(text);

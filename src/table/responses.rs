@@ -1,13 +1,42 @@
 //! The outputs of simulate: responses, one row for each motion and structure, and traces.
 
-use arrow_array::RecordBatch;
 use serde::{Deserialize, Serialize};
 
-use super::rows;
+use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, SolverEvent};
 
-/// The response of a structure to a motion; beside it stand the measures of the motion.
+keywords! {
+    /// An outcome but for its demand, which has its own column.
+    pub enum OutcomeWord {
+        NoRocking = "no_rocking",
+        SafeRocking = "safe_rocking",
+        Overturned = "overturning",
+    }
+}
+
+impl From<Outcome> for OutcomeWord {
+    fn from(outcome: Outcome) -> OutcomeWord {
+        match outcome {
+            Outcome::NoRocking => OutcomeWord::NoRocking,
+            Outcome::SafeRocking(_) => OutcomeWord::SafeRocking,
+            Outcome::Overturned => OutcomeWord::Overturned,
+        }
+    }
+}
+
+impl OutcomeWord {
+    /// The outcome with its demand, which only overturned structures lack.
+    pub fn with_demand(self, edp: Option<f64>) -> Option<Outcome> {
+        match self {
+            OutcomeWord::NoRocking => edp.map(|_| Outcome::NoRocking),
+            OutcomeWord::SafeRocking => edp.map(Outcome::SafeRocking),
+            OutcomeWord::Overturned => Some(Outcome::Overturned),
+        }
+    }
+}
+
+/// The response of a structure to a motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResponseRow {
     pub motion_id: String,
@@ -16,7 +45,7 @@ pub struct ResponseRow {
     pub p_rad_s: f64,
     pub alpha_rad: f64,
     pub eta: f64,
-    pub outcome: Outcome,
+    pub outcome: OutcomeWord,
     /// None after overturning: the final rotation is not a demand.
     pub edp: Option<f64>,
     pub impacts: Option<i32>,
@@ -27,11 +56,7 @@ pub struct ResponseRow {
     pub pgv_m_s: f64,
     pub tp_s: Option<f64>,
     pub tm_s: Option<f64>,
-}
-
-/// Makes a batch of responses, with the measures of their motions behind.
-pub fn batch(responses: &[ResponseRow], measures: &[IntensityMeasures]) -> anyhow::Result<RecordBatch> {
-    rows::side_by_side(&[rows::batch(responses)?, rows::batch(measures)?])
+    pub measures: IntensityMeasures,
 }
 
 /// A moment of the response of a structure to a motion: all that a picture of it needs.

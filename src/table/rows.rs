@@ -4,7 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::{Array, ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch, StructArray};
+use arrow_array::{
+    Array, ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray, StructArray,
+    new_null_array,
+};
 use arrow_schema::{DataType, Field, FieldRef, Schema, SchemaRef};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -15,14 +18,11 @@ use super::columns::Batch;
 use super::dictionary;
 use super::file::{NARROW_BATCH, Table, or_error};
 
-/// A struct of numbers, texts, options of them and lists; each field is a column, and a value with its limits
-/// ([`crate::number::Limited`]) three.
+/// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
+/// it. A value with its limits ([`crate::number::Limited`]) is named by its field.
 pub trait Row: Serialize + DeserializeOwned {}
 
 impl<T: Serialize + DeserializeOwned> Row for T {}
-
-/// How the names of the columns of a value with its limits end.
-const LIMITS: [&str; 3] = ["", "_low", "_high"];
 
 fn fields<R: Row>() -> Vec<FieldRef> {
     let options = TracingOptions::default()
@@ -42,10 +42,15 @@ fn fields<R: Row>() -> Vec<FieldRef> {
 
 fn columns(field: &FieldRef) -> Vec<FieldRef> {
     let DataType::Struct(parts) = field.data_type() else { return vec![field.clone()] };
-    let column = |(end, part): (&str, &FieldRef)| {
-        Arc::new(Field::new(format!("{}{end}", field.name()), part.data_type().clone(), part.is_nullable()))
+    let column = |part: &FieldRef| {
+        let name = match part.name().as_str() {
+            "value" => field.name().clone(),
+            limit @ ("low" | "high") => format!("{}_{limit}", field.name()),
+            other => other.to_string(),
+        };
+        Arc::new(part.as_ref().clone().with_name(name))
     };
-    LIMITS.into_iter().zip(parts).map(column).collect()
+    parts.iter().map(column).collect()
 }
 
 /// Returns the schema of a row, with unit and meaning.
@@ -81,40 +86,40 @@ pub fn stream<'a, R: Row>(
     let required = schema.fields().iter().filter(|field| !field.is_nullable());
     table.expect(path, required.map(|field| field.name().as_str()))?;
     let read = move |group| or_error(table.read(&group, &|name| schema.index_of(name).is_ok(), NARROW_BATCH));
-    Ok(table.row_groups().into_iter().flat_map(read).map(|batch| rows_of(&batch?)))
+    Ok(table.row_groups().into_iter().flat_map(read).map(|batch| from_batch(&batch?)))
 }
 
-fn rows_of<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
-    let (mut known, mut arrays) = (Vec::new(), Vec::new());
-    for field in fields::<R>() {
-        let columns = columns(&field);
-        if columns.iter().any(|column| batch.rows.column_by_name(column.name()).is_none()) {
-            continue;
-        }
+/// Reads the rows of a batch. A column of optional values may be missing.
+pub fn from_batch<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
+    let fields = fields::<R>();
+    let array = |field: &FieldRef| {
+        let columns = columns(field);
         let parts = columns.iter().map(|column| checked(batch, column)).collect::<Result<Vec<_>, _>>()?;
-        arrays.push(match field.data_type() {
+        Ok(match field.data_type() {
             DataType::Struct(fields) => Arc::new(StructArray::new(fields.clone(), parts, None)),
             _ => parts[0].clone(),
-        });
-        known.push(field);
-    }
-    serde_arrow::from_arrow(&known, &arrays)
+        })
+    };
+    let arrays = fields.iter().map(array).collect::<Result<Vec<ArrayRef>, TableError>>()?;
+    serde_arrow::from_arrow(&fields, &arrays)
         .map_err(|error| TableError::table(&batch.path, error.to_string()))
 }
 
 /// A column whose numbers are of its quantity, and not null where one is expected.
 fn checked(batch: &Batch, column: &Field) -> Result<ArrayRef, TableError> {
-    let (name, found) = (column.name(), &batch.rows[column.name().as_str()]);
+    let name = column.name();
     let checked: ArrayRef = match column.data_type() {
         DataType::Float64 => Arc::new(Float64Array::from(batch.numbers(name)?)),
         DataType::Int64 => Arc::new(Int64Array::from(batch.counts::<i64>(name)?)),
         DataType::Int32 => Arc::new(Int32Array::from(batch.counts::<i32>(name)?)),
-        _ => found.clone(),
+        DataType::Utf8 => Arc::new(StringArray::from_iter(batch.texts(name)?)),
+        other => match batch.rows.column_by_name(name) {
+            Some(found) => found.clone(),
+            None => new_null_array(other, batch.rows.num_rows()),
+        },
     };
     match (0..checked.len()).find(|row| checked.is_null(*row)).filter(|_| !column.is_nullable()) {
-        Some(row) => {
-            Err(batch.value_error(row, name, format!("none; expected {}", dictionary::meaning(name))))
-        }
+        Some(row) => Err(batch.null_error(row, name)),
         None => Ok(checked),
     }
 }

@@ -138,7 +138,7 @@ pub fn ran(stderr: &str) -> Vec<&str> {
 
 /// What made a file.
 pub fn made(path: &Path) -> Provenance {
-    Provenance::of_file(path).unwrap().unwrap()
+    Provenance::read(path).unwrap().unwrap()
 }
 
 /// The bytes of a file.

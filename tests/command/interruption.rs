@@ -26,7 +26,7 @@ fn a_killed_run_is_simply_run_again() {
         run.wait().unwrap();
         for name in FILES {
             let path = folder.path().join(format!("out/{name}.parquet"));
-            assert!(!path.exists() || Provenance::of_file(&path).unwrap().is_some(), "{name}");
+            assert!(!path.exists() || Provenance::read(&path).unwrap().is_some(), "{name}");
         }
     }
     succeed(folder.path(), "run");

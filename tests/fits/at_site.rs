@@ -10,6 +10,7 @@ use rockfrag::hazard::{
     SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
 use rockfrag::keyword::Keyword;
+use rockfrag::motion::Peaks;
 use rockfrag::number::Limited;
 use rockfrag::object::{Object, Part, Restitution, Subject};
 
@@ -35,8 +36,7 @@ fn block(width: f64) -> Subject {
 #[test]
 fn the_parts_of_a_rate_sum_to_the_rate() {
     let pair = |k: usize| PairOfPeaks {
-        pga_m_s2: 1.0 + k as f64,
-        pgv_m_s: 0.1 + 0.1 * k as f64,
+        peaks: Peaks { pga_m_s2: 1.0 + k as f64, pgv_m_s: 0.1 + 0.1 * k as f64 },
         annual_rate: 1e-3 / (1 + k) as f64,
         mw: None,
     };

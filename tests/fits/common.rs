@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rockfrag::fragility::{Cases, Cluster};
-use rockfrag::motion::IntensityMeasures;
+use rockfrag::fragility::{Case, Cases, Cluster};
+use rockfrag::motion::{IntensityMeasures, Peaks};
 use rockfrag::random::{Purpose, stream};
-use rockfrag::rocking::{Outcome, Response, Structure};
+use rockfrag::rocking::{Outcome, Structure};
 
 /// Two measures, a demand and an event in each of 400 cases; 20 make a cell.
 pub struct Data {
@@ -40,14 +40,18 @@ impl Data {
     }
 
     /// As cases: x is ln IM4, y is ln IM3.
-    pub fn cases(&self, outcome: impl Fn(usize) -> Outcome) -> Cases {
-        let row =
-            |k: usize| (outcome(k), self.demand[k].exp(), self.x[k].exp(), self.y[k].exp(), self.cells[k]);
-        cases((0..self.x.len()).map(row))
+    fn cases(&self, overturns: impl Fn(usize) -> bool) -> Cases {
+        let safe = |k: usize| Outcome::SafeRocking(self.demand[k].exp());
+        let outcome = |k: usize| if overturns(k) { Outcome::Overturned } else { safe(k) };
+        cases((0..self.x.len()).map(|k| (outcome(k), self.x[k].exp(), self.y[k].exp(), self.cells[k])))
+    }
+
+    pub fn safe(&self) -> Cases {
+        self.cases(|_| false)
     }
 
     pub fn overturning(&self) -> Cases {
-        self.cases(|k| if self.event[k] { Outcome::Overturning } else { Outcome::SafeRocking })
+        self.cases(|k| self.event[k])
     }
 }
 
@@ -66,13 +70,14 @@ pub fn equipment() -> Structure {
     Structure::new("equipment", 2.5, 0.20, 0.92).unwrap()
 }
 
-/// Cases of these outcomes, demands, IM4, IM3 and cells.
-pub fn cases(rows: impl IntoIterator<Item = (Outcome, f64, f64, f64, u32)>) -> Cases {
+/// Cases of these outcomes, IM4, IM3 and cells.
+pub fn cases(rows: impl IntoIterator<Item = (Outcome, f64, f64, u32)>) -> Cases {
     let mut cases = Cases::new(Some("csgm"), equipment());
-    for (outcome, edp, im4, im3, cell) in rows {
-        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im4 / im3) };
-        let cluster = Cluster::of(None, 7.0, 1.0 + f64::from(cell));
-        cases.push(&Response { outcome, edp, impacts: 0 }, &measures, [1.0, 1.0], cluster);
+    for (outcome, im4, im3, cell) in rows {
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im4 / im3) };
+        let peaks = Peaks { pga_m_s2: 1.0, pgv_m_s: 1.0 };
+        let cluster = Cluster::new(None, Some(7.0), Some(1.0 + f64::from(cell)));
+        cases.push(Case { outcome, measures, peaks, mw: None, cluster: 0 }, cluster);
     }
     cases.sort_clusters();
     cases
@@ -88,7 +93,7 @@ pub fn rocking(n: u32) -> Cases {
     cases((0..n).map(|k| {
         let (im4, im3) = (random.random_range(1.0..4.0f64), random.random_range(0.5..3.0f64));
         let overturns = im4 / im3.sqrt() + random.random_range(-1.0..1.0) > 3.0;
-        let outcome = if overturns { Outcome::Overturning } else { Outcome::SafeRocking };
-        (outcome, 0.05 * im4.powi(3) * random.random_range(0.5..2.0), im4, im3, k % 30)
+        let demand = 0.05 * im4.powi(3) * random.random_range(0.5..2.0);
+        (if overturns { Outcome::Overturned } else { Outcome::SafeRocking(demand) }, im4, im3, k % 30)
     }))
 }

@@ -15,21 +15,16 @@ fn simulated(seed: u64, cells: u32, shared: bool) -> [Cases; 2] {
     let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
     let of_cells: Vec<f64> = (0..cells).map(|_| if shared { normal() } else { 0.0 }).collect();
     let share = if shared { 0.5f64.sqrt() } else { 0.0 };
-    let rows: Vec<(Outcome, f64, f64, f64, u32)> = (0..30 * cells)
-        .map(|k| {
-            let (cell, x, y) = (k % cells, 0.4 + 0.4 * normal(), 0.4 * normal());
-            let noise = share * of_cells[cell as usize] + (1.0 - share * share).sqrt() * normal();
-            let outcome = match -1.0 + 2.0 * x - 1.2 * y + 0.5 * of_cells[cell as usize] + normal() > 0.0 {
-                true => Outcome::Overturning,
-                false => Outcome::SafeRocking,
-            };
-            (outcome, (-2.0 + 2.5 * x - y + 0.8 * noise).exp(), x.exp(), y.exp(), cell)
-        })
-        .collect();
-    let safe = |(_, edp, im4, im3, cell): &(Outcome, f64, f64, f64, u32)| {
-        (Outcome::SafeRocking, *edp, *im4, *im3, *cell)
-    };
-    [cases(rows.iter().map(safe)), cases(rows)]
+    let rows = (0..30 * cells).map(|k| {
+        let (cell, x, y) = (k % cells, 0.4 + 0.4 * normal(), 0.4 * normal());
+        let noise = share * of_cells[cell as usize] + (1.0 - share * share).sqrt() * normal();
+        let safe = Outcome::SafeRocking((-2.0 + 2.5 * x - y + 0.8 * noise).exp());
+        let overturns = -1.0 + 2.0 * x - 1.2 * y + 0.5 * of_cells[cell as usize] + normal() > 0.0;
+        let outcome = if overturns { Outcome::Overturned } else { safe };
+        [safe, outcome].map(|outcome| (outcome, x.exp(), y.exp(), cell))
+    });
+    let rows: Vec<_> = rows.collect();
+    [0, 1].map(|k| cases(rows.iter().map(|of| of[k])))
 }
 
 /// The share of data sets in which the limits of each parameter hold its truth.

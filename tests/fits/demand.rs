@@ -3,7 +3,7 @@
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Cases, DemandFit, DemandModel, Measure, PLANE, Parameter, fit_demand, fit_plane, fit_planes,
+    Case, Cases, DemandFit, DemandModel, Measure, PLANE, Parameter, fit_demand, fit_plane, fit_planes,
     fit_power_law, ln_median_demand, p_exceeding, scan_transition, transition,
 };
 use rockfrag::motion::IntensityMeasures;
@@ -23,7 +23,8 @@ fn on_planes(at: f64, n: u32) -> Cases {
     cases((0..n).map(|k| {
         let (im4, im3) = (random.random_range(1.0..3.0), random.random_range(0.5..1.5));
         let ln_median = ln_median_demand(if im4 < at { &LOW } else { &HIGH }, &[im4, im3]);
-        (Outcome::SafeRocking, (ln_median + random.random_range(-0.1..0.1)).exp(), im4, im3, k % 20)
+        let demand = (ln_median + random.random_range(-0.1..0.1)).exp();
+        (Outcome::SafeRocking(demand), im4, im3, k % 20)
     }))
 }
 
@@ -44,10 +45,10 @@ fn the_equations_are_the_papers() {
 fn regressions_equal_statsmodels() {
     let (data, expected) = (data(), answers("answers.csv"));
     let errors = answers("uncertainty_answers.csv");
-    let mut cases = data.cases(|_| Outcome::SafeRocking);
+    let mut cases = data.safe();
     // Nine clusters leave errors and limits to the model.
     for (clusters, is_clustered) in [(20, true), (9, false)] {
-        cases.cluster.iter_mut().for_each(|cluster| *cluster %= clusters);
+        cases.all.iter_mut().for_each(|case| case.cluster %= clusters);
         for (name, fit) in [("x", fit_power_law(&cases, Measure::Im4)), ("xy", fit_plane(&cases))] {
             let (k, of) = (fit.coefficients.len(), |part: String| expected[&format!("ols_{name}_{part}")]);
             assert_eq!((fit.n, fit.n_clusters, fit.is_clustered), (400, i64::from(clusters), is_clustered));
@@ -91,7 +92,7 @@ fn two_planes_and_their_transition_are_found() {
     );
     assert!(low.holds_at(found - 1e-9) && !low.holds_at(found) && high.holds_at(found));
     // One regression whose coefficients all depend on the side has the R2 about the mean of all.
-    let sample = cases.sample(&PLANE, |case| cases.ln_demand(case));
+    let sample = cases.sample(&PLANE, Case::ln_demand);
     let [x, y] = &sample.ln_im[..] else { panic!() };
     let above: Vec<f64> = x.iter().map(|x| f64::from(x.exp() >= found)).collect();
     let times = |column: &[f64]| above.iter().zip(column).map(|(a, b)| a * b).collect::<Vec<f64>>();
@@ -131,17 +132,17 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     let line = |n: u32, im3: fn(f64) -> f64| {
         cases((0..n).map(move |k| {
             let im4 = 1.0 + 0.02 * f64::from(k);
-            (Outcome::SafeRocking, 0.1 + 0.01 * f64::from(k % 7), im4, im3(im4), k)
+            (Outcome::SafeRocking(0.1 + 0.01 * f64::from(k % 7)), im4, im3(im4), k)
         }))
     };
     for cases in [line(3, |im4| 1.0 / im4), line(90, |im4| im4)] {
         let fit = fit_plane(&cases);
         assert_eq!((fit.status, fit.coefficients.len(), fit.beta), (FitStatus::Degenerate, 0, None));
         assert!(fit.parameters(0.95).is_empty());
-        assert_eq!(fit.p_exceeding(&cases.measures(0), 0.1, 0.95), None);
+        assert_eq!(fit.p_exceeding(&cases.all[0].measures, 0.1, 0.95), None);
     }
     let demand = |k: u32| (0.3 * f64::from(k % 3) - 0.1 * f64::from(k)).exp();
-    let falling = cases((0..90).map(|k| (Outcome::SafeRocking, demand(k), 1.0 + f64::from(k), 1.0, k)));
+    let falling = cases((0..90).map(|k| (Outcome::SafeRocking(demand(k)), 1.0 + f64::from(k), 1.0, k)));
     assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
     let few = line(30, |im4| im4);
@@ -157,19 +158,19 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     let mut row = |k: u32| {
         let im4: f64 = random.random_range(1.0..3.0);
         let edp = (2.0 * im4.ln() + random.random_range(-0.5..0.5f64)).exp();
-        (Outcome::SafeRocking, edp, im4, 1.0, k % 9)
+        (Outcome::SafeRocking(edp), im4, 1.0, k % 9)
     };
     let rows: Vec<_> = (0..12).map(&mut row).collect();
     let fit = fit_power_law(&cases(rows.clone()), Measure::Im4);
     assert!(!fit.is_clustered && fit.degrees == Some(10.0));
     let (at, limit, beta) = (1.5f64, 4.0f64, fit.beta.unwrap());
-    let ln: Vec<f64> = rows.iter().map(|row| row.2.ln()).collect();
+    let ln: Vec<f64> = rows.iter().map(|row| row.1.ln()).collect();
     let mean = ln.iter().sum::<f64>() / 12.0;
     let squares: f64 = ln.iter().map(|x| (x - mean).powi(2)).sum();
     let variance = 1.0 / 12.0 + (at.ln() - mean).powi(2) / squares;
     let z = (ln_median_demand(&fit.coefficients, &[at]) - limit.ln()) / beta;
     let half_width = t_quantile(0.975, 10.0) * (variance + z * z / 20.0).sqrt();
-    let measures = IntensityMeasures { im3: None, ..IntensityMeasures::of_peaks(at, 1.0) };
+    let measures = IntensityMeasures { im3: None, ..IntensityMeasures::from_peaks(at, 1.0) };
     let p = fit.p_exceeding(&measures, limit, 0.95).unwrap();
     let ln_median = fit.coefficients[0] + fit.coefficients[1] * at.ln();
     close(p.value, normal::cdf((ln_median - limit.ln()) / beta), 1e-13);

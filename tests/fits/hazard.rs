@@ -8,6 +8,7 @@ use rockfrag::hazard::{
     Site, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
     velocity_of_spectrum,
 };
+use rockfrag::motion::Peaks;
 use rockfrag::object::{Object, Part, Subject, Unknown};
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
@@ -41,10 +42,14 @@ fn the_rate_of_a_jump_is_the_hazard_there() {
 
 #[test]
 fn a_joint_hazard_has_a_curve_of_each_peak() {
-    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate, mw: None };
+    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks {
+        peaks: Peaks { pga_m_s2, pgv_m_s },
+        annual_rate,
+        mw: None,
+    };
     let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin);
-    assert_eq!(exceedance(&bins, |bin| bin.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
-    assert_eq!(exceedance(&bins, |bin| bin.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
+    assert_eq!(exceedance(&bins, |bin| bin.peaks.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
+    assert_eq!(exceedance(&bins, |bin| bin.peaks.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
 }
 
 #[test]
@@ -60,13 +65,15 @@ fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
     let (m, s, mu, beta) = (-0.4, 0.5, 0.1, 0.3);
     let n = 4000;
     let bin = |k: usize| PairOfPeaks {
-        pga_m_s2: 5.0,
-        pgv_m_s: f64::exp(m + s * normal::quantile((k as f64 + 0.5) / n as f64)),
+        peaks: Peaks {
+            pga_m_s2: 5.0,
+            pgv_m_s: f64::exp(m + s * normal::quantile((k as f64 + 0.5) / n as f64)),
+        },
         annual_rate: 0.02 / n as f64,
         mw: None,
     };
     let bins: Vec<PairOfPeaks> = (0..n).map(bin).collect();
-    let [rate] = mean_annual_rates(&bins, |bin| [p_overturning(bin.pgv_m_s, mu, beta)]);
+    let [rate] = mean_annual_rates(&bins, |bin| [p_overturning(bin.peaks.pgv_m_s, mu, beta)]);
     let expected = 0.02 * normal::cdf((m - mu) / beta.hypot(s));
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }

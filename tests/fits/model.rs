@@ -5,24 +5,24 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rockfrag::fragility::{
-    Calibration, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
+    Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
     p_failure_given_rocking, predictor,
 };
 use rockfrag::keyword::Keyword;
-use rockfrag::motion::IntensityMeasures;
-use rockfrag::rocking::{Outcome, Response, Structure};
+use rockfrag::motion::{IntensityMeasures, Peaks};
+use rockfrag::rocking::{Outcome, Structure};
 use rockfrag::statistics::Estimate;
 use rockfrag::warning::Warning;
 
 use crate::common::{cases, close, equipment, random, read, rocking};
 
 fn measures(structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeasures {
-    IntensityMeasures::new(structure, pga_m_s2, pgv_m_s, None, None)
+    IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None)
 }
 
 /// As IM5 and IM4 of the equipment.
 fn at(im4: f64, im5: f64) -> IntensityMeasures {
-    IntensityMeasures::of_peaks(im4, im5)
+    IntensityMeasures::from_peaks(im4, im5)
 }
 
 fn calibrated(cases: &Cases) -> Model {
@@ -55,7 +55,7 @@ fn logits_are_those_of_python() {
     for row in rows {
         let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
         let Point { im3, im4, im5, .. } = row;
-        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
         let mw = Some(row.mw).filter(|mw| *mw > 0.0);
         let of = |limit| predictor(row.kind, &structure, &measures, mw, limit).unwrap();
         let (pro, pex) = (of(None), of(Some(row.limit_state)));
@@ -74,7 +74,7 @@ fn logits_are_those_of_python() {
 }
 
 #[derive(serde::Deserialize)]
-struct Case {
+struct Fitted {
     kind: Kind,
     structure: String,
     p_rad_s: f64,
@@ -108,28 +108,29 @@ struct Answer {
 }
 
 /// The cases of a structure, in their clusters or all in one.
-fn of_structure(rows: &[Case], answer: &Answer, in_clusters: bool) -> Cases {
-    let rows: Vec<&Case> =
+fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
+    let rows: Vec<&Fitted> =
         rows.iter().filter(|row| (row.kind, &row.structure) == (answer.kind, &answer.structure)).collect();
-    let Case { p_rad_s, alpha_rad, eta, .. } = *rows[0];
+    let Fitted { p_rad_s, alpha_rad, eta, .. } = *rows[0];
     let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
     let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.as_str());
     let mut cases = Cases::new(suite, structure);
     for row in rows {
-        let Case { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
-        let outcome = if row.overturned == 1 { Outcome::Overturning } else { Outcome::SafeRocking };
-        let response = Response { outcome, edp: row.edp.unwrap_or(f64::NAN), impacts: 0 };
-        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::of_peaks(im4, im5) };
+        let Fitted { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
+        let safe = row.edp.map(Outcome::SafeRocking).filter(|_| row.overturned == 0);
+        let outcome = safe.unwrap_or(Outcome::Overturned);
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
         let cluster = if in_clusters { &row.cluster } else { "one" };
-        cases.push(&response, &measures, [pga_m_s2, pgv_m_s], Cluster::of(Some(cluster), 0.0, 0.0));
-        *cases.mw.last_mut().unwrap() = row.mw;
+        let peaks = Peaks { pga_m_s2, pgv_m_s };
+        let case = Case { outcome, measures, peaks, mw: Some(row.mw), cluster: 0 };
+        cases.push(case, Cluster::new(Some(cluster), None, None));
     }
     cases
 }
 
 #[test]
 fn calibrations_are_those_of_python() {
-    let (rows, answers): (Vec<Case>, Vec<Answer>) =
+    let (rows, answers): (Vec<Fitted>, Vec<Answer>) =
         (read("calibration_cases.csv"), read("calibration_answers.csv"));
     assert!(answers.len() >= 4);
     for answer in &answers {
@@ -229,11 +230,11 @@ fn expect_limits(p: Estimate) {
 #[test]
 fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
     for n in [8, 400] {
-        for (overturns, least) in [(Outcome::SafeRocking, 1.1), (Outcome::Overturning, 1.6)] {
+        for (overturns, least) in [(Outcome::SafeRocking(0.05), 1.1), (Outcome::Overturned, 1.6)] {
             // Nothing overturns at uplift.
             let strength = |k: u32| least + 0.05 * f64::from(k % 40);
             let model = calibrated(&cases(
-                (0..n).map(|k| (overturns, 0.05, strength(k), 2.0, if n == 8 { k } else { k % 30 })),
+                (0..n).map(|k| (overturns, strength(k), 2.0, if n == 8 { k } else { k % 30 })),
             ));
             let Model::Calibrated { overturning, .. } = &model else { panic!() };
             assert!(overturning.covariance.iter().all(|v| v.is_finite()) && overturning.covariance[0] > 1e-3);
@@ -253,10 +254,10 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
 fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
     let clean = |k: u32| {
         let im4 = 1.2 + 0.1 * f64::from(k);
-        let outcome = if im4 > 2.95 { Outcome::Overturning } else { Outcome::SafeRocking };
-        (outcome, 0.1, im4, 2.0, k)
+        let outcome = if im4 > 2.95 { Outcome::Overturned } else { Outcome::SafeRocking(0.1) };
+        (outcome, im4, 2.0, k)
     };
-    let pair = [(Outcome::Overturning, 0.1, 2.94, 2.0, 50), (Outcome::SafeRocking, 0.1, 2.96, 2.0, 50)];
+    let pair = [(Outcome::Overturned, 2.94, 2.0, 50), (Outcome::SafeRocking(0.1), 2.96, 2.0, 50)];
     let without: Vec<_> = (0..38).map(clean).collect();
     let with = cases([&without[..], &pair].concat());
     let probit = fit_curve(&with, Event::Overturning, Measure::Im5, None);

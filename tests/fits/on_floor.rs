@@ -1,12 +1,12 @@
 //! The model on floors: what must hold of it without fits.
 
 use rockfrag::fragility::{Kind, Model, Scenarios};
-use rockfrag::motion::{Floor, IntensityMeasures};
+use rockfrag::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag::rocking::Structure;
 use rockfrag::statistics::normal;
 
-fn overturning(model: &Model, structure: &Structure, pga: f64, pgv: f64) -> [f64; 2] {
-    let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
+fn overturning(model: &Model, structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> [f64; 2] {
+    let measures = IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None);
     let probabilities = model.probabilities(structure, &measures, Some(6.9), Scenarios::Many);
     [probabilities.p_nr, probabilities.limit_states().unwrap().overturning.value]
 }
@@ -35,8 +35,9 @@ fn a_floor_rocks_as_often_as_its_peak_exceeds_uplift() {
     let structure = Structure::rectangular_block("block", 0.8, 2.2, None).unwrap();
     let model = Model::shipped(Kind::Recorded, &structure, 0.1);
     let floor = Floor { period_s: 0.6, level: 1.0 };
-    let peaks = floor.peaks(2.0, 0.2);
-    let z = (peaks.pfa_m_s2 / structure.uplift_acceleration_m_s2()).ln() / peaks.sd_ln_pfa;
+    let ground = Peaks { pga_m_s2: 2.0, pgv_m_s: 0.2 };
+    let (peaks, scatter) = (floor.peaks(ground), floor.amplified(ground).sd_ln_pfa);
+    let z = (peaks.pga_m_s2 / structure.uplift_acceleration_m_s2()).ln() / scatter;
     let [p_nr, _] = overturning(&model.on(Some(floor)).unwrap(), &structure, 2.0, 0.2);
     assert!((p_nr - normal::cdf(-z)).abs() < 1e-12, "{p_nr}");
 }

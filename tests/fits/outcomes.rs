@@ -2,6 +2,7 @@
 //! (scripts/reference/outcomes.py).
 
 use rockfrag::fragility::{Calibration, Kind, ObservedOutcome};
+use rockfrag::motion::Peaks;
 use rockfrag::rocking::Structure;
 use rockfrag::warning::Warning;
 
@@ -39,8 +40,7 @@ fn outcomes(list: &str) -> Vec<ObservedOutcome> {
     let rows: Vec<Row> = read("outcomes.csv");
     let outcome = |row: Row| ObservedOutcome {
         structure: Structure::rectangular_block("stone", row.width, row.height, None).unwrap(),
-        pga_m_s2: row.pga_m_s2,
-        pgv_m_s: row.pgv_m_s,
+        peaks: Peaks { pga_m_s2: row.pga_m_s2, pgv_m_s: row.pgv_m_s },
         mw: Some(row.mw),
         earthquake: row.earthquake,
         fell: row.fell == 1,
@@ -82,8 +82,8 @@ fn lists_without_an_event_or_without_outcomes_say_so() {
         assert!(found.warnings().contains(&Warning::NoEvents), "{list}");
     }
     // What a motion does not uplift tells nothing.
-    let weak = |outcome: ObservedOutcome| ObservedOutcome { pga_m_s2: 0.5, ..outcome };
-    let unmoved: Vec<ObservedOutcome> = outcomes("stood").into_iter().map(weak).collect();
+    let mut unmoved = outcomes("stood");
+    unmoved.iter_mut().for_each(|outcome| outcome.peaks.pga_m_s2 = 0.5);
     let found = Calibration::fit_outcomes(&unmoved).unwrap();
     close(found.c, shipped("stood"), 1e-9);
     assert_eq!(found.n, 0);

@@ -25,7 +25,7 @@ fn curves_equal_statsmodels_and_pyfragility() {
     let mut cases = data.overturning();
     // Nine clusters leave errors to the model.
     for (clusters, is_clustered) in [(20, true), (9, false)] {
-        cases.cluster.iter_mut().for_each(|cluster| *cluster %= clusters);
+        cases.all.iter_mut().for_each(|case| case.cluster %= clusters);
         for (name, im_y) in [("x", None), ("xy", Some(Measure::Im3))] {
             let fit = fit_curve(&cases, Event::Overturning, Measure::Im4, im_y);
             let (k, of) = (fit.coefficients.len(), |part: String| expected[&format!("probit_{name}_{part}")]);
@@ -57,7 +57,7 @@ fn the_hybrid_curve_is_the_probit_itself() {
     close(beta, 1.0 / (b[1] + b[2]), 1e-14);
     close(mu, -b[0] / (b[1] + b[2]), 1e-14);
     for case in [0, 17, 230] {
-        let measures = cases.measures(case);
+        let measures = cases.all[case].measures;
         let (im4, ratio) = (measures.im4, 1.0 / measures.im3.unwrap());
         let p = fit.probability(&measures, 0.95).unwrap();
         close(p.value, normal::cdf(b[0] + b[1] * im4.ln() + b[2] * ratio.ln()), 1e-13);
@@ -71,7 +71,7 @@ fn delta_method_errors_equal_those_of_a_direct_parametrisation() {
     // the model.
     let data = data();
     let mut cases = data.overturning();
-    cases.cluster.iter_mut().for_each(|cluster| *cluster %= 9);
+    cases.all.iter_mut().for_each(|case| case.cluster %= 9);
     let fit = fit_curve(&cases, Event::Overturning, Measure::Im4, None);
     assert!(!fit.is_clustered && fit.degrees.is_none());
     let likelihood = |mu: f64, beta: f64| -> f64 {
@@ -101,11 +101,11 @@ fn delta_method_errors_equal_those_of_a_direct_parametrisation() {
 fn grouped_collapses_give_the_known_curve() {
     let ims = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
     let collapses = [0, 0, 0, 4, 6, 13, 12, 16];
-    let outcome = |collapsed: bool| if collapsed { Outcome::Overturning } else { Outcome::SafeRocking };
+    let outcome = |collapsed: bool| if collapsed { Outcome::Overturned } else { Outcome::SafeRocking(0.5) };
     let rows = ims
         .iter()
         .zip(collapses)
-        .flat_map(|(&im, collapsed)| (0..40).map(move |k| (outcome(k < collapsed), 0.5, im, 1.0, k)));
+        .flat_map(|(&im, collapsed)| (0..40).map(move |k| (outcome(k < collapsed), im, 1.0, k)));
     let fit = fit_curve(&cases(rows), Event::Overturning, Measure::Im4, None);
     assert!((parameter(&fit, Parameter::Theta).0 - 1.07612).abs() < 5e-6);
     assert!((parameter(&fit, Parameter::Beta).0 - 0.42924).abs() < 5e-6);
@@ -137,9 +137,8 @@ fn curves_that_cannot_be_made_have_a_status_and_no_numbers() {
         assert_eq!(fit.status, status);
         assert!(status == FitStatus::WrongSign || fit.coefficients.is_empty());
     }
-    let outcomes = cases.outcome.clone();
-    let overturned = cases.column_mut(Measure::Im4).iter_mut().zip(outcomes);
-    overturned.filter(|(_, of)| *of == Outcome::Overturning).for_each(|(im4, _)| *im4 += 100.0);
+    let overturned = cases.all.iter_mut().filter(|case| case.outcome == Outcome::Overturned);
+    overturned.for_each(|case| case.measures.im4 += 100.0);
     let fit = fit_curve(&cases, Event::Overturning, Measure::Im4, None);
     assert!(fit.status == FitStatus::Separated && fit.coefficients.is_empty());
 }
@@ -152,12 +151,12 @@ proptest! {
         let mut random = random(seed);
         let rows: Vec<(Outcome, f64, f64)> = (0..200)
             .map(|k| match k % 2 {
-                0 => (Outcome::Overturning, random.random_range(0.3..1.3), random.random_range(0.2..1.2)),
-                _ => (Outcome::SafeRocking, random.random_range(0.0..1.0), random.random_range(0.0..1.0)),
+                0 => (Outcome::Overturned, random.random_range(0.3..1.3), random.random_range(0.2..1.2)),
+                _ => (Outcome::SafeRocking(0.5), random.random_range(0.0..1.0), random.random_range(0.0..1.0)),
             })
             .collect();
         let fit = |a: f64, b: f64| {
-            let row = |(k, (outcome, x, y)): (u32, &(Outcome, f64, f64))| (*outcome, 0.5, (x + a).exp(), (-y - b).exp(), k);
+            let row = |(k, (outcome, x, y)): (u32, &(Outcome, f64, f64))| (*outcome, (x + a).exp(), (-y - b).exp(), k);
             fit_curve(&cases((0..).zip(&rows).map(row)), Event::Overturning, HYBRID.0, HYBRID.1)
         };
         let (here, there) = (fit(0.0, 0.0), fit(a, b));

@@ -3,7 +3,6 @@
 
 use rockfrag::fragility::Cases;
 use rockfrag::keyword::Keyword;
-use rockfrag::rocking::Outcome;
 use rockfrag::statistics::FitStatus;
 use rockfrag::studies::{Form, RankedSet, Ranking, RankingRules, Target, rank_measures};
 
@@ -13,7 +12,7 @@ const RULES: RankingRules = RankingRules { terms: 3, folds: 10, transition: 1.3 
 
 fn cases(data: &Data, target: Target) -> Cases {
     match target {
-        Target::Demand => data.cases(|_| Outcome::SafeRocking),
+        Target::Demand => data.safe(),
         Target::Overturning => data.overturning(),
     }
 }
@@ -76,11 +75,8 @@ fn what_drives_the_cases_wins_and_noise_adds_nothing() {
     for target in [Target::Demand, Target::Overturning] {
         let mut cases = cases(&data, target);
         cases.candidates = vec![
-            ("noise".to_string(), (0..cases.len()).map(noise).collect()),
-            (
-                "holey".to_string(),
-                (0..cases.len()).map(|k| if k == 5 { f64::NAN } else { noise(k) }).collect(),
-            ),
+            ("noise".to_string(), (0..cases.all.len()).map(|k| Some(noise(k))).collect()),
+            ("holey".to_string(), (0..cases.all.len()).map(|k| (k != 5).then(|| noise(k))).collect()),
         ];
         let ranking = rank_measures(&cases, target, &RULES);
         assert_eq!(
@@ -97,7 +93,7 @@ fn what_drives_the_cases_wins_and_noise_adds_nothing() {
 #[test]
 fn one_cluster_leaves_the_criteria_alone() {
     let mut cases = data().overturning();
-    cases.cluster.fill(0);
+    cases.all.iter_mut().for_each(|case| case.cluster = 0);
     let sets = rank_measures(&cases, Target::Overturning, &RULES).sets;
     assert!(sets.iter().all(|set| set.log_score.is_none() && set.loss.is_none()));
     let aics: Vec<f64> = sets.iter().filter_map(|set| set.aic).collect();

@@ -5,7 +5,7 @@ use rockfrag::fragility::{
     Event, LimitStates, Measure, fit_curve, fit_demand, independent_failure, p_failure,
     p_failure_given_rocking, p_no_rocking, paper_probabilities,
 };
-use rockfrag::motion::IntensityMeasures;
+use rockfrag::motion::{IntensityMeasures, Peaks};
 use rockfrag::statistics::{Estimate, normal};
 
 use crate::common::{close, equipment, rocking};
@@ -25,7 +25,7 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     let curve = fit_curve(&cases, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
     let b = &curve.coefficients;
     for (im4, im3) in [(1.1, 2.0), (1.29, 0.7), (1.31, 0.7), (3.5, 1.1)] {
-        let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
+        let measures = IntensityMeasures::from_peaks(im4, im4 / im3);
         let given = paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).given_rocking.unwrap();
         let plane = &planes[usize::from(im4 >= 1.3)];
         let a = &plane.coefficients;
@@ -38,7 +38,8 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     }
     let uplift = equipment().uplift_acceleration_m_s2();
     let at = |pga: f64, pgv: f64| {
-        let measures = IntensityMeasures::new(&equipment(), pga, pgv, None, None);
+        let measures =
+            IntensityMeasures::new(&equipment(), Peaks { pga_m_s2: pga, pgv_m_s: pgv }, None, None);
         paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).limit_states()
     };
     assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), Some(LimitStates::all(Estimate::exact(0.0))));

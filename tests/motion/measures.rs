@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use rockfrag::motion::measures::{housner_intensity, spectral_acceleration, velocity};
-use rockfrag::motion::{Dimension, IntensityMeasures, MeasureScratch, MotionMeasures};
+use rockfrag::motion::{Dimension, IntensityMeasures, MeasureScratch, MotionMeasures, Peaks};
 use rockfrag::rocking::Structure;
 
 fn sine(amplitude: f64, f: f64, duration: f64, dt: f64) -> Vec<f64> {
@@ -114,7 +114,7 @@ fn dimensionless_measures_do_not_depend_on_the_units() {
     // PGA is an acceleration and PGV a velocity, as in IM4 and IM5; for two seconds of constant acceleration
     // a, the Arias measure is p 2 a^2.
     let (pga, pgv) = (3.0, 0.5);
-    let measures = IntensityMeasures::new(&structure, pga, pgv, None, None);
+    let measures = IntensityMeasures::new(&structure, Peaks { pga_m_s2: pga, pgv_m_s: pgv }, None, None);
     assert_eq!(Dimension::Acceleration.dimensionless(pga, &structure), measures.im4);
     assert!((Dimension::Velocity.dimensionless(pgv, &structure) - measures.im5).abs() < 1e-15);
     let arias = MotionMeasures::of(&[pga; 201], 0.01, &mut MeasureScratch::default()).arias_m_s;

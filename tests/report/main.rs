@@ -2,10 +2,10 @@
 
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{
-    Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
+    Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
 };
 use rockfrag::hazard::{Budget, Fragility, FragilityPoint, Lognormal};
-use rockfrag::motion::IntensityMeasures;
+use rockfrag::motion::{IntensityMeasures, Peaks};
 use rockfrag::number::{self, Limited};
 use rockfrag::object::Part;
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
@@ -16,7 +16,7 @@ use rockfrag::report::rated::{Evaluation, Rated};
 use rockfrag::report::response::{self, TracedPoint, TracedResponse};
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list};
-use rockfrag::rocking::{Outcome, Response, SolverEvent, Structure};
+use rockfrag::rocking::{Outcome, SolverEvent, Structure};
 use rockfrag::statistics::Estimate;
 use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::motions::Motion;
@@ -32,13 +32,13 @@ fn cases(p_rad_s: f64, count: usize) -> Cases {
     for k in 0..count {
         let (im4, im3) = (1.02 + 0.01 * k as f64, 5.0 + (k % 7) as f64);
         let [ln_a, b1, b2] = PLANES[usize::from(im4 >= 1.3)];
-        let edp = (ln_a + b1 * im4.ln() + b2 * im3.ln()).exp();
-        let outcome = if k < 90 { Outcome::SafeRocking } else { Outcome::Overturning };
-        let measures = IntensityMeasures::of_peaks(im4, im4 / im3);
+        let demand = (ln_a + b1 * im4.ln() + b2 * im3.ln()).exp();
+        let outcome = if k < 90 { Outcome::SafeRocking(demand) } else { Outcome::Overturned };
+        let measures = IntensityMeasures::from_peaks(im4, im4 / im3);
         let im1 = k.is_multiple_of(2).then_some(6.0);
         let measures = IntensityMeasures { im1, im2: Some(2.0), im6: Some(0.0), ..measures };
         let peaks = measures.peaks(&cases.structure);
-        cases.push(&Response { outcome, edp, impacts: 0 }, &measures, peaks, None);
+        cases.push(Case { outcome, measures, peaks, mw: None, cluster: 0 }, None);
     }
     cases
 }
@@ -90,7 +90,7 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         failure: Lognormal::default(),
         overturning: Lognormal::default(),
         errors: Budget::default(),
-        motion: [1.0, 0.1],
+        motion: Peaks { pga_m_s2: 1.0, pgv_m_s: 0.1 },
     };
     let outline =
         Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };

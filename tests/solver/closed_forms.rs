@@ -14,7 +14,7 @@ const SAMPLES: usize = 4000;
 
 fn overturns(alpha: f64, eta: f64, samples: &[f64], dt: f64) -> bool {
     let structure = Structure::new("slender", P, alpha, eta).unwrap();
-    simulate(&structure, &Record::new(samples, dt).unwrap()).outcome == Outcome::Overturning
+    simulate(&structure, &Record::new(samples, dt).unwrap()).outcome == Outcome::Overturned
 }
 
 /// The value between two at which an outcome changes, by bisection.

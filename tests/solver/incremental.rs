@@ -135,8 +135,8 @@ fn scan_of(scan: &Scan, ranges: &[(f64, f64, u32)]) -> Vec<ScanResponse> {
     let of = |point: &ScanPoint| {
         let range = ranges.iter().find(|(low, high, _)| (*low..*high).contains(&point.intensity));
         match range {
-            Some(&(_, _, impacts)) => Response { outcome: Outcome::Overturning, edp: 7.0, impacts },
-            None => Response { outcome: Outcome::SafeRocking, edp: 0.9, impacts: 2 },
+            Some(&(_, _, impacts)) => Response { outcome: Outcome::Overturned, impacts },
+            None => Response { outcome: Outcome::SafeRocking(0.9), impacts: 2 },
         }
     };
     let respond = |points: &[ScanPoint]| Ok::<_, std::convert::Infallible>(points.iter().map(of).collect());

@@ -13,6 +13,7 @@ use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
+use crate::motion::Peaks;
 use crate::plausibility::{MAGNITUDES, at_rim, judge_hazard, judge_medians};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
@@ -35,8 +36,9 @@ pub fn read(
     }
     let hazard = match (found.joint.pop(), paths) {
         (Some(bins), [path]) => {
-            let of_pga = judge_hazard(false, &exceedance(&bins, |bin| bin.pga_m_s2 / G_M_S2));
-            let of_both = of_pga.and_then(|()| judge_hazard(true, &exceedance(&bins, |bin| bin.pgv_m_s)));
+            let of_pga = judge_hazard(false, &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2));
+            let of_both =
+                of_pga.and_then(|()| judge_hazard(true, &exceedance(&bins, |bin| bin.peaks.pgv_m_s)));
             of_both.map_err(|error| InputError::from(error).of(path))?;
             Hazard::Joint(bins)
         }
@@ -203,13 +205,12 @@ impl Found {
 
     /// Adds motions with both peaks; those beyond any record count at the rim.
     fn add_joint(&mut self, mut bins: Vec<PairOfPeaks>, file: String) -> Result<(), InputError> {
-        let peak = |peak: fn(&PairOfPeaks) -> f64| bins.iter().map(peak).collect::<Vec<_>>();
-        judge_medians(&peak(|bin| bin.pga_m_s2), &peak(|bin| bin.pgv_m_s))?;
+        judge_medians(bins.iter().map(|bin| bin.peaks))?;
         let mut beyond = 0;
         for bin in &mut bins {
-            let [pga_m_s2, pgv_m_s] = at_rim(bin.pga_m_s2, bin.pgv_m_s);
-            beyond += usize::from([pga_m_s2, pgv_m_s] != [bin.pga_m_s2, bin.pgv_m_s]);
-            *bin = PairOfPeaks { pga_m_s2, pgv_m_s, ..*bin };
+            let peaks = at_rim(bin.peaks);
+            beyond += usize::from(peaks != bin.peaks);
+            bin.peaks = peaks;
         }
         let rim =
             (beyond > 0).then(|| (Warning::AtRim, format!("{beyond} of {} rows of {file}", bins.len())));
@@ -365,15 +366,17 @@ fn joint(grid: &Grid, rate: usize, columns: &Columns) -> Result<Vec<PairOfPeaks>
     };
     let bins = pairs(grid, |row| {
         Ok(PairOfPeaks {
-            pga_m_s2: grid.number(row, pga)? * pga_unit,
-            pgv_m_s: grid.number(row, pgv)? * pgv_unit,
+            peaks: Peaks {
+                pga_m_s2: grid.number(row, pga)? * pga_unit,
+                pgv_m_s: grid.number(row, pgv)? * pgv_unit,
+            },
             annual_rate: Frequency::Occurrence.annual_rate(grid, row, rate)?.unwrap_or_default(),
             mw: columns.magnitude.map(|mw| magnitude(row, mw)).transpose()?,
         })
     })?;
     let mut known = BTreeMap::new();
     for (bin, line) in bins.iter().zip(&grid.lines) {
-        let same = [bin.pga_m_s2, bin.pgv_m_s, bin.mw.unwrap_or(0.0)].map(f64::to_bits);
+        let same = [bin.peaks.pga_m_s2, bin.peaks.pgv_m_s, bin.mw.unwrap_or(0.0)].map(f64::to_bits);
         if let Some(first) = known.insert(same, line) {
             let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
             return Err(InputError::Missing { found, expected: "one row of each bin" });

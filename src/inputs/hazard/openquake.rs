@@ -5,6 +5,7 @@ use super::{Curve, curve, pairs};
 use crate::fragility::Peak;
 use crate::hazard::PairOfPeaks;
 use crate::inputs::{Grid, InputError};
+use crate::motion::Peaks;
 use crate::units::{CM_PER_M, G_M_S2};
 
 /// Reads ground-motion fields: PGA in g and PGV in cm/s of each event.
@@ -21,7 +22,7 @@ pub fn fields(grid: &Grid, effective_years: Option<f64>) -> Result<Vec<PairOfPea
     };
     pairs(grid, |row| {
         let (pga_m_s2, pgv_m_s) = (grid.number(row, pga)? * G_M_S2, grid.number(row, pgv)? / CM_PER_M);
-        Ok(PairOfPeaks { pga_m_s2, pgv_m_s, annual_rate: 1.0 / years, mw: None })
+        Ok(PairOfPeaks { peaks: Peaks { pga_m_s2, pgv_m_s }, annual_rate: 1.0 / years, mw: None })
     })
 }
 

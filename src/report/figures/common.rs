@@ -1,6 +1,6 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
-use crate::fragility::{Calibration, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
+use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::report::Estimate;
@@ -91,13 +91,15 @@ pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn
 }
 
 /// The cases that rocked, and whether they overturned.
-pub fn rocked(cases: &Cases) -> impl Iterator<Item = (usize, bool)> {
-    (0..cases.len()).filter_map(|k| Some((k, cases.happened(k, Event::Overturning, f64::INFINITY)?)))
+pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
+    let overturned = |case: &Case| Event::Overturning.happened(case.outcome, f64::INFINITY);
+    cases.all.iter().filter_map(move |case| Some((case, overturned(case)?)))
 }
 
 /// The cases whose demand in safe rocking has a logarithm, and this demand.
-pub fn demands(cases: &Cases) -> impl Iterator<Item = (usize, f64)> {
-    (0..cases.len()).filter(|&k| cases.ln_demand(k).is_some()).map(|k| (k, cases.edp[k]))
+pub fn demands(cases: &Cases) -> impl Iterator<Item = (&Case, f64)> {
+    let known = cases.all.iter().filter_map(|case| Some((case, case.outcome.demand()?)));
+    known.filter(|(_, demand)| *demand > 0.0)
 }
 
 /// The regressions of the demand of some cases, of one form.

@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::common::{DEMAND, Fits, compare, demand_fits, demands, ends, label, name, rocked};
-use crate::fragility::{Cases, DemandFit, DemandModel, Measure, ln_median_demand};
+use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_demand};
 use crate::keyword::Keyword;
 use crate::number;
 use crate::report::{Axis, Estimate, Figure, Ink, Layer, Panel};
+use crate::rocking::Structure;
 
-type CaseValue = fn(&Cases, usize) -> Option<f64>;
+type CaseValue = fn(&Structure, &Case) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
@@ -21,15 +22,16 @@ const MOST_ZETA: f64 = 5.0;
 /// Figures 3 and 4: the demand over peak velocity and pulse period, one row of panels a group.
 pub fn demand(groups: &[&Cases]) -> Figure {
     let over: [(&str, CaseValue); 2] = [
-        ("PGV (m/s)", |cases, k| Some(cases.pgv_m_s[k])),
-        ("*T*_{p} (s)", |cases, k| Some(TAU / (cases.measures(k).im1? * cases.structure.p_rad_s))),
+        ("PGV (m/s)", |_, case| Some(case.peaks.pgv_m_s)),
+        ("*T*_{p} (s)", |structure, case| Some(TAU / (case.measures.im1? * structure.p_rad_s))),
     ];
     let panels = groups.iter().flat_map(|cases| {
         let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
         over.map(|(label, value)| {
-            let safe = demands(cases).filter_map(|(k, edp)| Some([value(cases, k)?, edp]));
+            let value = |case: &Case| value(&cases.structure, case);
+            let safe = demands(cases).filter_map(|(case, edp)| Some([value(case)?, edp]));
             let fallen = rocked(cases).filter(|(_, overturned)| *overturned);
-            let fallen = fallen.filter_map(|(k, _)| Some([value(cases, k)?, top]));
+            let fallen = fallen.filter_map(|(case, _)| Some([value(case)?, top]));
             let layers = vec![
                 Layer::points("safe rocking", Ink::Data(0), safe),
                 Layer::points("overturning, at the top", Ink::Data(1), fallen),
@@ -66,7 +68,7 @@ fn name_of(measure: Measure) -> String {
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let panel = |(measure, fit): (Measure, Option<&DemandFit>)| {
-        let point = |(k, edp)| Some([measure.value_of(&cases.measures(k))?, edp]);
+        let point = |(case, edp): (&Case, f64)| Some([measure.value_of(&case.measures)?, edp]);
         let points: Vec<[f64; 2]> = demands(cases).filter_map(point).collect();
         let [low, high] = ends(points.iter().map(|point| point[0]));
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];

@@ -2,7 +2,7 @@
 
 use super::common::{Fits, ends, name, ratios, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
-use crate::motion::IntensityMeasures;
+use crate::motion::{IntensityMeasures, Peaks};
 use crate::report::text::literal;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Panel};
 use crate::statistics::numerics::first;
@@ -26,12 +26,12 @@ pub fn maps(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
 fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
     let points = |label: &str, ink: Ink, event: bool| {
         let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
-        Layer::points(label, ink, its.map(|(k, _)| [cases.pga_m_s2[k] / G_M_S2, cases.pgv_m_s[k]]))
+        Layer::points(label, ink, its.map(|(case, _)| [case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s]))
     };
     let mut layers = vec![points("rocks", Ink::Data(0), false), points("overturns", Ink::Data(1), true)];
-    let [low, high] = ends(cases.pga_m_s2.iter().copied());
+    let [low, high] = ends(cases.all.iter().map(|case| case.peaks.pga_m_s2));
     let pga = [low.max(cases.structure.uplift_acceleration_m_s2()), high];
-    let [least, most] = ends(cases.pgv_m_s.iter().copied());
+    let [least, most] = ends(cases.all.iter().map(|case| case.peaks.pgv_m_s));
     let line = |cases: &Cases, level: f64| line(fits, cases, level, pga, [least, 1.5 * most]);
     for (level, dash) in LEVELS {
         let label = format!("probability {level}");
@@ -51,7 +51,8 @@ fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f
     let shipped = || Calibration::shipped(Kind::of_word(cases.suite.as_deref()), structure, None);
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
-        let measures = IntensityMeasures::new(structure, pga, ln_pgv.exp(), None, None);
+        let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };
+        let measures = IntensityMeasures::new(structure, peaks, None, None);
         let p = calibration.probability(structure, &measures, None, Scenarios::One);
         p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
     };

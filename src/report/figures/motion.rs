@@ -7,7 +7,7 @@ use crate::keyword::Keyword;
 use crate::motion::{Suite, measures};
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Panel};
-use crate::rocking::{Outcome, Record, Structure, simulate, trace, with_tail};
+use crate::rocking::{Record, Structure, simulate, trace, with_tail};
 use crate::table::motions::Motion;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
@@ -68,8 +68,8 @@ pub fn similarity(groups: &[Cases], motions: &[Motion]) -> anyhow::Result<Figure
     let other = structures.find(|other| other.p_rad_s != first.p_rad_s);
     let Some(second) = other else { return Ok(Figure::default()) };
     let demand = |motion: &Motion| {
-        let response = simulate(first, &Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?);
-        Some(response.edp).filter(|_| response.outcome == Outcome::SafeRocking)
+        let record = Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?;
+        simulate(first, &record).outcome.demand().filter(|demand| *demand > 0.0)
     };
     let demands = motions.iter().filter_map(|motion| Some((demand(motion)?, motion)));
     let furthest = demands.max_by(|a, b| a.0.total_cmp(&b.0));

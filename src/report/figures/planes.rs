@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::common::{Fits, compare, demand_fits, demands, name};
-use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
+use crate::fragility::{Case, Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
 use crate::report::{Axis, Figure, Ink, Layer, Panel};
 
@@ -27,8 +27,8 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
 fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     let [right, up] = edge_on(planes);
     let view = |point: Vector3<f64>| [right.dot(&point), up.dot(&point)];
-    let logarithms = |(k, edp): (usize, f64)| {
-        let [im4, im3] = PLANE.map(|measure| measure.value_of(&cases.measures(k)));
+    let logarithms = |(case, edp): (&Case, f64)| {
+        let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
         Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
     };
     let (mut layers, mut lines) = (Vec::new(), Vec::new());

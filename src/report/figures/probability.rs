@@ -2,7 +2,7 @@
 
 use super::common::{Fits, by, compare, demand_fits, demands, ends, equal_ratios, label};
 use super::common::{observed_shares, ratios, rocked};
-use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
+use crate::fragility::{Case, Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
 use crate::report::text::literal;
@@ -114,15 +114,14 @@ fn curve(
 
 /// The measures of a motion with these IM4 and IM3.
 fn measures(im4: f64, im3: f64) -> IntensityMeasures {
-    IntensityMeasures::of_peaks(im4, im4 / im3)
+    IntensityMeasures::from_peaks(im4, im4 / im3)
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
-    let all = |measure: Measure| -> Vec<f64> {
-        groups.iter().flat_map(|cases| demands(cases).map(|(k, _)| cases.column(measure)[k])).collect()
-    };
-    let (im3, most) = (all(Measure::Im3), all(Measure::Im4).into_iter().fold(1.5, f64::max));
+    let all = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| case.measures);
+    let im3: Vec<f64> = all().filter_map(|measures| measures.im3).collect();
+    let most = all().map(|measures| measures.im4).fold(1.5, f64::max);
     let limit_state = fits.limit_state;
     let structure = |&cases: &&'a Cases| {
         let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
@@ -151,9 +150,10 @@ fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measu
         let fit = fits.curve(cases, im_x, im_y);
         let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
         let Some(fit) = rising else { return Drawn { cases, curves: Vec::new(), shares: Vec::new() } };
-        let share = |(k, event)| Some((measure_of(fit, &cases.measures(k))?, event));
+        let share = |(case, event): (&Case, bool)| Some((measure_of(fit, &case.measures)?, event));
         let observed: Vec<(f64, bool)> = rocked(cases).filter_map(share).collect();
-        let im3 = sample_quantile(cases.column(Measure::Im3).to_vec(), 0.5).unwrap_or(1.0);
+        let im3 = sample_quantile(cases.all.iter().filter_map(|case| case.measures.im3).collect(), 0.5)
+            .unwrap_or(1.0);
         let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
         let ends = ends(observed.iter().map(|(value, _)| *value));
         let bin = equal_ratios(ends, (observed.len() / CASES).clamp(4, BINS));

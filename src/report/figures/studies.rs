@@ -4,9 +4,10 @@ use super::common::{by, label_of_scaled, observed_shares, ratios, title};
 use crate::fragility::{Z_95, p_overturning};
 use crate::number::Limited;
 use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
-use crate::rocking::{CapacityStatus, Outcome};
+use crate::rocking::CapacityStatus;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
+use crate::table::responses::OutcomeWord;
 
 /// The most panels, levels of an analysis, and steps of its curve.
 const PANELS: usize = 24;
@@ -37,7 +38,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
     let panel = |fit: &CapacityFitRow| {
         let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
         let cases: Vec<_> =
-            its.map(|stripe| (stripe.intensity, stripe.outcome == Outcome::Overturning)).collect();
+            its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned)).collect();
         let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x));
         let every = shares.len().div_ceil(LEVELS).max(1);
         let below = |row: &CapacityRow| Some(ends[0]).filter(|_| row.capacity == CapacityStatus::Below);

@@ -3,16 +3,16 @@
 use crate::fragility::{Calibration, Kind, Measure, Model, Scenarios};
 use crate::hazard::Budget;
 use crate::keyword::Keyword;
-use crate::motion::IntensityMeasures;
+use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::{PERCENT, count, significant};
 use crate::object::Part;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::words_of_kind;
 use crate::units::G_M_S2;
 
-/// Explains the answer for a structure; `motion` is the PGA and PGV (m/s2 and m/s) that matters.
-pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget: &Budget) -> String {
-    let measures = IntensityMeasures::new(structure, motion[0], motion[1], None, None);
+/// Explains the answer for a structure; `motion` is the one that matters.
+pub fn explained(model: &Model, structure: &Structure, motion: Peaks, budget: &Budget) -> String {
+    let measures = IntensityMeasures::new(structure, motion, None, None);
     let mut lines = Vec::new();
     let limit_state = match model {
         Model::Calibrated { overturning, exceeding, .. } => {
@@ -34,7 +34,7 @@ pub fn explained(model: &Model, structure: &Structure, motion: [f64; 2], budget:
             Some(*limit_state)
         }
     };
-    let [pga, pgv] = [motion[0] / G_M_S2, motion[1]].map(|peak| significant(peak, 3));
+    let [pga, pgv] = [motion.pga_m_s2 / G_M_S2, motion.pgv_m_s].map(|peak| significant(peak, 3));
     lines.push(("motion:", format!("PGA {pga} g, PGV {pgv} m/s")));
     let measure = |measure: &Measure| {
         let value = measure.raw_value_of(&measures)?;

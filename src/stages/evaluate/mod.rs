@@ -418,9 +418,9 @@ fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Re
 
 /// Shows rows of one schema.
 fn shown(rows: &[RecordBatch], format: Format) -> anyhow::Result<String> {
-    let mut whole = frame::of_batch(&rows[0])?;
+    let mut whole = frame::from_batch(&rows[0])?;
     for more in &rows[1..] {
-        whole.vstack_mut(&frame::of_batch(more)?)?;
+        whole.vstack_mut(&frame::from_batch(more)?)?;
     }
     frame::show(&whole, format)
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::explain::explained;
 use crate::fragility::{Direction, Kind, Model};
 use crate::hazard::Budget;
+use crate::motion::Peaks;
 use crate::number::Limited;
 use crate::object::{Object, Part, Subject};
 use crate::pipeline::context::Progress;
@@ -140,13 +141,13 @@ impl DoubtsRow {
 }
 
 /// Predicts for all objects, the worst first. `predict` gives a row, the errors of the logit of the
-/// probability of overturning or of ln of its rate, the PGA and PGV (m/s2 and m/s) that matter, and warnings.
+/// probability of overturning or of ln of its rate, the motion that matters, and warnings.
 pub fn answers<R: Predicted>(
     objects: Vec<Object>,
     models: &Models,
     explain: bool,
     bar: &Progress,
-    predict: impl Fn(&Object, &Subject) -> (R, Budget, [f64; 2], Vec<Warning>) + Sync,
+    predict: impl Fn(&Object, &Subject) -> (R, Budget, Peaks, Vec<Warning>) + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let answer = |object: Object| -> anyhow::Result<Answer<R>> {
         bar.advance(1)?;

@@ -187,7 +187,7 @@ fn hazard(subject: &Subject, site: &Site) -> HazardCurve {
     };
     let points: Vec<(f64, f64)> = match &site.hazard {
         Hazard::Curve(hazard) => hazard.curve.points().to_vec(),
-        Hazard::Joint(pairs) => exceedance(pairs, |pair| pair.pga_m_s2),
+        Hazard::Joint(pairs) => exceedance(pairs, |pair| pair.peaks.pga_m_s2),
     };
     let mut usual = Vec::new();
     for years in USUAL_YEARS {

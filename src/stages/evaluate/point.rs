@@ -10,7 +10,7 @@ use super::words::{
 };
 use crate::fragility::{Direction, LimitStates, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
-use crate::motion::{Floor, IntensityMeasures};
+use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::number::{Limited, PERCENT, aligned, fixed, name, plain};
 use crate::object::Subject;
 use crate::statistics::Estimate;
@@ -39,8 +39,9 @@ impl TreeRow {
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             _ if motion.is_still() => None,
-            ([Direction { structure, model }], Some(pga), Some(pgv)) => {
-                let measures = IntensityMeasures::new(structure, pga, pgv, None, None);
+            ([Direction { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
+                let peaks = Peaks { pga_m_s2, pgv_m_s };
+                let measures = IntensityMeasures::new(structure, peaks, None, None);
                 model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking
             }
             _ => None,
@@ -145,7 +146,8 @@ fn uplift(object: &ObjectRow, tree: &TreeRow) -> String {
     };
     let floor = object.floor_period_s.zip(object.floor_level);
     let floor = floor.map(|(period_s, level)| Floor { period_s, level });
-    let pfa_m_s2 = floor.zip(tree.pgv_m_s).map(|(floor, pgv)| floor.peaks(pga_m_s2, pgv).pfa_m_s2);
+    let on_floor = floor.zip(tree.pgv_m_s);
+    let pfa_m_s2 = on_floor.map(|(floor, pgv_m_s)| floor.peaks(Peaks { pga_m_s2, pgv_m_s }).pga_m_s2);
     let times = pfa_m_s2.unwrap_or(pga_m_s2) / (object.friction.unwrap_or(f64::NAN) * G_M_S2);
     let rocks = if tree.rocks() { "rocks" } else { "does not rock" };
     let peak = if floor.is_some() { "the floor's peak acceleration" } else { "PGA" };

@@ -16,6 +16,7 @@ use crate::hazard::Motion;
 use crate::inputs::hazard::peak;
 use crate::inputs::objects::describes_object;
 use crate::inputs::{Grid, Heading, Renames};
+use crate::motion::Peaks;
 use crate::number::counted;
 use crate::object::{Object, Place, Restitution, Subject};
 use crate::pipeline::UsageError;
@@ -97,17 +98,21 @@ fn with_probabilities<'a>(
     magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
-    let [pga, pgv] = [peaks(batch, Peak::Pga)?, peaks(batch, Peak::Pgv)?];
+    let given = peaks(batch)?;
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, of_structure) = of_row(row);
-        let peaks = at_rim(pga[row], pgv[row]);
+        let peaks = at_rim(given[row]);
         let mut warnings = [of_structure.clone(), subject.warnings(peaks)].concat();
-        warnings.extend((peaks != [pga[row], pgv[row]]).then_some(Warning::AtRim));
+        warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
         warnings.sort();
         warnings.dedup();
-        let [pga_m_s2, pgv_m_s] = peaks.map(Some);
-        let motion = Motion { pga_m_s2, pgv_m_s, mw: mw[row].or(magnitude), vs30_m_s: None };
+        let motion = Motion {
+            pga_m_s2: Some(peaks.pga_m_s2),
+            pgv_m_s: Some(peaks.pgv_m_s),
+            mw: mw[row].or(magnitude),
+            vs30_m_s: None,
+        };
         let (tree, budget) = TreeRow::new(&motion, subject);
         (tree, DoubtsRow::new(&warnings, &budget), warnings)
     };
@@ -124,8 +129,14 @@ fn with_probabilities<'a>(
     rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }
 
+/// The peaks of each row.
+fn peaks(batch: &Batch) -> anyhow::Result<Vec<Peaks>> {
+    let (pga, pgv) = (column_of_peak(batch, Peak::Pga)?, column_of_peak(batch, Peak::Pgv)?);
+    Ok(pga.into_iter().zip(pgv).map(|(pga_m_s2, pgv_m_s)| Peaks { pga_m_s2, pgv_m_s }).collect())
+}
+
 /// A peak of each row, m/s2 or m/s.
-fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
+fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let schema = batch.rows.schema();
     let names = || schema.fields().iter().map(|field| field.name().as_str());
     let unit = |name| peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| unit);
@@ -160,21 +171,15 @@ fn peaks(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
 
 /// The structure of each row.
 fn structures_of_rows(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
-    let (p, alpha) = (batch.required_numbers("p_rad_s")?, batch.required_numbers("alpha_rad")?);
-    let eta = batch.required_numbers("eta")?;
-    let structure = |row: usize| Ok(batch.structure(row, "structure", [p[row], alpha[row], eta[row]])?);
-    (0..batch.rows.num_rows()).map(structure).collect()
+    Ok(batch.structures(&vec!["structure".into(); batch.rows.num_rows()])?)
 }
 
 /// Refuses a table whose typical motion shows a wrong unit.
 fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
-    let (mut pga, mut pgv) = (Vec::new(), Vec::new());
-    for batch in batches {
-        pga.extend(peaks(batch, Peak::Pga)?);
-        pgv.extend(peaks(batch, Peak::Pgv)?);
-    }
+    let all = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     let path = batches.first().map_or(Path::new(""), |batch| &*batch.path);
-    judge_medians(&pga, &pgv).map_err(|problem| TableError::table(path, problem.to_string()).into())
+    judge_medians(all.iter().flatten().copied())
+        .map_err(|problem| TableError::table(path, problem.to_string()).into())
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.

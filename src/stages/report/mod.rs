@@ -123,7 +123,7 @@ fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::R
 
 /// Writes the files of the figures, unless one is there that neither the page has written nor rockfrag.
 fn write_figures(page: &Path, files: &Files, context: &Context) -> anyhow::Result<()> {
-    let known = Provenance::of_file(page).ok().flatten().map(|made| made.further).unwrap_or_default();
+    let known = Provenance::read(page).ok().flatten().map(|made| made.further).unwrap_or_default();
     for (path, content) in files {
         let there = std::fs::read(path).map(|there| (path.clone(), there)).into_iter().collect();
         let is_known = hashes(page, &there).iter().all(|(name, hash)| known.get(name) == Some(hash));

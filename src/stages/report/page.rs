@@ -192,13 +192,9 @@ fn planes(compared: &[Comparison]) -> Table {
     )
 }
 
-fn count(cases: &Cases, outcome: Outcome) -> usize {
-    cases.outcome.iter().filter(|other| **other == outcome).count()
-}
-
 fn overturned(groups: &[Cases]) -> String {
     let of = |cases: &Cases| {
-        let [events, all] = [count(cases, Outcome::Overturning), cases.len()].map(number::count);
+        let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
         format!("{events} of {all} motions overturn {}", name(cases))
     };
     groups.iter().take(MOST_NAMED).map(of).collect::<Vec<_>>().join("; ") + "."
@@ -229,9 +225,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         };
         let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(|of| TWO_DIGITS.both(of, ""));
         json!({
-            "structure": cases.structure.name, "motions": cases.suite, "number": cases.len(),
-            "rock": cases.len() - count(cases, Outcome::NoRocking),
-            "overturn": count(cases, Outcome::Overturning),
+            "structure": cases.structure.name, "motions": cases.suite, "number": cases.all.len(),
+            "rock": cases.all.len() - cases.count(Outcome::NoRocking),
+            "overturn": cases.count(Outcome::Overturned),
             "as often as the surface predicts": often,
             (median.as_str()): theta, "dispersion": beta,
         })

@@ -9,6 +9,7 @@ use crate::report::compare;
 use crate::report::figures::Fits;
 use crate::report::rated::Evaluation;
 use crate::report::response::TracedResponse;
+use crate::rocking::Outcome;
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
@@ -82,7 +83,7 @@ impl Item {
         let table = Table::open(path)?;
         let has = |columns: &str| columns.split(' ').all(|column| table.schema().index_of(column).is_ok());
         let kind = KINDS.iter().find(|(_, columns, _)| has(columns)).map_or(Kind::Other, |(kind, ..)| *kind);
-        let made = if path.is_dir() { None } else { Provenance::of_file(path)? };
+        let made = if path.is_dir() { None } else { Provenance::read(path)? };
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
 
@@ -140,11 +141,8 @@ impl Tables {
         tables.leave_out_strangers();
         let groups = tables.of(Kind::Responses).map(|item| responses::read(&item.path));
         tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        let overturning = |cases: &Cases| {
-            let events =
-                cases.outcome.iter().filter(|outcome| **outcome == crate::rocking::Outcome::Overturning);
-            events.count() as f64 / cases.len().max(1) as f64
-        };
+        let overturning =
+            |cases: &Cases| cases.count(Outcome::Overturned) as f64 / cases.all.len().max(1) as f64;
         if tables.groups.len() > 2 {
             tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
         }

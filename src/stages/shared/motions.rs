@@ -7,11 +7,11 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::keyword;
-use crate::motion::{IntensityMeasures, MeasureScratch, Suite, SyntheticSuite, measures};
+use crate::motion::{IntensityMeasures, MeasureScratch, Peaks, Suite, SyntheticSuite, measures};
 use crate::pipeline::context::Context;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::records::implausibility::implausibility;
-use crate::rocking::{Outcome, Record, Response, Structure};
+use crate::rocking::{Record, Response, Structure};
 use crate::table::TableError;
 use crate::table::file::Table;
 use crate::table::motions::{self, Motion, Part};
@@ -60,8 +60,7 @@ pub fn each<T: Send>(
 /// Measures of a motion: those of the file, or of the record where the file has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
-    pub pga_m_s2: f64,
-    pub pgv_m_s: f64,
+    pub peaks: Peaks,
     pub tm_s: Option<f64>,
     pub tp_s: Option<f64>,
 }
@@ -69,21 +68,25 @@ pub struct Measures {
 impl Measures {
     pub fn new(motion: &Motion, record: &Record, scratch: &mut MeasureScratch) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-        Measures {
+        let peaks = Peaks {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
             pgv_m_s: motion.pgv_m_s.unwrap_or_else(|| measures::peak(&measures::velocity(samples, dt_s))),
+        };
+        Measures {
+            peaks,
             tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s, scratch)),
             tp_s: motion.tp_s,
         }
     }
 
     pub fn scaled(self, factor: f64) -> Measures {
-        Measures { pga_m_s2: factor * self.pga_m_s2, pgv_m_s: factor * self.pgv_m_s, ..self }
+        let Peaks { pga_m_s2, pgv_m_s } = self.peaks;
+        Measures { peaks: Peaks { pga_m_s2: factor * pga_m_s2, pgv_m_s: factor * pgv_m_s }, ..self }
     }
 
     /// The measures of Eq. 13.
     pub fn dimensionless(&self, structure: &Structure) -> IntensityMeasures {
-        IntensityMeasures::new(structure, self.pga_m_s2, self.pgv_m_s, self.tp_s, self.tm_s)
+        IntensityMeasures::new(structure, self.peaks, self.tp_s, self.tm_s)
     }
 
     /// The row of the response of a structure to the motion.
@@ -95,16 +98,17 @@ impl Measures {
             p_rad_s: structure.p_rad_s,
             alpha_rad: structure.alpha_rad,
             eta: structure.eta,
-            outcome: response.outcome,
-            edp: (response.outcome != Outcome::Overturning).then_some(response.edp),
+            outcome: response.outcome.into(),
+            edp: response.outcome.demand(),
             impacts: i32::try_from(response.impacts).ok(),
             mw: motion.mw,
             re_km: motion.re_km,
             earthquake: motion.earthquake.clone(),
-            pga_m_s2: self.pga_m_s2,
-            pgv_m_s: self.pgv_m_s,
+            pga_m_s2: self.peaks.pga_m_s2,
+            pgv_m_s: self.peaks.pgv_m_s,
             tp_s: self.tp_s,
             tm_s: self.tm_s,
+            measures: self.dimensionless(structure),
         }
     }
 }

@@ -7,6 +7,7 @@ use anyhow::{Context, bail};
 use crate::fragility::{ObservedOutcome, Peak};
 use crate::inputs::hazard::peak;
 use crate::inputs::{Grid, InputError, objects};
+use crate::motion::Peaks;
 use crate::plausibility::{MAGNITUDES, at_rim, judge_medians};
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
@@ -58,9 +59,10 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let structure = sides[0].structure.clone();
-        let [pga_m_s2, pgv_m_s] = at_rim(peak_in(sheet, row, pga)?, peak_in(sheet, row, pgv)?);
+        let (pga_m_s2, pgv_m_s) = (peak_in(sheet, row, pga)?, peak_in(sheet, row, pgv)?);
+        let peaks = at_rim(Peaks { pga_m_s2, pgv_m_s });
         let fell = has_fallen(sheet, row, fell)?;
-        if fell && pga_m_s2 <= structure.uplift_acceleration_m_s2() {
+        if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
                 "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? \
                  leave it out"
@@ -74,15 +76,13 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         let mw = magnitude.filter(|column| !sheet.cell(row, *column).is_empty());
         read.push(ObservedOutcome {
             structure,
-            pga_m_s2,
-            pgv_m_s,
+            peaks,
             mw: mw.map(|column| magnitude_in(sheet, row, column)).transpose()?,
             earthquake: known.unwrap_or(earthquakes.len() - 1) as u32,
             fell,
         });
     }
-    let (pga, pgv): (Vec<f64>, Vec<f64>) = read.iter().map(|row| (row.pga_m_s2, row.pgv_m_s)).unzip();
-    judge_medians(&pga, &pgv)?;
+    judge_medians(read.iter().map(|outcome| outcome.peaks))?;
     Ok(read)
 }
 

@@ -5,25 +5,23 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::fragility::{Cases, Cluster, Group, MOST_CASES, Measure};
+use crate::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::keyword::Keyword;
-use crate::motion::Suite;
+use crate::motion::{IntensityMeasures, Peaks, Suite};
 use crate::number::counted;
 use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
-use crate::table::frame;
+use crate::table::responses::OutcomeWord;
+use crate::table::{frame, rows};
 
 /// What is read of a response besides the measures of Eq. 13.
 const COLUMNS: &str =
     "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
-/// The parameters of a structure.
-const PARAMETERS: [&str; 3] = ["p_rad_s", "alpha_rad", "eta"];
-
 /// Gives further measures by name, a column each, of the motions of these names and a structure.
-pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<f64>)>>;
+pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<Option<f64>>)>>;
 
 /// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
 /// come.
@@ -79,19 +77,11 @@ fn add(
     candidates: Option<Candidates>,
 ) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
-    let [p_rad_s, alpha_rad, eta] = PARAMETERS.map(|name| batch.required_numbers(name));
-    let (p_rad_s, alpha_rad, eta) = (p_rad_s?, alpha_rad?, eta?);
-    let parameters: Vec<_> = (0..eta.len()).map(|row| [p_rad_s[row], alpha_rad[row], eta[row]]).collect();
-    let outcomes = batch.required_words::<Outcome>("outcome")?;
-    let edp = demands(batch, &outcomes)?;
+    let (structures, outcomes) = (batch.structures(&names)?, outcomes(batch)?);
     let (pga, pgv) = (batch.required_numbers("pga_m_s2")?, batch.required_numbers("pgv_m_s")?);
-    let (mw, re_km) = (or_nan(batch.numbers("mw")?), or_nan(batch.numbers("re_km")?));
-    let earthquakes = batch.texts("earthquake")?;
-    let measures = Measure::SCALAR.iter().map(|measure| match measure {
-        Measure::Im4 | Measure::Im5 => batch.required_numbers(measure.as_str()),
-        other => batch.numbers(other.as_str()).map(or_nan),
-    });
-    let measures = measures.collect::<Result<Vec<_>, TableError>>()?;
+    let (mw, re_km, earthquakes) =
+        (batch.numbers("mw")?, batch.numbers("re_km")?, batch.texts("earthquake")?);
+    let measures = rows::from_batch::<IntensityMeasures>(batch)?;
     for (row, motion) in batch.texts("motion_id")?.iter().enumerate().filter(|(_, motion)| motion.is_some()) {
         let mut hash = DefaultHasher::new();
         (&suites[row], &names[row], motion, pga[row].to_bits()).hash(&mut hash);
@@ -101,17 +91,26 @@ fn add(
     let groups = (0..names.len()).map(|row| Group { suite: suites[row].as_deref(), structure: &names[row] });
     for rows in frame::groups(groups)? {
         let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
-        let cases = find_cases(all, batch, group, &rows, &parameters)?;
-        cases.outcome.extend(rows.iter().map(|&row| outcomes[row]));
-        cases.edp.extend(rows.iter().map(|&row| edp[row]));
-        cases.pga_m_s2.extend(rows.iter().map(|&row| pga[row]));
-        cases.pgv_m_s.extend(rows.iter().map(|&row| pgv[row]));
-        cases.mw.extend(rows.iter().map(|&row| mw[row]));
-        for (measure, column) in Measure::SCALAR.into_iter().zip(&measures) {
-            cases.column_mut(measure).extend(rows.iter().map(|&row| column[row]));
+        let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
+        if place == all.len() {
+            all.push(Cases::new(group.suite, structures[rows[0]].clone()));
+        }
+        let cases = &mut all[place];
+        if cases.all.len() + rows.len() > MOST_CASES {
+            let name = group.structure;
+            let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
+            return Err(TableError::table(&batch.path, problem).into());
         }
         for &row in &rows {
-            cases.push_cluster(Cluster::of(earthquakes[row].as_deref(), mw[row], re_km[row]));
+            expect_same(batch, row, &structures[row], &cases.structure)?;
+            let case = Case {
+                outcome: outcomes[row],
+                measures: measures[row],
+                peaks: Peaks { pga_m_s2: pga[row], pgv_m_s: pgv[row] },
+                mw: mw[row],
+                cluster: 0,
+            };
+            cases.push(case, Cluster::new(earthquakes[row].as_deref(), mw[row], re_km[row]));
         }
         let Some((candidates, motions)) = candidates.zip(motions.as_ref()) else { continue };
         let motions: Vec<&str> = rows.iter().map(|&row| &*motions[row]).collect();
@@ -125,62 +124,29 @@ fn add(
     Ok(())
 }
 
-/// The cases of a suite and structure, which have room for these rows and their p, alpha and eta.
-fn find_cases<'a>(
-    all: &'a mut Vec<Cases>,
-    batch: &Batch,
-    group: Group,
-    rows: &[usize],
-    parameters: &[[f64; 3]],
-) -> Result<&'a mut Cases, TableError> {
-    let name = group.structure;
-    let place = all.iter().position(|cases| cases.group() == group).unwrap_or(all.len());
-    if place == all.len() {
-        let structure = batch.structure(rows[0], name, parameters[rows[0]])?;
-        all.push(Cases::new(group.suite, structure));
-    }
-    let cases = &mut all[place];
-    expect_same(batch, &cases.structure, rows, parameters)?;
-    if cases.len() + rows.len() > MOST_CASES {
-        let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
-        return Err(TableError::table(&batch.path, problem));
-    }
-    Ok(cases)
+/// The outcomes with their demands, which only overturned structures lack.
+fn outcomes(batch: &Batch) -> Result<Vec<Outcome>, TableError> {
+    let words = batch.required_words::<OutcomeWord>("outcome")?.into_iter().zip(batch.numbers("edp")?);
+    let outcomes = words.enumerate().map(|(row, (word, edp))| {
+        let problem = "null; expected a number unless it overturns";
+        word.with_demand(edp).ok_or_else(|| batch.value_error(row, "edp", problem))
+    });
+    outcomes.collect()
 }
 
-fn or_nan(numbers: Vec<Option<f64>>) -> Vec<f64> {
-    numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect()
-}
-
-/// The demands, which only overturned structures lack.
-fn demands(batch: &Batch, outcomes: &[Outcome]) -> Result<Vec<f64>, TableError> {
-    let mut edp = or_nan(batch.numbers("edp")?);
-    for (row, (edp, outcome)) in edp.iter_mut().zip(outcomes).enumerate() {
-        if *outcome == Outcome::Overturning {
-            *edp = f64::NAN;
-        } else if edp.is_nan() {
-            return Err(batch.value_error(row, "edp", "null; expected a number unless it overturns"));
-        }
-    }
-    Ok(edp)
-}
-
-/// Checks that these rows have the p, alpha and eta of a structure.
-fn expect_same(
-    batch: &Batch,
-    structure: &Structure,
-    rows: &[usize],
-    parameters: &[[f64; 3]],
-) -> Result<(), TableError> {
-    let name = &structure.name;
-    let known = [structure.p_rad_s, structure.alpha_rad, structure.eta];
-    let Some(&row) = rows.iter().find(|&&row| parameters[row] != known) else { return Ok(()) };
-    let found = parameters[row];
-    batch.structure(row, name, found)?;
-    let other = (0..3).find(|&k| found[k] != known[k]).unwrap_or(0);
-    let problem = format!(
-        "{}; structure '{name}' has {} in another row: give each structure its own name",
-        found[other], known[other]
-    );
-    Err(batch.value_error(row, PARAMETERS[other], problem))
+/// Checks that a row has the p, alpha and eta that its structure has in the rows before.
+fn expect_same(batch: &Batch, row: usize, found: &Structure, known: &Structure) -> Result<(), TableError> {
+    let parameters = [
+        ("p_rad_s", found.p_rad_s, known.p_rad_s),
+        ("alpha_rad", found.alpha_rad, known.alpha_rad),
+        ("eta", found.eta, known.eta),
+    ];
+    let other = parameters.into_iter().find(|(_, found, known)| found != known);
+    other.map_or(Ok(()), |(column, found, expected)| {
+        let name = &known.name;
+        let problem = format!(
+            "{found}; structure '{name}' has {expected} in another row: give each structure its own name"
+        );
+        Err(batch.value_error(row, column, problem))
+    })
 }
