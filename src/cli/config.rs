@@ -80,7 +80,7 @@ impl Config {
     pub fn section_of_run(&self, command: &Command, folder: &Path) -> anyhow::Result<Vec<OsString>> {
         let mut arguments = self.section(command, None)?;
         let section = &self.sections[command.get_name()];
-        let run = InRun { stages: &|stage| self.has(stage), given: &|flag| section.contains_key(flag) };
+        let run = InRun { sections: &self.sections, section };
         let stated = Stages::in_run(command.get_name(), &run);
         for arg in command.get_arguments() {
             let (Some(kind), Some(flag)) = (path_kind(arg), arg.get_long()) else { continue };

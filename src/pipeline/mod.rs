@@ -18,7 +18,10 @@ pub mod paths;
 pub mod plan;
 pub mod stream;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+use serde_json::{Map, Value};
 
 use self::context::Context;
 use self::paths::Read;
@@ -57,18 +60,15 @@ pub trait Stage {
 
 /// A run as one of its stages sees it.
 pub struct InRun<'a> {
-    pub stages: &'a dyn Fn(&str) -> bool,
-    /// Whether the section of the stage gives an option.
-    pub given: &'a dyn Fn(&str) -> bool,
+    /// The options of all stages.
+    pub sections: &'a BTreeMap<String, Map<String, Value>>,
+    /// The options of this stage.
+    pub section: &'a Map<String, Value>,
 }
 
 impl InRun<'_> {
     pub fn has(&self, stage: &str) -> bool {
-        (self.stages)(stage)
-    }
-
-    pub fn gives(&self, flag: &str) -> bool {
-        (self.given)(flag)
+        self.sections.contains_key(stage)
     }
 
     /// Returns the motions that all stages take: those of a floor if there are any.

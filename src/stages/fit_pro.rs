@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::{observed, responses};
-use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, ParameterRow, fit_curves};
+use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -62,46 +62,34 @@ impl Stage for FitPro {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
+        let calibration = part(&self.out, "calibration");
+        let (mut fits, mut calibrations, mut texts) = (Vec::new(), Vec::new(), Vec::new());
         if observed::is_list(&self.input)? {
-            return self.fit_outcomes(context);
-        }
-        let groups = responses::read(&self.input)?;
-        let bar = context.bar(groups.len());
-        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
-        for cases in &groups {
-            fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
-            // The surface gives the probability of overturning, not that of rocking.
-            if self.event == Event::Overturning {
-                calibrations.push(Calibration::fit(cases, None));
+            // What stood and what fell gives no curve.
+            calibrations.extend(Calibration::fit_outcomes(&observed::read(&self.input)?));
+            texts.push(calibrations_text(&calibrations, ["rocked", "fell"], &calibration));
+        } else {
+            let groups = responses::read(&self.input)?;
+            let bar = context.bar(groups.len());
+            for cases in &groups {
+                fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
+                // The surface gives the probability of overturning, not that of rocking.
+                if self.event == Event::Overturning {
+                    calibrations.push(Calibration::fit(cases, None));
+                }
+                bar.advance(1)?;
             }
-            bar.advance(1)?;
+            if !calibrations.is_empty() {
+                texts.push(calibrations_text(&calibrations, ["rock", "overturn"], &calibration));
+            }
+            texts.push(curves_text(&fits, self.confidence, &self.out));
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let calibration = part(&self.out, "calibration");
-        let mut summary = curves_text(&fits, self.confidence, &self.out);
-        if !calibrations.is_empty() {
-            let calibrated = calibrations_text(&calibrations, ["rock", "overturn"], &calibration);
-            summary = format!("{calibrated}\n{summary}");
-        }
+        let summary = texts.join("\n");
         context.warn(warnings(&calibrations));
         context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
-        Ok(summary)
-    }
-}
-
-impl FitPro {
-    /// Fits the surface to what stood and what fell, which gives no curve.
-    fn fit_outcomes(&self, context: &Context) -> anyhow::Result<String> {
-        let calibration = Calibration::fit_outcomes(&observed::read(&self.input)?);
-        let rows: Vec<Calibration> = calibration.into_iter().collect();
-        let path = part(&self.out, "calibration");
-        let summary = calibrations_text(&rows, ["rocked", "fell"], &path);
-        context.warn(warnings(&rows));
-        context.write(&path, &rows, &summary)?;
-        context.write::<ParameterRow>(&part(&self.out, "parameters"), &[], &summary)?;
-        context.write::<CurveFit>(&self.out, &[], &summary)?;
         Ok(summary)
     }
 }

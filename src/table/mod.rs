@@ -41,17 +41,17 @@ use arrow_schema::DataType;
 pub enum TableError {
     #[error("{}: no such file", .0.display())]
     Missing(PathBuf),
-    #[error("{}: {source}", path.display())]
-    Io { path: PathBuf, source: std::io::Error },
+    #[error("{}: {cause}", path.display())]
+    Io { path: PathBuf, cause: std::io::Error },
     #[error("{}: {problem}", path.display())]
     Table { path: PathBuf, problem: String },
 }
 
 impl TableError {
-    pub fn io(path: &Path, source: std::io::Error) -> TableError {
-        match source.kind() {
+    pub fn io(path: &Path, cause: std::io::Error) -> TableError {
+        match cause.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
-            _ => TableError::Io { path: path.to_path_buf(), source },
+            _ => TableError::Io { path: path.to_path_buf(), cause },
         }
     }
 

@@ -43,6 +43,10 @@ fn mistakes_on_the_command_line_are_named() {
         ("ida --from 2 --to 1 --structures paper", vec!["to", "2"]),
         ("ida --measure pgv --to 300 --structures paper", vec!["to", "300", "cm/s"]),
         ("simulate --structures paper --out responses.csv", vec!["responses.csv", ".parquet"]),
+        ("evaluate --width 1 --height 2 --pga 0.3 --period-sd 0.2", vec!["--period"]),
+        ("evaluate --width 1 --height 2 --pga 0.3 --ground-floor 1", vec!["--ground-floor"]),
+        ("evaluate --width 1 --height 2 --years 30", vec!["--hazard"]),
+        ("evaluate --structures - --hazard -", vec!["--structures", "--hazard", "stdin"]),
     ] {
         let code = if call.contains("out.parquet") { 1 } else { 2 };
         fail(folder.path(), call, code, &named);

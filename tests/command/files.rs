@@ -150,6 +150,8 @@ fn a_pipe_is_read_once_and_never_replaced() {
         let (code, printed, _) = shell(&call);
         assert_eq!((code, &printed), (Some(0), &direct), "{call}");
     }
+    let (code, _, stderr) = shell(&format!("rockfrag evaluate {BLOCK} --hazard /dev/zero"));
+    assert!(code == Some(1) && stderr.contains("/dev/zero"), "{stderr}");
     let (code, _, stderr) = shell("rockfrag evaluate --structures - --hazard h.csv < list.csv");
     assert_eq!(code, Some(0), "{stderr}");
     let evaluate = format!("rockfrag evaluate {BLOCK} --pga 0.3 --pgv 0.3 --force --out p.parquet");
@@ -169,6 +171,9 @@ fn a_link_keeps_pointing_and_a_long_name_is_a_name() {
         succeed(folder.path(), &format!("{} --force", sample("link.parquet")));
         assert!(path("link.parquet").is_symlink() && path("there/s.parquet").is_file());
     }
+    symlink("nowhere/s.parquet", path("lost.parquet")).unwrap();
+    fail(folder.path(), &sample("lost.parquet"), 1, &["lost.parquet", "nowhere"]);
+    assert!(!path("nowhere").exists());
     let name = format!("{}.parquet", "n".repeat(247));
     succeed(folder.path(), &sample(&name));
     assert!(succeed(folder.path(), &sample(&name)).1.contains("up to date"));

@@ -144,7 +144,7 @@ impl Stage for Evaluate {
     }
 
     fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        let counts = run.has("simulate") && run.gives("hazard");
+        let counts = run.has("simulate") && run.section.contains_key("hazard");
         let responses = counts.then_some(("responses", "responses.parquet"));
         let own = responses.into_iter().chain([("out", "evaluated.parquet")]);
         own.chain(ModelArgs::in_run(run)).collect()

@@ -1,6 +1,7 @@
 //! What a table says about records: magnitude, distance and earthquake, which few files have.
 
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::inputs::{Grid, Heading, InputError, decode};
@@ -67,18 +68,9 @@ impl About {
         Ok(about)
     }
 
-    /// Refuses a table that says nothing of any of these files.
-    pub fn expect_any<'a>(
-        &self,
-        path: &Path,
-        mut files: impl Iterator<Item = &'a Path>,
-    ) -> anyhow::Result<()> {
-        match files.any(|file| self.find(file).is_some()) {
-            true => Ok(()),
-            false => {
-                Err(UsageError::because(format!("{}: no row is about any of the files", path.display())))
-            }
-        }
+    /// Returns whether a row is about a file.
+    pub fn has(&self, file: &Path) -> bool {
+        self.find(file).is_some()
     }
 
     fn find(&self, file: &Path) -> Option<&Known> {
@@ -137,17 +129,12 @@ impl Columns {
     }
 
     fn known(&self, grid: &Grid, row: usize) -> Result<Known, InputError> {
-        let mw = number(grid, row, self.magnitude)?;
-        let re_km = number(grid, row, self.distance)?;
-        let (magnitude, distance) = (self.magnitude.unwrap_or_default(), self.distance.unwrap_or_default());
-        if mw.is_some_and(|mw| !MAGNITUDES.contains(&mw)) {
-            return Err(grid.refusal(row, magnitude, "a moment magnitude"));
-        }
-        if re_km.is_some_and(|re_km| !DISTANCES_KM.contains(&re_km)) {
-            return Err(grid.refusal(row, distance, "a distance from 0 to 1000 km"));
-        }
         let earthquake = self.earthquake.map(|column| grid.cell(row, column)).filter(|name| !name.is_empty());
-        Ok(Known { mw, re_km, earthquake: earthquake.map(str::to_string) })
+        Ok(Known {
+            mw: number(grid, row, self.magnitude, MAGNITUDES, "a moment magnitude")?,
+            re_km: number(grid, row, self.distance, DISTANCES_KM, "a distance from 0 to 1000 km")?,
+            earthquake: earthquake.map(str::to_string),
+        })
     }
 
     /// The names under which a file may be the one of a row.
@@ -160,10 +147,20 @@ impl Columns {
     }
 }
 
-/// The number in a cell, if it has one.
-fn number(grid: &Grid, row: usize, column: Option<usize>) -> Result<Option<f64>, InputError> {
+/// The number in a cell, if it has one, which must be in a range.
+fn number(
+    grid: &Grid,
+    row: usize,
+    column: Option<usize>,
+    range: RangeInclusive<f64>,
+    expected: &str,
+) -> Result<Option<f64>, InputError> {
     let Some(column) = column.filter(|&column| !grid.cell(row, column).is_empty()) else { return Ok(None) };
-    Ok(Some(grid.number(row, column)?).filter(|number| *number > UNKNOWN))
+    match grid.number(row, column)? {
+        number if number <= UNKNOWN => Ok(None),
+        number if range.contains(&number) => Ok(Some(number)),
+        _ => Err(grid.refusal(row, column, expected)),
+    }
 }
 
 fn is_file(heading: &Heading) -> bool {

@@ -147,7 +147,10 @@ impl Stage for ImportMotions {
         if let Some(path) = &self.about {
             let about = std::path::absolute(&**path)?;
             importer.files.retain(|file| std::path::absolute(&file.path).is_ok_and(|file| file != about));
-            importer.about.expect_any(path, importer.files.iter().map(|file| &*file.path))?;
+            if !importer.files.iter().any(|file| importer.about.has(&file.path)) {
+                let problem = format!("{}: no row is about any of the files", path.display());
+                return Err(UsageError::because(problem));
+            }
         }
         let (work, mut refused) = importer.work(context)?;
         let mut summary = Summary::default();

@@ -134,7 +134,8 @@ pub struct StructureArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["one", "structure"])]
     pub structures: Option<StructuresInput>,
     /// Number that the floors of --structures give the ground floor: 0 or 1
-    #[arg(long, value_name = "N", requires = "structures", value_parser = number(0..=1_u32, "0 or 1"))]
+    #[arg(long, value_name = "N", requires = "structures", conflicts_with_all = ["one", "structure"],
+          value_parser = number(0..=1_u32, "0 or 1"))]
     ground_floor: Option<u32>,
 }
 
