@@ -196,7 +196,7 @@ pub struct Oscillator {
     wd: f64,
     damping: f64,
     dt_s: f64,
-    /// Of free vibration over a step: decay, and sine and cosine of the angle.
+    /// Free vibration over a step: decay, and sine and cosine of the angle.
     decay: f64,
     sin: f64,
     cos: f64,
@@ -206,7 +206,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// Of period `period_s` and damping ratio `damping` in [0, 1), for samples at steps of `dt_s`.
+    /// Makes an oscillator at rest, of a period (s) and a damping ratio in [0, 1), for samples at steps of `dt_s`.
     pub fn new(period_s: f64, damping: f64, dt_s: f64) -> Oscillator {
         let w = 2.0 * PI / period_s;
         let wd = w * (1.0 - damping * damping).sqrt();

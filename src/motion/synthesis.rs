@@ -134,9 +134,11 @@ impl Earthquake {
 
     fn amplitudes(&mut self, model: &MotionModel, samples: usize) -> &[f64] {
         let step_hz = 1.0 / (samples as f64 * model.dt_s);
-        let amplitude =
-            |k: usize| model.stochastic.fourier_amplitude_cm_s(&self.source, k as f64 * step_hz) / CM_PER_M;
-        self.amplitudes.entry(samples).or_insert_with(|| (0..=samples / 2).map(amplitude).collect())
+        self.amplitudes.entry(samples).or_insert_with(|| {
+            let frequencies_hz = (0..=samples / 2).map(|k| k as f64 * step_hz);
+            let model = &model.stochastic;
+            frequencies_hz.map(|f| model.fourier_amplitude_cm_s(&self.source, f) / CM_PER_M).collect()
+        })
     }
 }
 

@@ -67,9 +67,9 @@ keywords! {
     pub enum SolverEvent {
         /// The structure leaves its base.
         Uplift = "uplift",
-        /// It strikes its base and continues on the other side.
+        /// The structure strikes its base and continues on the other side.
         Impact = "impact",
-        /// It comes to rest.
+        /// The structure comes to rest.
         Rest = "rest",
         /// Its rotation reaches pi/2.
         Overturn = "overturn",

@@ -16,7 +16,7 @@ use super::taylor::State;
 pub enum Outcome {
     /// The structure stays on its base.
     NoRocking,
-    /// It rocks and comes to rest. Its demand is |theta|max / alpha (Eq. 7).
+    /// The structure rocks and comes to rest. The demand is |theta|max / alpha (Eq. 7).
     SafeRocking(f64),
     /// Its rotation reaches pi/2, in the record or, by its energy, after it.
     Overturned,

@@ -174,7 +174,7 @@ impl Further {
         let columns: HashSet<String> =
             further.measures.iter().map(|measure| measure.column.clone()).collect();
         let mut rows = 0;
-        for batch in table.batches(&|name| name == "motion_id" || columns.contains(name)) {
+        for batch in table.batches(|name| name == "motion_id" || columns.contains(name)) {
             let batch = batch?;
             for measure in &mut further.measures {
                 measure.values.extend(batch.numbers(&measure.column)?);

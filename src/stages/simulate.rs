@@ -171,7 +171,7 @@ impl Simulate {
         if unknown.is_empty() {
             return Ok(());
         }
-        for batch in motions.batches(&|name| name == "motion_id") {
+        for batch in motions.batches(|name| name == "motion_id") {
             let batch = batch?;
             let ids: HashSet<Cow<str>> = batch.required_texts("motion_id")?.into_iter().collect();
             unknown.retain(|traced| !ids.contains(traced.as_str()));

@@ -15,6 +15,14 @@ const LEAST_EVENTS: usize = 5;
 const ENDLESS: f64 = 1e3;
 
 /// A probit regression P(event) = Phi(z), z = b0 + b1 x1 + ...
+///
+/// ```
+/// use rockfrag::statistics::{FitStatus, probit};
+/// let x: Vec<f64> = (0..20).map(f64::from).collect();
+/// let fit = probit(&[x], &std::array::from_fn::<_, 20, _>(|k| k > 12 || k % 4 == 3))?;
+/// assert!(fit.fit.coefficients[1] > 0.0 && fit.fit.status == FitStatus::Ok);
+/// # Ok::<(), FitStatus>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbitFit {
     /// Coefficients and their covariance.

@@ -55,6 +55,11 @@ pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
 
 /// Assignment of cases to folds, by cluster, since motions of one earthquake, or of one magnitude and
 /// distance, are alike (Roberts et al. 2017, Ecography 40, 913-929).
+///
+/// ```
+/// let folds = rockfrag::statistics::Folds::new(&[7, 7, 3, 5, 3], 2);
+/// assert!(folds.is_some_and(|folds| folds.split(0).1.len() + folds.split(1).1.len() == 5));
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Folds {
     /// Fold of each case.

@@ -1,6 +1,12 @@
 //! A value with limits, wherever one is known with an error.
 
 /// A value with its limits of confidence.
+///
+/// ```
+/// use rockfrag::statistics::Estimate;
+/// let rate = Estimate::around(-2.0, 0.5).map(f64::exp);
+/// assert!(rate.low < rate.value && rate.value < rate.high && Estimate::exact(0.5).low == 0.5);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Estimate {

@@ -82,7 +82,7 @@ impl Batch {
     pub fn structures(&self, names: &[Cow<str>]) -> Result<Vec<Structure>, TableError> {
         let (p, alpha) = (self.required_numbers("p_rad_s")?, self.required_numbers("alpha_rad")?);
         let eta = self.required_numbers("eta")?;
-        let structure = |(row, name): (usize, &Cow<str>)| {
+        let structures = names.iter().enumerate().map(|(row, name)| {
             Structure::new(name, p[row], alpha[row], eta[row]).map_err(|error| {
                 let column = match error.parameter {
                     "alpha" => "alpha_rad",
@@ -91,8 +91,8 @@ impl Batch {
                 };
                 self.value_error(row, column, error)
             })
-        };
-        names.iter().enumerate().map(structure).collect()
+        });
+        structures.collect()
     }
 
     /// Returns the values of a column that must have one in each row.

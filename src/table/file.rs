@@ -217,10 +217,10 @@ impl Table {
 
     pub fn batches<'a>(
         &'a self,
-        wanted: &'a dyn Fn(&str) -> bool,
-    ) -> impl Iterator<Item = Result<Batch, TableError>> + 'a {
-        let read = move |group| or_error(self.read(&group, wanted, NARROW_BATCH));
-        self.row_groups().into_iter().flat_map(read)
+        wanted: impl Fn(&str) -> bool + Send + 'a,
+    ) -> impl Iterator<Item = Result<Batch, TableError>> + Send + 'a {
+        let groups = self.row_groups().into_iter();
+        groups.flat_map(move |group| or_error(self.read(&group, &wanted, NARROW_BATCH)))
     }
 }
 

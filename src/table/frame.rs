@@ -51,11 +51,11 @@ pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize
     // On this thread: the pool of polars does not know --threads.
     let frame = DataFrame::new(height, keys)?;
     let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
-    let rows = |group: GroupsIndicator| match group {
+    let rows = groups.get_groups().iter().map(|group| match group {
         GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
         GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
-    };
-    Ok(groups.get_groups().iter().map(rows).collect())
+    });
+    Ok(rows.collect())
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {
@@ -77,8 +77,8 @@ fn column(name: &str, array: &ArrayRef) -> Column {
         Column::new(name, values)
     } else {
         let lists = array.as_list_opt::<i32>();
-        let length = |row| lists.map(|lists| format!("{} numbers", lists.value_length(row)));
-        Column::new(name, (0..array.len()).map(length).collect::<Vec<_>>())
+        let lengths = (0..array.len()).map(|row| Some(format!("{} numbers", lists?.value_length(row))));
+        Column::new(name, lengths.collect::<Vec<_>>())
     }
 }
 
@@ -88,12 +88,16 @@ pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
         Format::Text => Ok(text(frame)),
         Format::Csv => csv(frame),
         Format::Json => {
-            let member = |column: &Column, row| (column.name().to_string(), json(&value(column, row)));
-            let object = |row| frame.columns().iter().map(|column| member(column, row)).collect();
-            let objects: Vec<Map<String, Value>> = (0..frame.height()).map(object).collect();
+            let objects: Vec<Map<String, Value>> =
+                (0..frame.height()).map(|row| object(frame, row)).collect();
             Ok(serde_json::to_string_pretty(&objects)? + "\n")
         }
     }
+}
+
+fn object(frame: &DataFrame, row: usize) -> Map<String, Value> {
+    let columns = frame.columns().iter();
+    columns.map(|column| (column.name().to_string(), json(&value(column, row)))).collect()
 }
 
 fn value(column: &Column, row: usize) -> AnyValue<'_> {
@@ -132,13 +136,14 @@ fn csv(frame: &DataFrame) -> anyhow::Result<String> {
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
     let columns = frame.columns();
-    let names = columns.iter().map(|column| column.name().to_string()).collect();
-    let cell = |column: &Column, row: usize| match value(column, row) {
-        AnyValue::Float64(value) => significant(value, 4),
-        AnyValue::Int64(count) => fixed(count as f64, 0),
-        other => cell(&other, "-"),
-    };
-    let cells = (0..frame.height()).map(|row| columns.iter().map(|column| cell(column, row)).collect());
-    let rows: Vec<Vec<String>> = std::iter::once(names).chain(cells).collect();
+    let mut rows: Vec<Vec<String>> = vec![columns.iter().map(|column| column.name().to_string()).collect()];
+    for row in 0..frame.height() {
+        let cells = columns.iter().map(|column| match value(column, row) {
+            AnyValue::Float64(value) => significant(value, 4),
+            AnyValue::Int64(count) => fixed(count as f64, 0),
+            other => cell(&other, "-"),
+        });
+        rows.push(cells.collect());
+    }
     aligned(&rows, |column| columns[column].dtype() != &DataType::String)
 }

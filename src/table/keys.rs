@@ -1,5 +1,6 @@
 //! The key of the content of a file, which shows whether what is made of it is up to date.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -37,8 +38,8 @@ pub fn names_below(paths: &[PathBuf]) -> Vec<String> {
     let full: Vec<PathBuf> = paths.iter().map(|path| resolved(path)).collect();
     let mut folder = full.first().and_then(|path| path.parent()).unwrap_or(Path::new("")).to_path_buf();
     while !full.iter().all(|path| path.starts_with(&folder)) && folder.pop() {}
-    let name = |path: &PathBuf| path.strip_prefix(&folder).unwrap_or(path).to_string_lossy().into_owned();
-    full.iter().map(name).collect()
+    let names = full.iter().map(|path| path.strip_prefix(&folder).unwrap_or(path).to_string_lossy());
+    names.map(Cow::into_owned).collect()
 }
 
 /// Returns the one way of writing a path that need not exist.

@@ -34,9 +34,8 @@ impl Provenance {
         let mut text = String::new();
         archive.by_name(PROPERTIES).ok()?.read_to_string(&mut text).ok()?;
         let parts = text.split("name=\"rockfrag").skip(1);
-        let part =
-            |part: &str| Some(part.split_once("<vt:lpwstr>")?.1.split_once("</vt:lpwstr>")?.0.to_string());
-        let json = parts.map(part).collect::<Option<String>>()?;
+        let json =
+            parts.map(|part| between(part, ["<vt:lpwstr>", "</vt:lpwstr>"])).collect::<Option<String>>()?;
         Provenance::from_json(&unescaped(&json))
     }
 
@@ -65,14 +64,14 @@ pub fn xml_mark() -> String {
 /// Returns whether the file at `path` is ours, or has the headings or keys of what would be written there.
 pub fn is_ours(path: &Path, content: &[u8]) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
-    let there = || std::fs::read(path).unwrap_or_default();
+    if !matches!(ending, Some("csv" | "json" | "xml")) {
+        return Provenance::read(path).is_ok_and(|made| made.is_some());
+    }
+    let there = std::fs::read(path).unwrap_or_default();
     match ending {
-        Some("csv") => heading(&there()) == heading(content),
-        Some("json") => keys(&there()).is_some_and(|found| Some(found) == keys(content)),
-        Some("xml") => {
-            String::from_utf8_lossy(&there()).lines().nth(1).is_some_and(|line| line.starts_with(XML))
-        }
-        _ => Provenance::read(path).is_ok_and(|made| made.is_some()),
+        Some("csv") => heading(&there) == heading(content),
+        Some("json") => keys(&there).is_some_and(|found| Some(found) == keys(content)),
+        _ => String::from_utf8_lossy(&there).lines().nth(1).is_some_and(|line| line.starts_with(XML)),
     }
 }
 

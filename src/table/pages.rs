@@ -70,9 +70,9 @@ impl Pages {
 
     /// The checked bytes from a place in the file on.
     fn checked(&self, start: u64) -> Option<Bytes> {
-        let is_within =
-            |(first, bytes): &&(u64, Bytes)| (*first..first + bytes.len() as u64).contains(&start);
-        let (first, bytes) = self.checked.iter().find(is_within)?;
+        let mut columns = self.checked.iter();
+        let (first, bytes) =
+            columns.find(|(first, bytes)| (*first..first + bytes.len() as u64).contains(&start))?;
         Some(bytes.slice((start - first) as usize..))
     }
 }

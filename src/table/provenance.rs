@@ -102,13 +102,15 @@ impl Provenance {
 
     /// Returns the key that all parts of one table share.
     pub fn whole(&self) -> String {
-        let options = self.arguments.iter().filter(|(flag, _)| *flag != "partition");
-        let whole =
-            |file: &InputFile| file.whole.clone().unwrap_or_else(|| format!("{} {}", file.name, file.key));
-        let inputs =
-            self.inputs.iter().map(|(flag, files)| (flag, files.iter().map(whole).collect::<Vec<_>>()));
-        let (options, inputs) = (options.collect::<Vec<_>>(), inputs.collect::<Vec<_>>());
-        hash(&serde_json::json!([self.stage, self.program, options, inputs]))
+        let options: Vec<_> = self.arguments.iter().filter(|(flag, _)| *flag != "partition").collect();
+        let inputs = self.inputs.iter().map(|(flag, files)| {
+            let files = files.iter().map(|InputFile { name, key, whole }| match whole {
+                Some(whole) => whole.clone(),
+                None => format!("{name} {key}"),
+            });
+            (flag, files.collect::<Vec<_>>())
+        });
+        hash(&serde_json::json!([self.stage, self.program, options, inputs.collect::<Vec<_>>()]))
     }
 
     /// Returns the key of what was read under a flag.
@@ -133,8 +135,8 @@ impl Provenance {
     /// Reads JSON; of another version it has stage, version and summary at least.
     pub fn from_json(json: &str) -> Option<Provenance> {
         let value: Value = serde_json::from_str(json).ok()?;
-        let text = |name: &str| value[name].as_str().unwrap_or_default().to_string();
-        let [stage, version, summary] = ["stage", "version", "summary"].map(text);
+        let [stage, version, summary] =
+            ["stage", "version", "summary"].map(|name| value[name].as_str().unwrap_or_default().to_string());
         let known = serde_json::from_value(value).ok();
         known.or(Some(Provenance { stage, version, summary, ..Provenance::default() }))
     }
@@ -156,10 +158,10 @@ impl Provenance {
         if (&self.version, &self.program) != (&now.version, &now.program) {
             return Some(format!("it was made by another build of rockfrag ({})", self.version));
         }
-        let text = |value: Option<&Value>| value.map_or("nothing".to_string(), text_of);
-        let is_other = |name: &&String| self.arguments.get(*name) != now.arguments.get(*name);
-        if let Some(name) = now.arguments.keys().chain(self.arguments.keys()).find(is_other) {
-            let [before, now] = [self, now].map(|made| text(made.arguments.get(name)));
+        let mut names = now.arguments.keys().chain(self.arguments.keys());
+        if let Some(name) = names.find(|name| self.arguments.get(*name) != now.arguments.get(*name)) {
+            let [before, now] =
+                [self, now].map(|made| made.arguments.get(name).map_or("nothing".to_string(), text_of));
             return Some(format!("--{name} changed from {before} to {now}"));
         }
         let names = now.inputs.keys().chain(self.inputs.keys());

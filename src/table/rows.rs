@@ -16,7 +16,7 @@ use serde_arrow::schema::{SchemaLike, TracingOptions};
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
-use super::file::{NARROW_BATCH, Table, or_error};
+use super::file::Table;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
 /// it. A value with its limits ([`crate::number::Limited`]) is named by its field.
@@ -30,27 +30,27 @@ fn fields<R: Row>() -> Vec<FieldRef> {
         .sequence_as_large_list(false)
         .enums_without_data_as_strings(true);
     let fields = Vec::<FieldRef>::from_type::<R>(options).expect("rows are flat structs");
-    let field = |field: FieldRef| match field.data_type() {
+    let fields = fields.into_iter().map(|field| match field.data_type() {
         // Words are texts.
         DataType::Dictionary(_, texts) => {
             Arc::new(Field::new(field.name(), (**texts).clone(), field.is_nullable()))
         }
         _ => field,
-    };
-    fields.into_iter().map(field).collect()
+    });
+    fields.collect()
 }
 
 fn columns(field: &FieldRef) -> Vec<FieldRef> {
     let DataType::Struct(parts) = field.data_type() else { return vec![field.clone()] };
-    let column = |part: &FieldRef| {
+    let columns = parts.iter().map(|part| {
         let name = match part.name().as_str() {
             "value" => field.name().clone(),
             limit @ ("low" | "high") => format!("{}_{limit}", field.name()),
             other => other.to_string(),
         };
         Arc::new(part.as_ref().clone().with_name(name))
-    };
-    parts.iter().map(column).collect()
+    });
+    columns.collect()
 }
 
 /// Returns the schema of a row, with unit and meaning.
@@ -85,22 +85,22 @@ pub fn stream<'a, R: Row>(
     let schema = schema::<R>();
     let required = schema.fields().iter().filter(|field| !field.is_nullable());
     table.expect(path, required.map(|field| field.name().as_str()))?;
-    let read = move |group| or_error(table.read(&group, &|name| schema.index_of(name).is_ok(), NARROW_BATCH));
-    Ok(table.row_groups().into_iter().flat_map(read).map(|batch| from_batch(&batch?)))
+    let batches = table.batches(move |name| schema.index_of(name).is_ok());
+    Ok(batches.map(|batch| from_batch(&batch?)))
 }
 
 /// Reads the rows of a batch. A column of optional values may be missing.
 pub fn from_batch<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
     let fields = fields::<R>();
-    let array = |field: &FieldRef| {
+    let arrays = fields.iter().map(|field| -> Result<ArrayRef, TableError> {
         let columns = columns(field);
         let parts = columns.iter().map(|column| checked(batch, column)).collect::<Result<Vec<_>, _>>()?;
         Ok(match field.data_type() {
             DataType::Struct(fields) => Arc::new(StructArray::new(fields.clone(), parts, None)),
             _ => parts[0].clone(),
         })
-    };
-    let arrays = fields.iter().map(array).collect::<Result<Vec<ArrayRef>, TableError>>()?;
+    });
+    let arrays = arrays.collect::<Result<Vec<_>, _>>()?;
     serde_arrow::from_arrow(&fields, &arrays)
         .map_err(|error| TableError::table(&batch.path, error.to_string()))
 }

@@ -141,14 +141,18 @@ fn remove_strays(folder: &Path, prefix: &str) {
     }
 }
 
+/// Returns the name of the items of a column of samples.
+fn samples(field: &Field) -> Option<&str> {
+    match field.data_type() {
+        DataType::List(item) if item.data_type() == &DataType::Float32 => Some(item.name()),
+        _ => None,
+    }
+}
+
 /// Returns the compression of the columns: no dictionary of numbers, which rarely repeat; samples split by
 /// bytes.
 fn properties(schema: &SchemaRef) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
-    let samples = |field: &Field| match field.data_type() {
-        DataType::List(item) if item.data_type() == &DataType::Float32 => Some(item.name().clone()),
-        _ => None,
-    };
     let has_samples = schema.fields().iter().any(|field| samples(field).is_some());
     let mut properties = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_string())
@@ -163,7 +167,7 @@ fn properties(schema: &SchemaRef) -> WriterProperties {
                 properties.set_column_dictionary_enabled(ColumnPath::from(field.name().as_str()), false);
         }
         if let Some(item) = samples(field) {
-            let path = ColumnPath::new(vec![field.name().clone(), "list".to_string(), item]);
+            let path = ColumnPath::new(vec![field.name().clone(), "list".to_string(), item.to_string()]);
             properties = properties
                 .set_column_dictionary_enabled(path.clone(), false)
                 .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)

@@ -110,7 +110,7 @@ fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
     assert!(width(&clustered) > 1.3 * width(&alone), "{clustered:?} {alone:?}");
     // The share of the stripes that overturns passes one half there.
     let table = Table::open(&folder.path().join("ida.stripes.parquet")).unwrap();
-    let stripes = table.batches(&|_| true).next().unwrap().unwrap();
+    let stripes = table.batches(|_| true).next().unwrap().unwrap();
     let (intensity, outcome) =
         (stripes.required_numbers("intensity").unwrap(), stripes.texts("outcome").unwrap());
     let share = |level: f64| {

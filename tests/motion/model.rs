@@ -126,12 +126,10 @@ fn the_largest_velocity_of_a_pulse_has_its_published_values() {
 }
 
 #[test]
-fn the_constant_of_the_source_is_the_published_one() {
+fn the_source_has_its_published_constant_duration_and_amplitudes() {
     assert!((CONSTANT / 5.155914e-24 - 1.0).abs() < 1e-7, "{CONSTANT:e}");
-}
-
-#[test]
-fn fourier_amplitudes_have_their_published_values() {
+    // M 6.5 at 10 km: fa 0.09057 Hz and R 13.069 km by hand.
+    assert!((Source::new(6.5, 10.0).duration_s() - (0.5 / 0.09057 + 0.05 * 13.069)).abs() < 1e-3);
     let model = StochasticModel::default();
     for (mw, expected) in [
         (5.5, [0.3425, 8.4266, 12.363]),
@@ -189,15 +187,6 @@ fn the_window_has_its_published_constants_and_its_peak_of_one_at_a_fifth() {
     assert!(window.value(peak_s - 1e-3) < 1.0 && window.value(peak_s + 1e-3) < 1.0);
     assert!((window.value(6.0) - 0.05).abs() < 1e-12);
     assert_eq!((window.value(-1.0), window.value(0.0), window.value(6.1)), (0.0, 0.0, 0.0));
-}
-
-#[test]
-fn the_source_lasts_as_long_as_its_equation_says() {
-    // M 6.5 at 10 km: fa 0.09057 Hz and R 13.074 km by hand.
-    let source = Source::new(6.5, 10.0);
-    let (fa, r) = (10f64.powf(2.181 - 0.496 * 6.5), 10f64.hypot(10f64.powf(-0.05 + 0.15 * 6.5)));
-    assert!((source.duration_s() - (0.5 / fa + 0.05 * r)).abs() < 1e-12);
-    assert!((source.duration_s() - 6.2).abs() < 0.05, "{}", source.duration_s());
 }
 
 #[test]
@@ -391,14 +380,9 @@ fn the_noise_depends_on_seed_and_scenario() {
 
 #[test]
 fn sites_amplify_as_published() {
-    for (f, rock, soil) in [
-        (0.0, 1.0, 1.0),
-        (0.01, 1.0, 1.0),
-        (0.51, 1.42, 2.24),
-        (6.05, 2.58, 3.05),
-        (61.2, 4.0, 3.21),
-        (100.0, 4.0, 3.21),
-    ] {
+    for (f, rock, soil) in
+        [(0.0, 1.0, 1.0), (0.51, 1.42, 2.24), (6.05, 2.58, 3.05), (61.2, 4.0, 3.21), (100.0, 4.0, 3.21)]
+    {
         let both = [SiteAmplification::Rock, SiteAmplification::Soil].map(|site| site.amplification(f));
         assert_eq!(both, [rock, soil], "{f} Hz");
     }
@@ -408,19 +392,11 @@ fn sites_amplify_as_published() {
 }
 
 #[test]
-fn a_site_table_interpolates_between_its_rows_and_is_constant_beyond() {
+fn a_site_table_interpolates_between_its_rows_or_says_which_cannot_be_used() {
     let site = SiteAmplification::table(vec![(1.0, 2.0), (3.0, 8.0)]).unwrap();
     for (f, expected) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 8.0), (50.0, 8.0)] {
         assert!((site.amplification(f) - expected).abs() < 1e-14, "{f} Hz");
     }
-    let model = StochasticModel { site, ..StochasticModel::default() };
-    let bare = StochasticModel { site: SiteAmplification::None, ..StochasticModel::default() };
-    let amplitude = |model: &StochasticModel| model.fourier_amplitude_cm_s(&Source::new(6.0, 10.0), 2.0);
-    assert!((amplitude(&model) / amplitude(&bare) - 4.0).abs() < 1e-13);
-}
-
-#[test]
-fn a_site_table_that_cannot_be_used_says_which_row() {
     assert_eq!(SiteAmplification::table(vec![(1.0, 2.0)]), Err(SiteTableError::TooShort(1)));
     for (rows, bad) in [
         (vec![(1.0, 2.0), (1.0, 3.0)], 1),

@@ -186,7 +186,7 @@ fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
 fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>> {
     let table = Table::open(path)?;
     let mut renamed = Vec::new();
-    for batch in table.batches(&|column| column != "acceleration_m_s2") {
+    for batch in table.batches(|column| column != "acceleration_m_s2") {
         let batch = batch?;
         let schema = batch.rows.schema();
         let names: Vec<String> = schema.fields().iter().map(|field| renames.name(field.name())).collect();

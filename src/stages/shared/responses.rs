@@ -51,8 +51,7 @@ pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<
     let table = Table::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
     let measures: Vec<&str> = Measure::SCALAR.iter().map(|measure| measure.as_str()).collect();
-    for batch in table.batches(&|name| measures.contains(&name) || COLUMNS.split(' ').any(|one| one == name))
-    {
+    for batch in table.batches(|name| measures.contains(&name) || COLUMNS.split(' ').any(|one| one == name)) {
         add(&mut all, &mut hashes, &batch?, candidates)?;
     }
     if all.is_empty() {
