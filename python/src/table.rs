@@ -76,7 +76,7 @@ pub fn read_numbers<'py>(
 ) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
     let mut columns: BTreeMap<String, Vec<f64>> = wanted.into_iter().map(|name| (name, Vec::new())).collect();
     let read = |columns: &mut BTreeMap<String, Vec<f64>>| -> anyhow::Result<()> {
-        for batch in Table::open(&path)?.batches(&|_| true) {
+        for batch in Table::open(&path)?.batches(|_| true) {
             let batch = batch?;
             for (name, values) in columns.iter_mut() {
                 let numbers = batch.numbers(name)?.into_iter();
