@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::UsageError;
 use super::call::{Call, Planned};
-use super::context::Context;
-use super::plan::Plan;
+use super::context::{Context, Plan};
 use crate::source::is_pipe;
 use crate::table::TableError;
 use crate::table::marks::is_ours;

@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::Stage;
-use super::context::Common;
+use super::context::{Common, Plan, PlannedFile, modified_at};
 use super::paths::Read;
-use super::plan::{Plan, PlannedFile, modified_at};
 use crate::table::TableError;
 use crate::table::file::{self, is_table};
 use crate::table::keys::{files_below, names_below, read_file, resolved};

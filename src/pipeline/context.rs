@@ -1,19 +1,19 @@
-//! Output, progress and warnings of a running stage.
+//! What a call would make, and output, progress and warnings of the running stage.
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::SystemTime;
 
 use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::options::number;
-use super::plan::{Plan, PlannedFile, modified_at};
 use crate::keyword::keywords;
 use crate::table::TableError;
-use crate::table::keys::read_file;
+use crate::table::keys::{read_file, resolved};
 use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
@@ -53,6 +53,40 @@ keywords! {
         #[default]
         Auto = "auto",
         Never = "never",
+    }
+}
+
+/// What a call would make.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    pub made: Provenance,
+    /// The files to read.
+    pub files: Vec<PlannedFile>,
+    pub outputs: Vec<PathBuf>,
+}
+
+/// A file to read, with the key of its content and when it was last changed, if that tells anything.
+#[derive(Debug, Clone)]
+pub struct PlannedFile {
+    pub path: PathBuf,
+    pub key: String,
+    pub modified: Option<SystemTime>,
+}
+
+pub fn modified_at(path: &Path) -> Option<SystemTime> {
+    path.metadata().and_then(|found| found.modified()).ok()
+}
+
+impl Plan {
+    /// Returns the provenance of one of the outputs.
+    pub fn output(&self, output: usize) -> Provenance {
+        Provenance { output, ..self.made.clone() }
+    }
+
+    /// Returns the keys of the outputs.
+    pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
+        let outputs = self.outputs.iter().enumerate();
+        outputs.map(|(place, path)| (resolved(path), self.output(place).key()))
     }
 }
 

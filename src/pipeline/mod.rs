@@ -3,9 +3,8 @@
 //! ```text
 //! paths     what a path is to a stage: a type for each kind
 //! call      one call of a stage: its options, and the files that it reads
-//! plan      what a call would make of which files, with their keys
 //! cache     runs a call unless its files are up to date
-//! context   output, progress and warnings of a running stage
+//! context   what a call would make, and output, progress and warnings of the running stage
 //! stream    concurrent reading, work and writing
 //! options   option types of several stages
 //! ```
@@ -15,7 +14,6 @@ pub mod call;
 pub mod context;
 pub mod options;
 pub mod paths;
-pub mod plan;
 pub mod stream;
 
 use std::collections::BTreeMap;

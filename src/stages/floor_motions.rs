@@ -44,7 +44,7 @@ pub struct FloorMotions {
     period: f64,
     /// Height of the floor over that of the roof, 0 to 1
     #[arg(long, value_name = "Z",
-          value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"))]
+          value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 in storey 3 of 5"))]
     level: f64,
     /// Damping ratio of the modes
     #[arg(long, value_name = "RATIO", default_value = "0.05",

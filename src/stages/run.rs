@@ -25,11 +25,8 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
         let start = Instant::now();
         let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
         if !context.common.quiet {
-            let took = if done.ran {
-                format!("{:.2} s", start.elapsed().as_secs_f64())
-            } else {
-                "up to date".to_string()
-            };
+            let seconds = start.elapsed().as_secs_f64();
+            let took = if done.ran { format!("{seconds:.2} s") } else { "up to date".to_string() };
             let _ = writeln!(std::io::stderr(), "{:20} {took}", call.name);
         }
         made.extend(done.keys);

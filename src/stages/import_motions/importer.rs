@@ -89,8 +89,8 @@ impl Importer {
         let (pairs, left_out) = pairs(components);
         if pairs.is_empty() && refused.is_empty() {
             bail!(
-                "no pair among {horizontal}; expected two of one event, station and time step at right angles. \
-                 Without --rotate each is imported by itself"
+                "no pair among {horizontal}; expected two of one event, station and time step at right \
+                 angles. Without --rotate each is imported by itself"
             );
         }
         let mut alone = Warnings::default();

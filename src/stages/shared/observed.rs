@@ -93,10 +93,8 @@ fn peak_in(sheet: &Grid, row: usize, (column, unit): (usize, f64)) -> Result<f64
 
 fn magnitude_in(sheet: &Grid, row: usize, column: usize) -> Result<f64, InputError> {
     let mw = sheet.number(row, column)?;
-    match MAGNITUDES.contains(&mw) {
-        true => Ok(mw),
-        false => Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9")),
-    }
+    let is_known = MAGNITUDES.contains(&mw);
+    if is_known { Ok(mw) } else { Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9")) }
 }
 
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
