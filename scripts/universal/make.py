@@ -27,7 +27,7 @@ HEAD = """\
 # L is a sum of coefficients, each times a function: 1, or a product of features, a feature^k is its power.
 # Features: x = ln(ln IM4 + 0.2); r = ln(ratio/p); w = ln IM4 - r in P_ro, w - 0.4 limit in P_ex;
 # eta = (eta - 0.85)/0.1; p = ln(p/2), p in rad/s; limit = ln(limit state/0.2) and end = ln(1.1 - limit state), in
-# P_ex only. IM4 is held below the end of its domain, ratio = PGA/PGV (1/s), p, eta and limit within theirs.
+# P_ex only. PGA is held where IM4 ends in its domain, then ratio = PGA/PGV (1/s), p, eta and limit within theirs.
 # domain,NAME,LOW,HIGH: of IM4 and IM5 99.9 % (0.1 %) quantiles; ranges of the others.
 # term,pro|pex,FUNCTION,recorded,csgm,pulse,hfc: coefficients for each kind of motion. Those of recorded are
 # fitted to hfc without magnitude; limit and p of pex are then corrected by the records.

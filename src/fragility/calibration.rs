@@ -6,62 +6,18 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Case, Cases, Event, Sample, grouped};
+use super::cases::{Case, Cases, Event, grouped};
+use super::level::{Level, Scenarios};
 use super::measure::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, Cut, Kind, Predictor, Prior, Section, predictor};
-use super::tree::{LimitStates, Z_95};
+use super::surface::{self, Cut, Kind, Prior, Section};
+use super::tree::Z_95;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::{Estimate, independent_errors, variance};
 use crate::warning::Warning;
-
-/// Whether the limits of a probability include the standard deviation between earthquakes, tau; its value is
-/// the same.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scenarios {
-    /// One earthquake: they include it.
-    One,
-    /// An average over many, as over a hazard: they do not.
-    Many,
-}
-
-/// A probability is taken at its estimate or at one of its 95 % limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Level {
-    Estimate,
-    Low(Scenarios),
-    High(Scenarios),
-}
-
-impl Level {
-    /// Computes an estimate and its limits.
-    pub fn all(scenarios: Scenarios, p_at: impl Fn(Level) -> f64) -> Estimate {
-        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
-        Estimate { value: p_at(Level::Estimate), low, high }
-    }
-
-    /// Computes the estimates of all limit states and their limits.
-    pub fn limit_states(
-        scenarios: Scenarios,
-        p_at: impl Fn(Level) -> LimitStates<f64>,
-    ) -> LimitStates<Estimate> {
-        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
-        let limits = low.zip(high, |low, high| (low, high));
-        p_at(Level::Estimate).zip(limits, |value, (low, high)| Estimate { value, low, high })
-    }
-
-    /// Returns the value of an estimate, or one of its limits.
-    pub fn of(self, estimate: Estimate) -> f64 {
-        match self {
-            Level::Estimate => estimate.value,
-            Level::Low(_) => estimate.low,
-            Level::High(_) => estimate.high,
-        }
-    }
-}
 
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
 /// the uplift term g of the [predictor](Predictor), and the magnitude M.
@@ -79,7 +35,7 @@ pub struct Calibration {
     pub c: f64,
     pub ln_s: f64,
     pub m: f64,
-    /// Of c, ln s and m, row by row.
+    /// Covariance of c, ln s and m, row by row.
     pub covariance: Vec<f64>,
     /// Standard deviation of the logit between cells or earthquakes.
     pub tau: f64,
@@ -88,7 +44,7 @@ pub struct Calibration {
     /// Events that the surface for the kind of motion predicts.
     pub expected: f64,
     pub n_clusters: i64,
-    /// Of the motions that it was fitted to: least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s).
+    /// Least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motions that it was fitted to.
     pub pga_low: Option<f64>,
     pub pga_high: Option<f64>,
     pub pgv_low: Option<f64>,
@@ -98,6 +54,20 @@ pub struct Calibration {
     /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: the fields of RatioGiven.
     pub ratio_given_pga: Vec<f64>,
     pub ratio_given_pgv: Vec<f64>,
+}
+
+/// The logit of the surface and its terms for one case, to be calibrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predictor {
+    /// L, the logit of the surface.
+    pub logit: f64,
+    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
+    /// tells.
+    pub magnitude: f64,
+    /// Standard deviation of M where it is not known, else 0.
+    pub magnitude_sd: f64,
+    /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
+    pub added: f64,
 }
 
 /// What stood or fell in an earthquake.
@@ -125,7 +95,7 @@ const LIKE: f64 = 1.2;
 grouped!(Calibration);
 
 impl Calibration {
-    /// That of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, `None`
+    /// Makes that of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, `None`
     /// for P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
@@ -162,16 +132,14 @@ impl Calibration {
     /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind
     /// of motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
-        let kind = Kind::of_word(cases.suite.as_deref());
+        let kind = Kind::from_suite(cases.suite.as_deref());
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
-        let sample = observed(cases, &shipped);
         let peaks = JointPeaks::fit(cases.all.iter().map(|case| case.peaks)).unwrap_or(surface::peaks(kind));
-        let suite = cases.suite.clone();
         Calibration {
-            suite,
+            suite: cases.suite.clone(),
             ratio_given_pga: peaks.given_pga.to_numbers(),
             ratio_given_pgv: peaks.given_pgv.to_numbers(),
-            ..shipped.fitted(sample)
+            ..shipped.fitted(&observed(cases, &shipped))
         }
     }
 
@@ -179,35 +147,26 @@ impl Calibration {
     /// not uplift do not count. The first object stands for all.
     pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
         let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
-        let mut sample =
-            Sample { ln_im: Vec::new(), y: Vec::new(), clusters: Vec::new(), ranges: Vec::new() };
-        for outcome in outcomes {
-            let ObservedOutcome { structure, peaks, mw, .. } = outcome;
-            let measures = IntensityMeasures::new(structure, *peaks, None, None);
-            let predictor = shipped.predictor(structure, &measures, *mw);
-            let p = shipped.probability(structure, &measures, *mw, Scenarios::Many);
-            let Some((predictor, p)) = predictor.zip(p) else { continue };
-            if predictor.added.is_finite() {
-                let (happened, expected, peaks) = (outcome.fell, p.value, *peaks);
-                sample.y.push(Observed { predictor, happened, expected, peaks });
-                sample.clusters.push(outcome.earthquake);
-            }
-        }
+        let observed = outcomes.iter().filter_map(|outcome| {
+            let ObservedOutcome { structure, peaks, mw, earthquake: cluster, fell } = outcome.clone();
+            let measures = IntensityMeasures::new(&structure, peaks, None, None);
+            let (predictor, expected) = shipped.prediction(&structure, &measures, mw)?;
+            Some(Observed { predictor, happened: fell, expected, peaks, cluster })
+        });
+        let observed: Vec<Observed> = observed.collect();
         let name = OUTCOMES.to_string();
-        Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(sample) })
+        Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(&observed) })
     }
 
-    /// Whether it is fitted to what stood and what fell: it is for other objects, too.
+    /// Returns whether it is fitted to what stood and what fell: it is for other objects, too.
     pub fn is_of_outcomes(&self) -> bool {
         self.suite.as_deref() == Some(OUTCOMES)
     }
 
-    /// The same, fitted to cases of the same kind.
-    fn fitted(self, sample: Sample<Observed>) -> Calibration {
-        let prior = surface::prior(self.kind, self.limit_state);
-        let expected = sample.y.iter().map(|case| case.expected).sum();
-        let (at, covariance, n_clusters) = maximum(&sample, &prior);
-        let peaks = sample.y.iter().map(|case| case.peaks);
+    /// Fits it to cases of its kind of motion.
+    fn fitted(&self, cases: &[Observed]) -> Calibration {
+        let (at, covariance, n_clusters) = maximum(cases, &surface::prior(self.kind, self.limit_state));
+        let peaks = cases.iter().map(|case| case.peaks);
         let (pga_low, pga_high) = ends(peaks.clone().map(|peaks| peaks.pga_m_s2));
         let (pgv_low, pgv_high) = ends(peaks.clone().map(|peaks| peaks.pgv_m_s));
         let (ratio_low, ratio_high) = ends(peaks.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
@@ -216,9 +175,9 @@ impl Calibration {
             ln_s: at[1],
             m: at[2],
             covariance: covariance.as_slice().to_vec(),
-            n: sample.y.len() as i64,
-            n_events: sample.y.iter().filter(|case| case.happened).count() as i64,
-            expected,
+            n: cases.len() as i64,
+            n_events: cases.iter().filter(|case| case.happened).count() as i64,
+            expected: cases.iter().map(|case| case.expected).sum(),
             n_clusters: n_clusters as i64,
             pga_low,
             pga_high,
@@ -226,7 +185,7 @@ impl Calibration {
             pgv_high,
             ratio_low,
             ratio_high,
-            ..self
+            ..self.clone()
         }
     }
 
@@ -238,10 +197,31 @@ impl Calibration {
         measures: &IntensityMeasures,
         mw: Option<f64>,
     ) -> Option<Predictor> {
-        predictor(self.kind, structure, measures, mw, self.limit_state)
+        let ln_seconds = ln_seconds(structure, measures)?;
+        let section = Section::new(self.kind, structure, self.limit_state, [0.0, 1.0, 1.0], mw);
+        let cut = section.at(measures.im4, measures.im4.ln());
+        Some(Predictor {
+            logit: cut.logit(ln_seconds),
+            magnitude: section.magnitude(ln_seconds + cut.excess),
+            magnitude_sd: section.magnitude_sd,
+            added: cut.gain(ln_seconds),
+        })
     }
 
-    /// The calibrated surface for a structure and motions of a magnitude, if it is known.
+    /// Returns the predictor of a case that counts, with the probability; none at uplift, or where a measure
+    /// is missing.
+    fn prediction(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+    ) -> Option<(Predictor, f64)> {
+        let predictor = self.predictor(structure, measures, mw)?;
+        let p = self.probability(structure, measures, mw, Scenarios::Many)?.value;
+        (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
+    }
+
+    /// Makes the calibrated surface ready for a structure and motions of a magnitude, if it is known.
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
         let by = [self.c, self.ln_s.exp(), self.m];
         Branch { calibration: self, section: Section::new(self.kind, structure, self.limit_state, by, mw) }
@@ -255,41 +235,44 @@ impl Calibration {
         mw: Option<f64>,
         scenarios: Scenarios,
     ) -> Option<Estimate> {
-        let im5 = Measure::Im5.value_of(measures)?;
-        let ln_seconds = (im5 / (measures.im4 * structure.p_rad_s)).ln();
+        let ln_seconds = ln_seconds(structure, measures)?;
         let branch = self.branch(structure, mw);
-        let (cut, magnitude) = (branch.at(measures.im4, measures.im4.ln()), branch.magnitude(ln_seconds));
-        let p = |level| logistic(branch.logit(&cut, ln_seconds, magnitude, level));
-        Some(Level::all(scenarios, p))
+        let cut = branch.section.at(measures.im4, measures.im4.ln());
+        let magnitude = branch.section.magnitude(ln_seconds + cut.excess);
+        Some(Level::all(scenarios, |level| logistic(branch.logit(&cut, ln_seconds, magnitude, level))))
     }
 
-    /// It with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
-    pub(super) fn ends(&self) -> impl Iterator<Item = [Calibration; 2]> {
+    /// Returns it with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
+    pub(super) fn ends(&self) -> Vec<[Calibration; 2]> {
         let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
-        let with = |b: Vec<f64>| Calibration { c: b[0], ln_s: b[1], m: b[2], ..self.clone() };
-        errors.into_iter().map(move |ends| ends.map(with))
+        let ends = errors
+            .into_iter()
+            .map(|ends| ends.map(|b| Calibration { c: b[0], ln_s: b[1], m: b[2], ..self.clone() }));
+        ends.collect()
     }
 
-    /// How PGA and PGV go together in the motions that it stands for.
+    /// Returns how PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> JointPeaks {
-        let of_kind = surface::peaks(self.kind);
+        let usual = surface::peaks(self.kind);
         JointPeaks {
-            given_pga: RatioGiven::of_numbers(&self.ratio_given_pga).unwrap_or(of_kind.given_pga),
-            given_pgv: RatioGiven::of_numbers(&self.ratio_given_pgv).unwrap_or(of_kind.given_pgv),
+            given_pga: RatioGiven::from_numbers(&self.ratio_given_pga).unwrap_or(usual.given_pga),
+            given_pgv: RatioGiven::from_numbers(&self.ratio_given_pgv).unwrap_or(usual.given_pgv),
         }
     }
 
-    /// Warnings about it as a whole; empty where it is that of a kind of motion.
+    /// Returns the warnings about it as a whole; none where it is that of a kind of motion.
     pub fn warnings(&self) -> Vec<Warning> {
+        if self.n == 0 {
+            return Vec::new();
+        }
         let rarer = self.n_events.min(self.n - self.n_events);
-        let of_events = match (rarer, self.limit_state) {
+        let few_events = match (rarer, self.limit_state) {
             (0, None) => Some(Warning::NoEvents),
             (0..FEW_EVENTS, _) => Some(Warning::FewEvents),
             _ => None,
         };
-        let of_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Warning::FewClusters);
-        let is_own = self.n > 0;
-        of_events.into_iter().chain(of_clusters).filter(|_| is_own).collect()
+        let few_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Warning::FewClusters);
+        few_events.into_iter().chain(few_clusters).collect()
     }
 
     /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
@@ -311,38 +294,34 @@ impl Calibration {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Branch<'a> {
     calibration: &'a Calibration,
-    section: Section,
+    pub section: Section,
 }
 
 impl Branch<'_> {
-    /// What is left of it at an IM4 and its logarithm.
-    pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
-        self.section.at(im4, ln_im4)
-    }
-
-    /// M - 6.9 of motions with this ln(PGV / PGA), s.
-    pub fn magnitude(&self, ln_seconds: f64) -> f64 {
-        self.section.magnitude(ln_seconds)
-    }
-
     /// Computes c + s L + m (M - 6.9) + g. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta
     /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
     pub fn logit(&self, cut: &Cut, ln_seconds: f64, magnitude: f64, level: Level) -> f64 {
         let Branch { calibration, section } = self;
-        let of_surface = cut.logit(ln_seconds);
-        let logit = of_surface + section.m * magnitude + cut.gain(ln_seconds);
+        let scaled = cut.logit(ln_seconds);
+        let logit = scaled + section.m * magnitude + cut.gain(ln_seconds);
         let (sign, scenarios) = match level {
             Level::Estimate => return logit,
             Level::Low(scenarios) => (-1.0, scenarios),
             Level::High(scenarios) => (1.0, scenarios),
         };
-        let by_parameters = [1.0, of_surface - calibration.c, magnitude];
+        let by_parameters = [1.0, scaled - calibration.c, magnitude];
         let between = match scenarios {
             Scenarios::One => calibration.tau.hypot(section.m * section.magnitude_sd),
             Scenarios::Many => 0.0,
         };
         logit + sign * Z_95 * variance(&calibration.covariance, &by_parameters).sqrt().hypot(between)
     }
+}
+
+/// Returns ln(PGV / PGA), s, of a motion; none where a measure is missing.
+fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
+    let im5 = Measure::Im5.value_of(measures)?;
+    Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
 }
 
 pub(super) fn logistic(z: f64) -> f64 {
@@ -363,41 +342,41 @@ struct Observed {
     expected: f64,
     /// Peaks of the motion.
     peaks: Peaks,
+    /// Cases of one cluster may depend on each other.
+    cluster: u32,
 }
 
-fn observed(cases: &Cases, shipped: &Calibration) -> Sample<Observed> {
+fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
     let (event, limit_state) = match shipped.limit_state {
         Some(limit_state) => (Event::Exceeding, limit_state),
         None => (Event::Overturning, f64::INFINITY),
     };
-    cases.sample(&[], |case| {
-        let happened = event.happened(case.outcome, limit_state)?;
-        let (structure, Case { measures, peaks, mw, .. }) = (&cases.structure, case);
-        let predictor = shipped.predictor(structure, measures, *mw)?;
-        let expected = shipped.probability(structure, measures, *mw, Scenarios::Many)?.value;
-        let is_finite = predictor.logit.is_finite() && predictor.added.is_finite();
-        is_finite.then_some(Observed { predictor, happened, expected, peaks: *peaks })
-    })
+    let counts = cases.all.iter().filter_map(|&Case { outcome, measures, peaks, mw, cluster }| {
+        let happened = event.happened(outcome, limit_state)?;
+        let (predictor, expected) = shipped.prediction(&cases.structure, &measures, mw)?;
+        Some(Observed { predictor, happened, expected, peaks, cluster })
+    });
+    counts.collect()
 }
 
 /// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
 /// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
 /// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
 /// one more cluster.
-fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
-    let found = maximise(|at| log_posterior(&sample.y, prior, at), DVector::from_vec(prior.mean.to_vec()));
+fn maximum(cases: &[Observed], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
+    let found = maximise(|at| log_posterior(cases, prior, at), DVector::from_vec(prior.mean.to_vec()));
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
     let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
-    let slopes: Vec<f64> = sample.y.iter().map(|case| s * case.predictor.logit).collect();
-    let magnitudes: Vec<f64> = sample.y.iter().map(|case| case.predictor.magnitude).collect();
-    let score = |Observed { predictor, happened, .. }: &Observed| {
+    let slopes: Vec<f64> = cases.iter().map(|case| s * case.predictor.logit).collect();
+    let magnitudes: Vec<f64> = cases.iter().map(|case| case.predictor.magnitude).collect();
+    let scores = cases.iter().map(|Observed { predictor, happened, .. }| {
         let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
         f64::from(*happened) - logistic(z)
-    };
-    let scores: Vec<f64> = sample.y.iter().map(score).collect();
-    let (clustered, clusters) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &sample.clusters);
-    let of_prior = DMatrix::from_diagonal(&information(prior));
-    let covariance = clustered.map(|clustered| clustered + &bread * of_prior * &bread);
+    });
+    let (scores, clusters): (Vec<f64>, Vec<u32>) = scores.zip(cases.iter().map(|case| case.cluster)).unzip();
+    let (clustered, clusters) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &clusters);
+    let prior = DMatrix::from_diagonal(&information(prior));
+    let covariance = clustered.map(|clustered| clustered + &bread * prior * &bread);
     (found.at, covariance.unwrap_or(bread), clusters)
 }
 
@@ -406,7 +385,7 @@ fn maximum(sample: &Sample<Observed>, prior: &Prior) -> (DVector<f64>, DMatrix<f
 /// derivatives are not those of a maximum, their expectation stands for them.
 fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Objective {
     let s = at[1].exp();
-    let terms = |case: usize, sum: &mut Objective| {
+    let mut sum = Objective::sum(cases.len(), 3, |case, sum| {
         let Observed { predictor, happened, .. } = &cases[case];
         let by = [1.0, s * predictor.logit, predictor.magnitude];
         let z = at[0] + by[1] + at[2] * by[2] + predictor.added;
@@ -417,8 +396,7 @@ fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Object
             sum.gradient[row] += score * by[row];
             (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
         }
-    };
-    let mut sum = Objective::sum(cases.len(), 3, terms);
+    });
     let away = at - DVector::from_vec(prior.mean.to_vec());
     let precision = information(prior);
     let bend = sum.gradient[1];

@@ -52,14 +52,12 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
     // Of one earthquake alone nothing is known about others.
     let wider = if wider.is_finite() { wider } else { 1.0 };
-    let widened = |of: Estimate| {
-        let limit = |limit: f64| of.value * (limit / of.value).powf(wider);
-        Estimate { value: of.value, low: limit(of.low), high: limit(of.high) }
-    };
-    Ok(CapacityFit { theta: widened(fit.theta), beta: widened(fit.beta) })
+    let [theta, beta] = [fit.theta, fit.beta]
+        .map(|estimate| estimate.map(|x| estimate.value * (x / estimate.value).powf(wider)));
+    Ok(CapacityFit { theta, beta })
 }
 
-/// The same of capacities that do not depend on each other; `known` has the logarithms of the known ones.
+/// Fits it to capacities that do not depend on each other; `known` has the logarithms of the known ones.
 fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<CapacityFit, FitStatus> {
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);
@@ -75,11 +73,9 @@ fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<Capaci
     }
     let beta = (squares / (n - 1.0)).sqrt();
     let half_width = t_quantile(0.975, n - 1.0) * beta / n.sqrt();
-    let beta_at = |share| (squares / chi_squared_quantile(share, n - 1.0)).sqrt();
-    Ok(CapacityFit {
-        theta: Estimate::around(mean, half_width).map(f64::exp),
-        beta: Estimate { value: beta, low: beta_at(0.975), high: beta_at(0.025) },
-    })
+    let [low, high] = [0.975, 0.025].map(|share| (squares / chi_squared_quantile(share, n - 1.0)).sqrt());
+    let theta = Estimate::around(mean, half_width).map(f64::exp);
+    Ok(CapacityFit { theta, beta: Estimate { value: beta, low, high } })
 }
 
 /// Maximises the likelihood in 1/beta and (mu - mean)/beta, in which its logarithm is concave (Olsen 1978,
@@ -119,8 +115,8 @@ fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<Capacity
     let covariance = maximum.objective.information.try_inverse().filter(|_| maximum.converged);
     let covariance = covariance.ok_or(FitStatus::NotConverged)?;
     let (per_beta, shift) = (maximum.at[0], maximum.at[1]);
-    let of_mu = DVector::from_column_slice(&[-shift / (per_beta * per_beta), 1.0 / per_beta]);
-    let theta_factor = (Z_95 * (&covariance * &of_mu).dot(&of_mu).sqrt()).exp();
+    let by_mu = DVector::from_column_slice(&[-shift / (per_beta * per_beta), 1.0 / per_beta]);
+    let theta_factor = (Z_95 * (&covariance * &by_mu).dot(&by_mu).sqrt()).exp();
     let beta_factor = (Z_95 * covariance[(0, 0)].sqrt() / per_beta).exp();
     let (theta, beta) = ((mean + shift / per_beta).exp(), 1.0 / per_beta);
     Ok(CapacityFit {

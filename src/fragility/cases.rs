@@ -6,6 +6,7 @@ use super::measure::Measure;
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::{Outcome, Structure};
+use crate::statistics::Range;
 
 /// The most cases of one structure and suite.
 pub(crate) const MOST_CASES: usize = 20_000_000;
@@ -173,11 +174,12 @@ impl Cases {
 
     /// Returns the cases that have all measures and a `y`.
     pub fn sample<Y>(&self, measures: &[Measure], y: impl Fn(&Case) -> Option<Y>) -> Sample<Y> {
+        let nothing = Range { low: f64::INFINITY, high: f64::NEG_INFINITY };
         let mut sample = Sample {
             ln_im: vec![Vec::new(); measures.len()],
             y: Vec::new(),
             clusters: Vec::new(),
-            ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; measures.len()],
+            ranges: vec![nothing; measures.len()],
         };
         for case in &self.all {
             let Some(observed) = y(case) else { continue };
@@ -185,8 +187,7 @@ impl Cases {
             let Some(values) = values.collect::<Option<Vec<f64>>>() else { continue };
             for (k, value) in values.into_iter().enumerate() {
                 sample.ln_im[k].push(value.ln());
-                let [least, largest] = &mut sample.ranges[k];
-                (*least, *largest) = (least.min(value), largest.max(value));
+                sample.ranges[k] = sample.ranges[k].with(value);
             }
             sample.y.push(observed);
             sample.clusters.push(case.cluster);
@@ -205,13 +206,14 @@ pub struct Sample<Y> {
     /// Number of the cluster of each case.
     pub clusters: Vec<u32>,
     /// Least and largest value of each measure.
-    pub ranges: Vec<[f64; 2]>,
+    pub ranges: Vec<Range>,
 }
 
 impl<Y> Sample<Y> {
-    /// Returns the least (0) or largest (1) value of a measure; none without cases or such a measure.
-    pub(super) fn end(&self, measure: usize, end: usize) -> Option<f64> {
-        Some(self.ranges.get(measure)?[end]).filter(|end| end.is_finite())
+    /// Returns the least and largest value of the first measure or the second; none without cases or such a
+    /// measure.
+    pub(super) fn range(&self, measure: usize) -> Option<Range> {
+        self.ranges.get(measure).copied().filter(|range| range.low.is_finite())
     }
 
     /// Returns the columns of ln IM.

@@ -96,26 +96,40 @@ pub struct TransitionPoint {
 /// Tries all places where two planes may meet; none of them has too few cases on a side.
 pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
     let Sample { ln_im, y, .. } = demands(cases, &PLANE, &EVERYWHERE);
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let [x_mean, y_mean, edp_mean] = [&ln_im[0], &ln_im[1], &y].map(|values| mean(values));
-    let row = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
-    let mut order: Vec<usize> = (0..y.len()).collect();
-    order.sort_by(|&a, &b| ln_im[0][a].total_cmp(&ln_im[0][b]));
-    let moments = |cases: &[usize]| cases.iter().map(|&k| row(k) * row(k).transpose()).sum::<Matrix4<f64>>();
-    // The residual of the last of four variables on the others is an element of the inverse of their moments.
-    let rss = |moments: Matrix4<f64>| Some(1.0 / moments.try_inverse()?[(3, 3)]);
-    let (all, mut low, mut n_low) = (moments(&order), Matrix4::zeros(), 0);
+    let [x_mean, y_mean, edp_mean] =
+        [&ln_im[0], &ln_im[1], &y].map(|values| values.iter().sum::<f64>() / values.len() as f64);
+    let centred = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
+    let mut rows: Vec<Vector4<f64>> = (0..y.len()).map(centred).collect();
+    rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    let (all, mut low, mut n_low) = (moments(&rows), Matrix4::zeros(), 0);
     let (first, step, places) = PLACES;
-    let point = |place: usize| {
+    let mut points = Vec::new();
+    for place in 0..places {
         let im4 = first + step * place as f64;
-        let below = order.partition_point(|&k| ln_im[0][k] < im4.ln());
-        low += moments(&order[n_low..below]);
+        let below = rows.partition_point(|row| row[1] < im4.ln() - x_mean);
+        low += moments(&rows[n_low..below]);
         n_low = below;
-        let n_high = order.len() - below;
-        let pooled_rss = (n_low.min(n_high) >= LEAST_CASES).then(|| Some(rss(low)? + rss(all - low)?))??;
-        Some(TransitionPoint { im4, pooled_rss, n_low: n_low as i64, n_high: n_high as i64 })
-    };
-    (0..places).filter_map(point).collect()
+        let n_high = rows.len() - below;
+        if n_low.min(n_high) < LEAST_CASES {
+            continue;
+        }
+        if let Some((rss_low, rss_high)) = residual(low).zip(residual(all - low)) {
+            let (n_low, n_high) = (n_low as i64, n_high as i64);
+            points.push(TransitionPoint { im4, pooled_rss: rss_low + rss_high, n_low, n_high });
+        }
+    }
+    points
+}
+
+/// Sums the squares and products of 1, ln IM4, ln IM3 and ln EDP about their means.
+fn moments(rows: &[Vector4<f64>]) -> Matrix4<f64> {
+    rows.iter().map(|row| row * row.transpose()).sum()
+}
+
+/// Computes the residual sum of squares of the last of four variables on the others, an element of the
+/// inverse of their moments; none where that is singular.
+fn residual(moments: Matrix4<f64>) -> Option<f64> {
+    Some(1.0 / moments.try_inverse()?[(3, 3)])
 }
 
 /// Finds the place of the least pooled residual in a scan, and the first and last place whose residual is no
@@ -125,11 +139,11 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
 pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate> {
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
-    let is_likely = |point: &&TransitionPoint| {
+    let likely = scan.iter().filter(|point| {
         let cases = (point.n_low + point.n_high) as f64;
         cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
-    };
-    let mut likely = scan.iter().filter(is_likely).map(|point| point.im4);
+    });
+    let mut likely = likely.map(|point| point.im4);
     let low = likely.next()?;
     Some(Estimate { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
 }
@@ -245,10 +259,10 @@ impl DemandFit {
             transition_low: None,
             transition_high: None,
             n: sample.y.len() as i64,
-            im_x_low: sample.end(0, 0),
-            im_x_high: sample.end(0, 1),
-            im_y_low: sample.end(1, 0),
-            im_y_high: sample.end(1, 1),
+            im_x_low: sample.range(0).map(|range| range.low),
+            im_x_high: sample.range(0).map(|range| range.high),
+            im_y_low: sample.range(1).map(|range| range.low),
+            im_y_high: sample.range(1).map(|range| range.high),
             misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
             status: match &linear {
                 Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
@@ -287,22 +301,22 @@ impl DemandFit {
         let beta = self.beta?;
         let ims = values(self.im_x, self.im_y, measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
-        let of_median = variance(&self.covariance, &design_row(&ims));
-        let of_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
-        let half_width = quantile(confidence, self.degrees) * (of_median + of_beta).sqrt();
-        let p_at = |shift: f64| p_exceeding(ln_median + shift, limit_state, beta);
-        Some(Estimate::shifted(half_width, p_at))
+        let by_median = variance(&self.covariance, &design_row(&ims));
+        let by_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
+        let half_width = quantile(confidence, self.degrees) * (by_median + by_beta).sqrt();
+        Some(Estimate::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
     }
 
-    /// It with each independent error of its coefficients, and that of beta, at the limits of confidence.
-    pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [DemandFit; 2]> {
+    /// Returns it with each independent error of its coefficients, and that of beta, at the limits of
+    /// confidence.
+    pub(super) fn ends(&self, confidence: f64) -> Vec<[DemandFit; 2]> {
         let away = quantile(confidence, self.degrees);
-        let errors = independent_errors(&self.coefficients, &self.covariance, away);
-        let with = |coefficients: Vec<f64>| DemandFit { coefficients, ..self.clone() };
-        let of_beta = away / (2.0 * self.residual_degrees()).sqrt();
-        let with_beta = [-of_beta, of_beta]
-            .map(|off| DemandFit { beta: self.beta.map(|beta| beta * off.exp()), ..self.clone() });
-        errors.into_iter().map(move |ends| ends.map(with)).chain([with_beta])
+        let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
+        let errors = errors.map(|ends| ends.map(|coefficients| DemandFit { coefficients, ..self.clone() }));
+        let off = away / (2.0 * self.residual_degrees()).sqrt();
+        let by_beta =
+            [-off, off].map(|off| DemandFit { beta: self.beta.map(|beta| beta * off.exp()), ..self.clone() });
+        errors.chain([by_beta]).collect()
     }
 
     /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).
@@ -313,8 +327,16 @@ impl DemandFit {
     /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         let Some(beta) = self.beta else { return Vec::new() };
+        let b = &self.coefficients;
+        let errors: Vec<f64> = (0..b.len()).map(|k| self.covariance[k * (b.len() + 1)].sqrt()).collect();
+        let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
+        let error_of_zeta = (error_of_beta / b[1]).hypot(beta * errors[1] / (b[1] * b[1]));
+        let names = [Parameter::LnA, Parameter::B1, Parameter::B2];
+        let coefficients = names.into_iter().zip(b.iter().copied().zip(errors));
+        let dispersions =
+            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1], error_of_zeta))];
         let quantile = quantile(confidence, self.degrees);
-        let row = |parameter: Parameter, value: f64, standard_error: f64| ParameterRow {
+        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
             model: self.model.as_str().to_string(),
@@ -327,15 +349,7 @@ impl DemandFit {
             low: value - quantile * standard_error,
             high: value + quantile * standard_error,
             confidence,
-        };
-        let b = &self.coefficients;
-        let error = |k: usize| self.covariance[k * (b.len() + 1)].sqrt();
-        let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
-        let error_of_zeta = (error_of_beta / b[1]).hypot(beta * error(1) / (b[1] * b[1]));
-        let names = [Parameter::LnA, Parameter::B1, Parameter::B2].into_iter().enumerate();
-        let mut rows: Vec<_> = names.zip(b).map(|((k, name), b)| row(name, *b, error(k))).collect();
-        rows.push(row(Parameter::Beta, beta, error_of_beta));
-        rows.push(row(Parameter::Zeta, beta / b[1], error_of_zeta));
-        rows
+        });
+        rows.collect()
     }
 }

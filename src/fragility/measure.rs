@@ -89,8 +89,10 @@ impl FromStr for Pair {
     fn from_str(text: &str) -> Result<Pair, String> {
         let (x, y) =
             text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
-        let measure = |name: &str| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string());
-        let pair = Pair(measure(x)?, measure(y)?);
-        if pair.0 == pair.1 { Err(format!("'{text}': expected two different measures")) } else { Ok(pair) }
+        let [x, y] = [x, y].map(|name| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string()));
+        match Pair(x?, y?) {
+            Pair(x, y) if x == y => Err(format!("'{text}': expected two different measures")),
+            pair => Ok(pair),
+        }
     }
 }

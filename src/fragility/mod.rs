@@ -7,6 +7,7 @@
 //! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
+//! level        the estimate of a probability, or a limit
 //! model        the model that predicts: the calibrated surface, or the paper's fits
 //! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
 //! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
@@ -18,6 +19,7 @@ mod capacity;
 mod cases;
 mod demand;
 mod given_peak;
+mod level;
 mod measure;
 mod model;
 mod on_floor;
@@ -28,15 +30,16 @@ mod ready;
 mod surface;
 mod tree;
 
-pub(crate) use calibration::Level;
-pub use calibration::{Calibration, ObservedOutcome, Scenarios};
+pub use calibration::{Calibration, ObservedOutcome, Predictor};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
 pub(crate) use cases::{MOST_CASES, grouped};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
-pub use given_peak::GivenPeak;
+pub use given_peak::{GivenPeak, Uplift};
+pub(crate) use level::Level;
+pub use level::Scenarios;
 pub use measure::{Measure, Pair};
 pub use model::{Direction, Model, paper_probabilities};
 pub use overturning::{CurveFit, fit_curve, fit_curves};
@@ -44,6 +47,6 @@ pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
 pub use parameter::{Parameter, ParameterRow};
 pub use peaks::{JointPeaks, Peak, RatioGiven};
 pub(crate) use ready::ReadyObject;
-pub use surface::{Kind, Predictor, predictor};
+pub use surface::Kind;
 pub use tree::{GivenRocking, LimitState, LimitStates, Probabilities, Z_95};
 pub use tree::{independent_failure, p_failure, p_failure_given_rocking, p_no_rocking};

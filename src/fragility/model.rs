@@ -2,6 +2,7 @@
 
 use super::calibration::Calibration;
 use super::demand::DemandFit;
+use super::given_peak::Uplift;
 use super::on_floor;
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
@@ -32,6 +33,17 @@ pub struct Direction {
     pub model: Model,
 }
 
+impl Direction {
+    /// Returns the ground accelerations that uplift it, m/s2.
+    pub fn uplift_m_s2(&self) -> Uplift {
+        let uplift = self.structure.uplift_acceleration_m_s2();
+        match self.model.floor() {
+            Some(_) => on_floor::uplift_m_s2(&self.structure),
+            None => Uplift { least: uplift, usual: uplift },
+        }
+    }
+}
+
 /// Probability with which the limits hold the truth.
 pub(super) const CONFIDENCE: f64 = 0.95;
 
@@ -46,44 +58,46 @@ impl Model {
         }
     }
 
-    /// The same on a floor; `None` for the paper's model, which is fitted to the ground.
-    pub fn on(&self, floor: Option<Floor>) -> Option<Model> {
-        match (self.clone(), floor) {
-            (Model::Calibrated { overturning, exceeding, .. }, floor) => {
-                Some(Model::Calibrated { overturning, exceeding, floor })
-            }
-            (model, None) => Some(model),
-            (Model::Paper { .. }, Some(_)) => None,
+    /// Returns it on a floor; `None` for the paper's model, which is fitted to the ground.
+    pub fn on(mut self, on: Option<Floor>) -> Option<Model> {
+        match &mut self {
+            Model::Calibrated { floor, .. } => *floor = on,
+            Model::Paper { .. } if on.is_some() => return None,
+            Model::Paper { .. } => {}
         }
+        Some(self)
     }
 
-    /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of both
+    /// Returns it with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of both
     /// calibrations of the surface have the same causes.
     pub fn ends(&self) -> Vec<[Model; 2]> {
         match *self {
             Model::Calibrated { ref overturning, ref exceeding, floor } => {
-                let joined = |([low, high], [low_ex, high_ex]): ([Calibration; 2], [Calibration; 2])| {
+                let pairs = overturning.ends().into_iter().zip(exceeding.ends());
+                let models = pairs.map(|([low, high], [low_ex, high_ex])| {
                     [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Calibrated {
                         overturning,
                         exceeding,
                         floor,
                     })
-                };
-                overturning.ends().zip(exceeding.ends()).map(joined).collect()
+                });
+                models.collect()
             }
             Model::Paper { ref demand, ref overturning, limit_state, peaks } => {
                 let with = |demand, overturning| Model::Paper { demand, overturning, limit_state, peaks };
-                let of_plane = |at: usize, plane: DemandFit| {
-                    let mut planes = demand.clone();
-                    planes[at] = plane;
-                    with(planes, overturning.clone())
-                };
-                let curves = overturning.ends(CONFIDENCE);
-                let curves = curves.map(|ends| ends.map(|curve| with(demand.clone(), curve)));
-                let planes = demand.iter().enumerate().flat_map(|(at, plane)| {
-                    plane.ends(CONFIDENCE).map(move |ends| ends.map(|plane| of_plane(at, plane)))
-                });
-                curves.chain(planes).collect()
+                let curves = overturning.ends(CONFIDENCE).into_iter();
+                let mut all: Vec<[Model; 2]> =
+                    curves.map(|ends| ends.map(|curve| with(demand.clone(), curve))).collect();
+                for (at, plane) in demand.iter().enumerate() {
+                    all.extend(plane.ends(CONFIDENCE).into_iter().map(|ends| {
+                        ends.map(|plane| {
+                            let mut planes = demand.clone();
+                            planes[at] = plane;
+                            with(planes, overturning.clone())
+                        })
+                    }));
+                }
+                all
             }
         }
     }
@@ -92,11 +106,11 @@ impl Model {
     pub fn kind(&self) -> Kind {
         match self {
             Model::Calibrated { overturning, .. } => overturning.kind,
-            Model::Paper { overturning, .. } => Kind::of_word(overturning.suite.as_deref()),
+            Model::Paper { overturning, .. } => Kind::from_suite(overturning.suite.as_deref()),
         }
     }
 
-    /// The floor that it is for; `None` for the ground.
+    /// Returns the floor that it is for; `None` for the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {
             Model::Calibrated { floor, .. } => *floor,
@@ -104,20 +118,12 @@ impl Model {
         }
     }
 
-    /// Ground accelerations that uplift a structure, the least possible and a typical one, m/s2.
-    pub fn uplift_m_s2(&self, structure: &Structure) -> [f64; 2] {
-        match self.floor() {
-            Some(_) => on_floor::uplift_m_s2(structure),
-            None => [structure.uplift_acceleration_m_s2(); 2],
-        }
-    }
-
-    /// Whether probabilities depend on magnitude: those of the paper do not.
+    /// Returns whether probabilities depend on magnitude: those of the paper do not.
     pub fn depends_on_magnitude(&self) -> bool {
         matches!(self, Model::Calibrated { .. })
     }
 
-    /// Values of ln(PGV / PGA), s, at which probabilities bend, of motions of this magnitude.
+    /// Returns the values of ln(PGV / PGA), s, at which probabilities bend, of motions of this magnitude.
     pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
         match self {
             Model::Calibrated { overturning, .. } => surface::bends(overturning.kind, mw),
@@ -125,7 +131,7 @@ impl Model {
         }
     }
 
-    /// How PGA and PGV go together in the motions that it stands for.
+    /// Returns how PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> JointPeaks {
         match self {
             Model::Calibrated { overturning, .. } => overturning.peaks(),
@@ -135,8 +141,8 @@ impl Model {
 
     /// Returns the warnings about its prediction at an intensity.
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
-        let of_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
-        let measures = of_floor.as_ref().unwrap_or(measures);
+        let on_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
+        let measures = on_floor.as_ref().unwrap_or(measures);
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
             Model::Calibrated { overturning, exceeding, .. } => {
@@ -146,8 +152,8 @@ impl Model {
                     && overturning.covers(structure, measures);
                 let unusual = (!surface::covers_structure(structure)).then_some(Warning::UnusualStructure);
                 let outside = (rocks && !covered).then_some(Warning::Extrapolated);
-                let of_fits = [overturning.warnings(), exceeding.warnings()].concat();
-                outside.into_iter().chain(unusual).chain(of_fits).collect()
+                let fits = [overturning.warnings(), exceeding.warnings()].concat();
+                outside.into_iter().chain(unusual).chain(fits).collect()
             }
             Model::Paper { demand, overturning, .. } => {
                 let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));

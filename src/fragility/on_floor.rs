@@ -1,6 +1,7 @@
 //! The motions of a floor, given that of the ground: its own peaks, averaged over what they may be, and how
 //! narrow its band is, which moves the probabilities.
 
+use super::given_peak::Uplift;
 use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
@@ -27,12 +28,13 @@ const NODES: [[f64; 3]; 7] = [
 ];
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
-/// Ground accelerations that uplift a structure on a floor: by the strongest floor, and by a usual one, m/s2.
-pub(super) fn uplift_m_s2(structure: &Structure) -> [f64; 2] {
-    [MOST_AMPLIFIED, MEDIAN_AMPLIFIED].map(|factor| structure.uplift_acceleration_m_s2() / factor)
+/// Returns the ground accelerations that uplift a structure on a floor, m/s2.
+pub(super) fn uplift_m_s2(structure: &Structure) -> Uplift {
+    let uplift = structure.uplift_acceleration_m_s2();
+    Uplift { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
 }
 
-/// The measures of a floor with median peaks, of those of the ground.
+/// Returns the measures of a floor with median peaks, from those of the ground.
 pub(super) fn median_measures(
     floor: Floor,
     structure: &Structure,
@@ -44,7 +46,6 @@ pub(super) fn median_measures(
 /// A structure on a floor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OnFloor {
-    pub floor: Floor,
     amplifier: Amplifier,
     /// What the logits of P_ro and P_ex gain from a motion that is all resonance.
     narrow: [f64; 2],
@@ -58,22 +59,22 @@ impl OnFloor {
             OVERTURNING[0] + OVERTURNING[1] * ln_periods,
             a + by_limit * (limit_state / 0.1).ln() + b * ln_periods,
         ];
-        OnFloor { floor, amplifier: floor.amplifier(), narrow }
+        OnFloor { amplifier: floor.amplifier(), narrow }
     }
 
-    /// The motions of the floor for those of the ground with this ln(PGV / PGA), s.
+    /// Returns the motions of the floor for those of the ground with this ln(PGV / PGA), s.
     pub fn motions(&self, ln_seconds: f64) -> FloorMotions {
         let amplified = self.amplifier.at(ln_seconds);
-        let node = |[x, y, weight]: [f64; 3]| {
+        let nodes = NODES.map(|[x, y, weight]| {
             let along = CORRELATION * x + (1.0 - CORRELATION * CORRELATION).sqrt() * y;
             let ln_pfa = amplified.ln_pfa + amplified.sd_ln_pfa * x;
             let ln_pfv = amplified.ln_pfv + amplified.sd_ln_pfv * along;
             FloorMotion { pfa: ln_pfa.exp(), ln_pfa, ln_seconds: ln_seconds + ln_pfv - ln_pfa, weight }
-        };
-        FloorMotions { nodes: NODES.map(node), amplified }
+        });
+        FloorMotions { nodes, amplified }
     }
 
-    /// What the logits of P_ro and P_ex gain.
+    /// Returns what the logits of P_ro and P_ex gain.
     pub fn added(&self, motions: &FloorMotions) -> [f64; 2] {
         self.narrow.map(|narrow| motions.amplified.resonant_share * narrow)
     }
@@ -99,7 +100,7 @@ pub(super) struct FloorMotion {
 }
 
 impl FloorMotions {
-    /// The probability that the floor uplifts a structure, of ln IM4 by the PGA of the ground.
+    /// Computes the probability that the floor uplifts a structure, from ln IM4 by the PGA of the ground.
     pub fn p_rocking(&self, ln_im4: f64) -> f64 {
         let Amplified { ln_pfa, sd_ln_pfa, .. } = self.amplified;
         let ln_median = ln_im4 + ln_pfa;

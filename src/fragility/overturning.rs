@@ -61,10 +61,10 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
-        im_x_low: sample.end(0, 0),
-        im_x_high: sample.end(0, 1),
-        im_y_low: sample.end(1, 0),
-        im_y_high: sample.end(1, 1),
+        im_x_low: sample.range(0).map(|range| range.low),
+        im_x_high: sample.range(0).map(|range| range.high),
+        im_y_low: sample.range(1).map(|range| range.low),
+        im_y_high: sample.range(1).map(|range| range.high),
         misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
         status: match &probit {
             Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
@@ -88,8 +88,8 @@ pub fn lambda(b: &[f64]) -> (f64, Vec<f64>) {
 /// Computes the logarithm of the median, -b0/slope, and its gradient.
 pub fn mu(b: &[f64]) -> (f64, Vec<f64>) {
     let slope = slope(b);
-    let of_slopes = vec![b[0] / (slope * slope); b.len() - 1];
-    (-b[0] / slope, [vec![-1.0 / slope], of_slopes].concat())
+    let by_slopes = vec![b[0] / (slope * slope); b.len() - 1];
+    (-b[0] / slope, [vec![-1.0 / slope], by_slopes].concat())
 }
 
 /// Computes the dispersion, 1/slope, and its gradient.
@@ -162,28 +162,26 @@ impl CurveFit {
             _ => ims[0],
         };
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
-        let p_at = |shift: f64| p_overturning(im, mu - shift, beta);
-        Some(Estimate::shifted(quantile(confidence, self.degrees) * error, p_at))
+        let half_width = quantile(confidence, self.degrees) * error;
+        Some(Estimate::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
     }
 
-    /// It with each independent error of its coefficients at the limits of confidence.
-    pub(super) fn ends(&self, confidence: f64) -> impl Iterator<Item = [CurveFit; 2]> {
+    /// Returns it with each independent error of its coefficients at the limits of confidence.
+    pub(super) fn ends(&self, confidence: f64) -> Vec<[CurveFit; 2]> {
         let away = quantile(confidence, self.degrees);
-        let errors = independent_errors(&self.coefficients, &self.covariance, away);
-        let with = |coefficients: Vec<f64>| CurveFit { coefficients, ..self.clone() };
-        errors.into_iter().map(move |ends| ends.map(with))
+        let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
+        errors.map(|ends| ends.map(|coefficients| CurveFit { coefficients, ..self.clone() })).collect()
     }
 
     /// Returns whether the measures are within those of the cases.
     pub fn covers(&self, measures: &IntensityMeasures) -> bool {
-        let is_inside = |measure: Option<Measure>, low: Option<f64>, high: Option<f64>| {
-            let value = measure.and_then(|measure| measure.value_of(measures));
-            value.is_none_or(|value| {
+        let ranges =
+            [(Some(self.im_x), self.im_x_low, self.im_x_high), (self.im_y, self.im_y_low, self.im_y_high)];
+        ranges.into_iter().all(|(measure, low, high)| {
+            measure.and_then(|measure| measure.value_of(measures)).is_none_or(|value| {
                 low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
             })
-        };
-        is_inside(Some(self.im_x), self.im_x_low, self.im_x_high)
-            && is_inside(self.im_y, self.im_y_low, self.im_y_high)
+        })
     }
 
     /// Returns lambda (of a hybrid), mu, beta and theta with their errors by the delta method and limits;
@@ -192,29 +190,30 @@ impl CurveFit {
         if self.coefficients.is_empty() {
             return Vec::new();
         }
-        let row = |parameter: Parameter, estimate: Estimate, standard_error: f64| ParameterRow {
-            suite: self.suite.clone(),
-            structure: self.structure.clone(),
-            model: self.event.as_str().to_string(),
-            im_x: self.im_x,
-            im_y: self.im_y,
-            range_low: None,
-            parameter,
-            value: estimate.value,
-            standard_error,
-            low: estimate.low,
-            high: estimate.high,
-            confidence,
-        };
-        let quantile = quantile(confidence, self.degrees);
-        let with_error = |parameter: Parameter, (value, gradient): (f64, Vec<f64>)| {
-            let error = variance(&self.covariance, &gradient).sqrt();
-            row(parameter, Estimate::around(value, quantile * error), error)
-        };
         let b = &self.coefficients;
-        let ratio = self.im_y.map(|_| with_error(Parameter::Lambda, lambda(b)));
-        let mu = with_error(Parameter::Mu, mu(b));
-        let theta = row(Parameter::Theta, mu.estimate().map(f64::exp), mu.value.exp() * mu.standard_error);
-        ratio.into_iter().chain([mu, with_error(Parameter::Beta, beta(b)), theta]).collect()
+        let hybrid = self.im_y.map(|_| (Parameter::Lambda, lambda(b)));
+        let estimates = hybrid.into_iter().chain([(Parameter::Mu, mu(b)), (Parameter::Beta, beta(b))]);
+        let rows = estimates.map(|(parameter, (value, gradient))| {
+            let standard_error = variance(&self.covariance, &gradient).sqrt();
+            let half_width = quantile(confidence, self.degrees) * standard_error;
+            ParameterRow {
+                suite: self.suite.clone(),
+                structure: self.structure.clone(),
+                model: self.event.as_str().to_string(),
+                im_x: self.im_x,
+                im_y: self.im_y,
+                range_low: None,
+                parameter,
+                value,
+                standard_error,
+                low: value - half_width,
+                high: value + half_width,
+                confidence,
+            }
+        });
+        let mut rows: Vec<ParameterRow> = rows.collect();
+        let theta = rows.iter().find(|row| row.parameter == Parameter::Mu).map(ParameterRow::exp);
+        rows.extend(theta);
+        rows
     }
 }

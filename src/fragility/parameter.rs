@@ -60,4 +60,11 @@ impl ParameterRow {
     pub fn estimate(&self) -> Estimate {
         Estimate { value: self.value, low: self.low, high: self.high }
     }
+
+    /// Returns theta, from mu.
+    pub(super) fn exp(&self) -> ParameterRow {
+        let [value, low, high] = [self.value, self.low, self.high].map(f64::exp);
+        let standard_error = value * self.standard_error;
+        ParameterRow { parameter: Parameter::Theta, value, standard_error, low, high, ..self.clone() }
+    }
 }

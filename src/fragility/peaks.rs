@@ -16,7 +16,7 @@ keywords! {
 }
 
 impl Peak {
-    /// The short name, the unit in which it is written, in SI units, and its symbol.
+    /// Returns the short name, the unit in which it is written, in SI units, and its symbol.
     pub fn words(self) -> (&'static str, f64, &'static str) {
         match self {
             Peak::Pga => ("PGA", G_M_S2, "g"),
@@ -28,9 +28,9 @@ impl Peak {
 /// The ratio PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPeaks {
-    /// Of motions of one PGA.
+    /// The ratio of motions of one PGA.
     pub given_pga: RatioGiven,
-    /// Of motions of one PGV.
+    /// The ratio of motions of one PGV.
     pub given_pgv: RatioGiven,
 }
 
@@ -64,11 +64,13 @@ impl RatioGiven {
         let (intercept, slope, bend) = (b[0], b[1], b.get(2).copied().unwrap_or(0.0));
         let line = RatioGiven { intercept, slope, knot, bend, sd_below: 0.0, sd_above: 0.0 };
         let off: Vec<f64> = ln_peak.iter().zip(ln_ratio).map(|(&u, ratio)| ratio - line.mean(u)).collect();
-        let sd = |is_on_side: fn(&f64) -> bool| {
-            let squares: Vec<f64> = off.iter().copied().filter(is_on_side).map(|off| off * off).collect();
-            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
-        };
-        Some(RatioGiven { sd_below: sd(|off| *off < 0.0), sd_above: sd(|off| *off > 0.0), ..line })
+        let [sd_below, sd_above] = [-1.0, 1.0].map(|side| {
+            let squares = off.iter().filter(|off| *off * side > 0.0).map(|off| off * off);
+            let (count, sum) =
+                squares.fold((0.0_f64, 0.0), |(count, sum), square| (count + 1.0, sum + square));
+            (sum / count.max(1.0)).sqrt()
+        });
+        Some(RatioGiven { sd_below, sd_above, ..line })
     }
 
     /// Returns the fields in their order.
@@ -76,8 +78,8 @@ impl RatioGiven {
         vec![self.intercept, self.slope, self.knot, self.bend, self.sd_below, self.sd_above]
     }
 
-    /// Of the fields in their order; `None` for another number of numbers.
-    pub(super) fn of_numbers(numbers: &[f64]) -> Option<RatioGiven> {
+    /// Makes it of the fields in their order; none of another number of numbers.
+    pub(super) fn from_numbers(numbers: &[f64]) -> Option<RatioGiven> {
         let &[intercept, slope, knot, bend, sd_below, sd_above] = numbers else { return None };
         Some(RatioGiven { intercept, slope, knot, bend, sd_below, sd_above })
     }
@@ -86,23 +88,23 @@ impl RatioGiven {
         self.intercept + self.slope * ln_peak + self.bend * (ln_peak - self.knot).max(0.0)
     }
 
-    /// A straight line in ln of the peak (m/s2 or m/s), and the standard deviation about it.
+    /// Makes a straight line in ln of the peak (m/s2 or m/s), and the standard deviation about it.
     pub fn line(intercept: f64, slope: f64, sd: f64) -> RatioGiven {
         RatioGiven { intercept, slope, knot: 0.0, bend: 0.0, sd_below: sd, sd_above: sd }
     }
 
-    /// Whether all motions of an intensity have the same ratio.
+    /// Returns whether all motions of an intensity have the same ratio.
     pub fn is_exact(&self) -> bool {
         self.sd_below == 0.0 && self.sd_above == 0.0
     }
 
-    /// PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its
+    /// Returns PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its
     /// median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         self.ln_ratio(intensity.ln(), deviations).exp()
     }
 
-    /// ln of it, of ln of the intensity.
+    /// Returns ln(PGV / PGA), from ln of the intensity.
     pub(super) fn ln_ratio(&self, ln_intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
         self.mean(ln_intensity) + deviations * sd
@@ -119,11 +121,11 @@ impl JointPeaks {
             return None;
         }
         let ln_ratio: Vec<f64> = ln_pgv.iter().zip(&ln_pga).map(|(pgv, pga)| pgv - pga).collect();
-        let given = |ln_peak: &[f64]| RatioGiven::fit(ln_peak, &ln_ratio);
-        Some(JointPeaks { given_pga: given(&ln_pga)?, given_pgv: given(&ln_pgv)? })
+        let given_pga = RatioGiven::fit(&ln_pga, &ln_ratio)?;
+        Some(JointPeaks { given_pga, given_pgv: RatioGiven::fit(&ln_pgv, &ln_ratio)? })
     }
 
-    /// The ratio given a peak.
+    /// Returns the ratio given a peak.
     pub fn given(&self, peak: Peak) -> RatioGiven {
         match peak {
             Peak::Pga => self.given_pga,

@@ -3,11 +3,11 @@
 
 use std::sync::LazyLock;
 
-use super::measure::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
 use crate::keyword::{Keyword, keywords};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
+use crate::statistics::Range;
 
 keywords! {
     /// Kinds of motion that the surface knows.
@@ -24,9 +24,9 @@ keywords! {
 }
 
 impl Kind {
-    /// The kind of a suite by its word in tables, on the ground or a floor; that of an unknown word, or of
-    /// none, is that of records.
-    pub fn of_word(suite: Option<&str>) -> Kind {
+    /// Returns the kind of a suite by its word in tables, on the ground or a floor; recorded of an unknown
+    /// word, or of none.
+    pub fn from_suite(suite: Option<&str>) -> Kind {
         match suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,
             Some(Suite::Csgm) => Kind::Csgm,
@@ -34,41 +34,6 @@ impl Kind {
             Some(Suite::Record) | None => Kind::Recorded,
         }
     }
-}
-
-/// The logit of the surface and its terms for one case, to be calibrated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Predictor {
-    /// L, the logit of the surface.
-    pub logit: f64,
-    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
-    /// tells.
-    pub magnitude: f64,
-    /// Standard deviation of M where it is not known, else 0.
-    pub magnitude_sd: f64,
-    /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
-    pub added: f64,
-}
-
-/// Computes the predictor of P_ro, or of P_ex at a limit state |theta|max / alpha, under a motion of
-/// magnitude `mw`, where it is known; none where a measure is missing.
-pub fn predictor(
-    kind: Kind,
-    structure: &Structure,
-    measures: &IntensityMeasures,
-    mw: Option<f64>,
-    limit_state: Option<f64>,
-) -> Option<Predictor> {
-    let im5 = Measure::Im5.value_of(measures)?;
-    let section = Section::new(kind, structure, limit_state, [0.0, 1.0, 1.0], mw);
-    let cut = section.at(measures.im4, measures.im4.ln());
-    let ln_seconds = (im5 / (measures.im4 * structure.p_rad_s)).ln();
-    Some(Predictor {
-        logit: cut.logit(ln_seconds),
-        magnitude: section.magnitude(ln_seconds),
-        magnitude_sd: section.magnitude_sd,
-        added: cut.gain(ln_seconds),
-    })
 }
 
 /// The surface for one structure, limit state, calibration and magnitude: a function of IM4 and of
@@ -94,7 +59,7 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A magnitude that is
+    /// Makes the section of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A magnitude that is
     /// not known is that which PGV / PGA tells, which does not count where P would fall with it: P never
     /// falls as PGV rises.
     pub fn new(
@@ -134,14 +99,14 @@ impl Section {
         }
     }
 
-    /// M - 6.9 of motions with this ln(PGV / PGA), s.
+    /// Returns M - 6.9 of motions with this ln(PGV / PGA), s.
     pub fn magnitude(&self, ln_seconds: f64) -> f64 {
         self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
-    /// The section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule
-    /// in w = ln IM4 - r - 0.4 l. IM4 is held below the end of the domain: beyond, a polynomial means
-    /// nothing.
+    /// Returns the section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule
+    /// in w = ln IM4 - r - 0.4 l. PGA is held where IM4 ends in the domain: beyond, a polynomial means
+    /// nothing, and PGV alone counts, so that P does not fall as PGV / PGA falls.
     pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
         let Surface { ln_im4: range, ln_ratio, .. } = &*SURFACE;
         let held = range.held(ln_im4);
@@ -150,13 +115,20 @@ impl Section {
         for w in (0..POWERS).rev() {
             for r in (0..POWERS).rev() {
                 let lower = if r > 0 { cubic[r - 1] } else { 0.0 };
-                let [of_1, of_x, of_x2] = [0, 1, 2].map(|power| self.coefficients[power][w][r]);
-                cubic[r] = w_at_r_0 * cubic[r] - lower + (of_1 + x * (of_x + x * of_x2));
+                let [a, b, c] = [0, 1, 2].map(|power| self.coefficients[power][w][r]);
+                cubic[r] = w_at_r_0 * cubic[r] - lower + (a + x * (b + x * c));
             }
         }
         let Uplift { n, ln_d, k } = self.uplift;
         let ln_gain = n * (ln_d - (im4 - 1.0).max(0.0).ln() - k * (self.ln_p + ln_im4));
-        Cut { cubic, ln_p: self.ln_p_held, ln_ratio: *ln_ratio, ln_gain, slope: -n * k }
+        Cut {
+            cubic,
+            excess: ln_im4 - held,
+            ln_p: self.ln_p_held,
+            ln_ratio: *ln_ratio,
+            ln_gain,
+            slope: -n * k,
+        }
     }
 }
 
@@ -165,6 +137,8 @@ impl Section {
 pub(super) struct Cut {
     /// c + s L by powers of r.
     cubic: [f64; POWERS],
+    /// ln of PGA over that at which it is held.
+    pub excess: f64,
     /// ln p, and the range of ln(PGA / PGV), within the domain.
     ln_p: f64,
     ln_ratio: Range,
@@ -176,7 +150,7 @@ pub(super) struct Cut {
 impl Cut {
     /// Computes c + s L. PGA / PGV is held within the domain.
     pub fn logit(&self, ln_seconds: f64) -> f64 {
-        let r = self.ln_ratio.held(-ln_seconds) - self.ln_p;
+        let r = self.ln_ratio.held(-ln_seconds - self.excess) - self.ln_p;
         self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)
     }
 
@@ -186,13 +160,18 @@ impl Cut {
     }
 }
 
-/// Values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude
+/// Returns the PGA (m/s2) from which on it is held, where IM4 ends in the domain.
+pub(super) fn held_pga_m_s2(structure: &Structure) -> f64 {
+    structure.uplift_acceleration_m_s2() * SURFACE.domain.im4.high
+}
+
+/// Returns the values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude
 /// is not known, of the magnitudes of the data.
 pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
-    let of_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
-    let of_magnitude = [range.low, range.high].map(|mw| (mw - intercept) / slope);
-    of_domain.into_iter().chain(of_magnitude.into_iter().filter(|_| mw.is_none())).collect()
+    let by_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
+    let by_magnitude = [range.low, range.high].map(|mw| (mw - intercept) / slope);
+    by_domain.into_iter().chain(by_magnitude.into_iter().filter(|_| mw.is_none())).collect()
 }
 
 /// Returns whether a structure is within those that the surface was fitted to.
@@ -211,30 +190,6 @@ pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_
         && limit.has(limit_state)
 }
 
-/// The relative amount by which a value may pass a bound, as rounding in print does.
-const UNSEEN: f64 = 1e-5;
-
-/// The values between two bounds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Range {
-    low: f64,
-    high: f64,
-}
-
-impl Range {
-    fn has(&self, value: f64) -> bool {
-        (self.low * (1.0 - UNSEEN)..=self.high * (1.0 + UNSEEN)).contains(&value)
-    }
-
-    fn held(&self, value: f64) -> f64 {
-        value.clamp(self.low, self.high)
-    }
-
-    fn ln(&self) -> Range {
-        Range { low: self.low.ln(), high: self.high.ln() }
-    }
-}
-
 /// How the calibrations of structures under a kind of motion are distributed: c, ln s and m are normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prior {
@@ -246,14 +201,14 @@ pub(super) struct Prior {
     by_limit: f64,
 }
 
-/// The prior of a kind of motion, of P_ex at a limit state.
+/// Returns the prior of a kind of motion, of P_ex at a limit state.
 pub(super) fn prior(kind: Kind, limit_state: Option<f64>) -> Prior {
     let mut prior = SURFACE.curve(kind, limit_state).prior;
     prior.mean[0] += prior.by_limit * limits(limit_state)[1];
     prior
 }
 
-/// How PGA and PGV go together in the motions of a kind.
+/// Returns how PGA and PGV go together in the motions of a kind.
 pub(super) fn peaks(kind: Kind) -> JointPeaks {
     SURFACE.kinds[kind as usize].peaks
 }
@@ -270,7 +225,7 @@ const FIXED: [&str; 4] = ["eta", "p", "limit", "end"];
 const POWERS: usize = 4;
 const POWERS_OF_X: usize = 3;
 
-/// Of a limit state c, held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where nothing
+/// Returns, of a limit state c held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where nothing
 /// is left below overturning; 0 of P_ro.
 fn limits(limit_state: Option<f64>) -> [f64; 2] {
     limit_state.map_or([0.0; 2], |limit_state| {
@@ -282,11 +237,11 @@ fn limits(limit_state: Option<f64>) -> [f64; 2] {
 /// The file, read.
 struct Surface {
     domain: Domain,
-    /// Those of the domain in logarithms.
+    /// The last two of the domain in logarithms.
     ln_ratio: Range,
     ln_im4: Range,
-    /// Of each kind of motion.
-    kinds: [OfKind; 4],
+    /// What it says of each kind of motion.
+    kinds: [KindOfMotion; 4],
 }
 
 /// What the surface was fitted to: p, eta and alpha of structures, limit states, PGA / PGV (1/s) and measures
@@ -302,7 +257,7 @@ struct Domain {
 }
 
 /// What the file says of a kind of motion.
-struct OfKind {
+struct KindOfMotion {
     magnitude: ExpectedMagnitude,
     /// P_ro and P_ex.
     curves: [Curve; 2],
@@ -375,49 +330,53 @@ impl Surface {
     fn parse(text: &'static str) -> Surface {
         let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        let range = |name: &str| {
-            let [low, high] = numbers(&rows, &["domain", name]);
-            Range { low, high }
-        };
-        let [p, eta, alpha, limit, ratio, im4, im5] =
-            ["p", "eta", "alpha", "limit", "ratio", "im4", "im5"].map(range);
+        let [p, eta, alpha, limit, ratio, im4, im5] = ["p", "eta", "alpha", "limit", "ratio", "im4", "im5"]
+            .map(|name| {
+                let [low, high] = numbers(&rows, &["domain", name]);
+                Range { low, high }
+            });
         Surface {
             ln_ratio: ratio.ln(),
             ln_im4: im4.ln(),
             domain: Domain { p, eta, alpha, limit, ratio, im4, im5 },
             kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
-                .map(|kind| OfKind::parse(&rows, kind)),
+                .map(|kind| KindOfMotion::parse(&rows, kind)),
         }
     }
 }
 
-impl OfKind {
-    fn parse(rows: &[Vec<&str>], kind: Kind) -> OfKind {
+impl KindOfMotion {
+    fn parse(rows: &[Vec<&str>], kind: Kind) -> KindOfMotion {
         let word = kind.as_str();
         let [intercept, slope, sd, low, high] = numbers(rows, &["magnitude", word]);
-        let term = |row: &Vec<&str>| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number"));
-        let curve = |name: &str| {
-            let [n, d, k] = numbers(rows, &["uplift", word, name]);
-            let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
-                numbers(rows, &["calibration", word, name]);
-            Curve {
-                terms: rows.iter().filter(|row| row.starts_with(&["term", name])).map(term).collect(),
-                uplift: Uplift { n, ln_d: d.ln(), k },
-                prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
-            }
-        };
-        let ratio_given = |peak: &str| {
-            RatioGiven::of_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
-        };
-        OfKind {
+        let [given_pga, given_pgv] = ["pga", "pgv"].map(|peak| {
+            RatioGiven::from_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
+        });
+        KindOfMotion {
             magnitude: ExpectedMagnitude { intercept, slope, sd, range: Range { low, high } },
-            curves: ["pro", "pex"].map(curve),
-            peaks: JointPeaks { given_pga: ratio_given("pga"), given_pgv: ratio_given("pgv") },
+            curves: ["pro", "pex"].map(|name| Curve::parse(rows, kind, name)),
+            peaks: JointPeaks { given_pga, given_pgv },
         }
     }
 }
 
-/// The numbers of the row that begins with these words.
+impl Curve {
+    fn parse(rows: &[Vec<&str>], kind: Kind, name: &str) -> Curve {
+        let [n, d, k] = numbers(rows, &["uplift", kind.as_str(), name]);
+        let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
+            numbers(rows, &["calibration", kind.as_str(), name]);
+        let terms = rows.iter().filter(|row| row.starts_with(&["term", name]));
+        Curve {
+            terms: terms
+                .map(|row| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number")))
+                .collect(),
+            uplift: Uplift { n, ln_d: d.ln(), k },
+            prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
+        }
+    }
+}
+
+/// Returns the numbers of the row that begins with these words.
 fn numbers<const N: usize>(rows: &[Vec<&str>], words: &[&str]) -> [f64; N] {
     let row = rows.iter().find(|row| row.starts_with(words)).expect("the file has it");
     std::array::from_fn(|k| row[words.len() + k].parse().expect("a number"))

@@ -74,12 +74,12 @@ impl<T> LimitStates<T> {
 }
 
 impl<T: Copy> LimitStates<T> {
-    /// Makes the same of all.
+    /// Makes all alike.
     pub const fn all(value: T) -> LimitStates<T> {
         LimitStates { rocking: value, failure: value, overturning: value }
     }
 
-    /// Returns that of a limit state.
+    /// Returns what there is of a limit state.
     pub fn get(&self, state: LimitState) -> T {
         match state {
             LimitState::Rocking => self.rocking,
@@ -103,13 +103,11 @@ pub(super) const UNKNOWN: Estimate = Estimate::exact(f64::NAN);
 /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
 /// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
 pub fn independent_failure(p_ro: Estimate, p_ex: Estimate) -> Estimate {
-    // Finite, so that a certain event has limits.
-    let ln_survival = |p: f64| (-p).ln_1p().max(f64::MIN_POSITIVE.ln());
-    let (ro, ex) = (ln_survival(p_ro.value), ln_survival(p_ex.value));
-    let away = |ro_limit: f64, ex_limit: f64| (ln_survival(ro_limit) - ro).hypot(ln_survival(ex_limit) - ex);
+    // ln of survival, finite, so that a certain event has limits.
+    let [ro, ex] = [p_ro, p_ex].map(|p| p.map(|p| (-p).ln_1p().max(f64::MIN_POSITIVE.ln())));
     let value = p_failure_given_rocking(p_ro.value, p_ex.value);
-    let low = -(ro + ex + away(p_ro.low, p_ex.low)).exp_m1();
-    let high = -(ro + ex - away(p_ro.high, p_ex.high)).exp_m1();
+    let low = -(ro.value + ex.value + (ro.low - ro.value).hypot(ex.low - ex.value)).exp_m1();
+    let high = -(ro.value + ex.value - (ro.high - ro.value).hypot(ex.high - ex.value)).exp_m1();
     Estimate {
         value,
         // What rounding loses of limits near 0.

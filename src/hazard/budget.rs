@@ -56,11 +56,14 @@ impl Budget {
         Estimate { value: rate, low: rate / down, high: (rate * up).min(rocking.max(rate)) }
     }
 
-    /// Gives a probability under one motion its 95 % limits; `tau` is the standard deviation of the logit
-    /// between earthquakes.
-    pub fn limit_probability(&self, p: f64, tau: f64) -> Estimate {
+    /// Gives a probability its 95 % limits, which are never above the probability of rocking; `tau` is the
+    /// standard deviation of the logit between earthquakes.
+    pub fn limit_probability(&self, p: f64, rocking: f64, tau: f64) -> Estimate {
+        if !(p > 0.0 && p < 1.0) {
+            return Estimate::exact(p);
+        }
         let [down, up] = self.sds().map(|sd| Z_95 * sd.hypot(tau));
         let [low, high] = [-down, up].map(|off| 1.0 / (1.0 + (1.0 - p) / p * (-off).exp()));
-        Estimate { value: p, low, high }
+        Estimate { value: p, low, high: high.min(rocking.max(p)) }
     }
 }

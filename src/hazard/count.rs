@@ -66,19 +66,19 @@ pub fn counted_rate(
     numbers.values_mut().zip(0..).for_each(|(number, place)| *number = place);
     motions.iter_mut().for_each(|motion| motion.cluster = numbers[&motion.cluster]);
     let in_all = bins(curve, least, &motions, |_| 1.0);
-    let draw = |resample: u64| {
+    let drawn = (0..RESAMPLES).into_par_iter().map(|resample| {
         // As many clusters as there are, with replacement: how often each comes.
         let (mut times, mut random) = (vec![0.0; numbers.len()], stream(seed, Purpose::Bootstrap, resample));
         (0..times.len()).for_each(|_| times[random.random_range(0..numbers.len())] += 1.0);
         rate(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
-    };
-    let mut drawn: Vec<f64> = (0..RESAMPLES).into_par_iter().map(draw).collect();
+    });
+    let mut drawn: Vec<f64> = drawn.collect();
     drawn.sort_by(f64::total_cmp);
-    let at = |share: f64| drawn[(share * (drawn.len() - 1) as f64).round() as usize];
-    let [low, high] = poisson_limits(&in_all);
-    let (low, high) = (low.min(at(TAIL)), high.max(at(1.0 - TAIL)));
-    let annual_rate = Estimate { value: rate(&in_all), low, high };
-    Some(CountedRate { annual_rate, motions: motions.len() })
+    let [drawn_low, drawn_high] =
+        [TAIL, 1.0 - TAIL].map(|share| drawn[(share * (drawn.len() - 1) as f64).round() as usize]);
+    let poisson = poisson_limits(&in_all);
+    let (low, high) = (poisson.low.min(drawn_low), poisson.high.max(drawn_high));
+    Some(CountedRate { annual_rate: Estimate { low, high, ..poisson }, motions: motions.len() })
 }
 
 /// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle
@@ -114,17 +114,24 @@ fn rate(bins: &[Bin]) -> f64 {
     bins.iter().map(|bin| bin.annual_rate * bin.events / bin.motions).sum()
 }
 
-fn poisson_limits(bins: &[Bin]) -> [f64; 2] {
-    let weight = |bin: &Bin| bin.annual_rate / bin.motions;
-    let sum = |power: i32| bins.iter().map(|bin| weight(bin).powi(power) * bin.events).sum::<f64>();
-    let (rate, variance) = (sum(1), sum(2));
-    let largest = bins.iter().map(weight).fold(0.0, f64::max);
-    let scaled = |rate: f64, variance: f64, p: f64| {
-        if variance == 0.0 {
-            0.0
-        } else {
-            0.5 * variance / rate * chi_squared_quantile(p, 2.0 * rate * rate / variance)
-        }
-    };
-    [scaled(rate, variance, TAIL), scaled(rate + largest, variance + largest * largest, 1.0 - TAIL)]
+/// Returns the rate with the limits of a weighted sum of Poisson counts.
+fn poisson_limits(bins: &[Bin]) -> Estimate {
+    let (mut variance, mut largest) = (0.0, 0.0_f64);
+    for Bin { annual_rate, motions, events } in bins {
+        let weight = annual_rate / motions;
+        variance += weight * weight * events;
+        largest = largest.max(weight);
+    }
+    let value = rate(bins);
+    let low = poisson_quantile(value, variance, TAIL);
+    let high = poisson_quantile(value + largest, variance + largest * largest, 1.0 - TAIL);
+    Estimate { value, low, high }
+}
+
+/// Computes a quantile of a gamma distribution of this mean and variance, by chi squared.
+fn poisson_quantile(mean: f64, variance: f64, p: f64) -> f64 {
+    if variance == 0.0 {
+        return 0.0;
+    }
+    0.5 * variance / mean * chi_squared_quantile(p, 2.0 * mean * mean / variance)
 }

@@ -2,14 +2,16 @@
 //! over the motions that have it.
 
 use super::budget::Budget;
-use super::pgv_pga::{PgvPgaRatio, magnitude};
-use super::site::{Hazard, Motions, Site, strongest};
-use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak};
+use super::motion::logit;
+use super::motions::Motions;
+use super::pgv_pga::PgvPgaRatio;
+use super::site::{Hazard, Site, strongest};
+use crate::fragility::{Direction, GivenPeak, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::number::{Limited, plain, significant};
-use crate::object::{Subject, Unknown};
+use crate::object::Subject;
 use crate::statistics::numerics::first;
-use crate::statistics::{Estimate, normal};
+use crate::statistics::{Estimate, least_squares, normal};
 
 /// Motions of sites in general, of which one peak is given, and what narrows the other.
 ///
@@ -48,14 +50,14 @@ pub struct Fragility {
     pub over: Peak,
     /// From the least intensity that uplifts the object to the strongest that was ever recorded.
     pub points: Vec<FragilityPoint>,
-    /// Of a demand above the limit state, or overturning.
+    /// A demand above the limit state, or overturning.
     pub failure: Lognormal,
-    /// Of overturning.
+    /// Overturning.
     pub overturning: Lognormal,
     /// Standard deviations of the logit of the probability of overturning, by what is not known, where it is
     /// nearest to one half.
     pub errors: Budget,
-    /// PGA and PGV (m/s2 and m/s) there.
+    /// The median motion there.
     pub motion: Peaks,
 }
 
@@ -90,17 +92,24 @@ const POINTS: i32 = 120;
 /// The least intensity over the strongest.
 const LEAST: f64 = 1e-3;
 /// Probabilities between which the slope is fitted, and at how many intensities.
-const FITTED: [f64; 2] = [0.05, 0.95];
+const LEAST_FITTED: f64 = 0.05;
+const MOST_FITTED: f64 = 0.95;
 const STEPS: i32 = 40;
 
 impl SitesInGeneral {
     /// Computes the fragility of an object.
     pub fn fragility(&self, subject: &Subject) -> Fragility {
-        let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, self.over, self.vs30_m_s);
-        let velocity = self.ratio_s.map_or_else(of_model, PgvPgaRatio::given);
-        let (median, unknown) = magnitude(self.mw, Some(0.0));
-        let (peak, given) = (self.over, self.mw);
-        Fragility::new(&Motions { peak, velocity, given, above: 0.0, median, unknown }, subject)
+        Fragility::new(&self.motions(&subject.directions), subject)
+    }
+
+    /// Makes an object, in the directions in which it falls, ready for these motions.
+    pub fn given_peak<'a>(&self, directions: &'a [Direction]) -> GivenPeak<'a> {
+        self.motions(directions).given(directions, 0.0)
+    }
+
+    fn motions(&self, directions: &[Direction]) -> Motions {
+        let by_model = || PgvPgaRatio::by_model(&directions[0].model, self.over, self.vs30_m_s);
+        Motions::new(self.over, self.ratio_s.map_or_else(by_model, PgvPgaRatio::given), self.mw)
     }
 }
 
@@ -117,45 +126,22 @@ impl Site {
 
 impl Fragility {
     fn new(motions: &Motions, subject: &Subject) -> Fragility {
-        let directions = &subject.directions[..];
-        let middle = motions.given(directions, 0.0, None);
+        let middle = motions.given(&subject.directions, 0.0);
         let end = strongest(motions.peak);
-        let start = middle.uplift()[0].clamp(LEAST * end, 0.5 * end);
-        let step = |k: i32| start * (end / start).powf(f64::from(k) / f64::from(POINTS - 1));
-        let intensities: Vec<f64> = (0..POINTS).map(step).collect();
+        let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
+        let intensities = spaced(start, end, POINTS);
         let values = probabilities(&middle, &intensities);
-        let mut ends: Vec<Unknown<Vec<LimitStates<f64>>>> = Vec::new();
-        if directions[0].model.depends_on_magnitude() && middle.mw.is_some() {
-            let at = |mw: &f64| probabilities(&motions.given(directions, 0.0, Some(*mw)), &intensities);
-            ends.push(motions.unknown.map(at));
-        }
-        let velocity = motions.velocity.unknown();
-        ends.push(velocity.map(|ln| probabilities(&motions.given(directions, *ln, None), &intensities)));
-        for unknown in subject.model_errors().iter().chain(&subject.unknowns) {
-            ends.push(unknown.map(|change| {
-                let directions = subject.changed(change);
-                probabilities(&motions.given(&directions, 0.0, None), &intensities)
-            }));
-        }
+        let ends = motions.ends(subject, &subject.model_errors(), |given| probabilities(given, &intensities));
         let budget = |k: usize, state: LimitState| {
             Budget::new(&values, &ends, |states: &Vec<LimitStates<f64>>| logit(states[k].get(state)))
         };
-        let limited = |k: usize, state: LimitState| match values[k].get(state) {
-            p if p > 0.0 && p < 1.0 => {
-                let p = budget(k, state).limit_probability(p, 0.0);
-                Estimate { high: p.high.min(values[k].rocking.max(p.value)), ..p }
-            }
-            p => Estimate::exact(p),
-        };
-        let point = |k: usize| FragilityPoint {
-            intensity: intensities[k],
-            p: LimitStates {
-                rocking: Estimate::exact(values[k].rocking),
-                failure: limited(k, LimitState::Failure),
-                overturning: limited(k, LimitState::Overturning),
-            },
-        };
-        let points: Vec<FragilityPoint> = (0..intensities.len()).map(point).collect();
+        let points = intensities.iter().zip(&values).enumerate().map(|(k, (&intensity, p))| {
+            let [failure, overturning] = [LimitState::Failure, LimitState::Overturning]
+                .map(|state| budget(k, state).limit_probability(p.get(state), p.rocking, 0.0));
+            let rocking = Estimate::exact(p.rocking);
+            FragilityPoint { intensity, p: LimitStates { rocking, failure, overturning } }
+        });
+        let points: Vec<FragilityPoint> = points.collect();
         let median = values.iter().position(|p| p.overturning >= 0.5).unwrap_or(intensities.len() - 1);
         Fragility {
             over: motions.peak,
@@ -170,37 +156,34 @@ impl Fragility {
 
 impl Lognormal {
     fn new(given: &GivenPeak, points: &[FragilityPoint], state: LimitState) -> Lognormal {
-        let end = points[points.len() - 1].intensity;
-        let reached = |level: f64| Limited {
+        let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Limited {
             value: reaching(given, points, state, level),
             low: crossing(points, level, |point| point.p.get(state).high),
             high: crossing(points, level, |point| point.p.get(state).low),
-        };
-        let theta = reached(0.5);
-        let mut lognormal =
-            Lognormal { at_16: reached(0.16), theta, at_84: reached(0.84), ..Lognormal::default() };
-        let Some((from, median)) = reaching(given, points, state, FITTED[0]).zip(theta.value) else {
+        });
+        let lognormal = Lognormal { at_16, theta, at_84, ..Lognormal::default() };
+        let Some((from, median)) = reaching(given, points, state, LEAST_FITTED).zip(theta.value) else {
             return lognormal;
         };
-        let to = reaching(given, points, state, FITTED[1]).unwrap_or(end);
-        let sample = |k: i32| {
-            let intensity = from * (to / from).powf(f64::from(k) / f64::from(STEPS - 1));
-            (intensity.ln(), given.limit_states(intensity).get(state))
-        };
-        let sampled: Vec<(f64, f64)> = (0..STEPS).map(sample).collect();
-        let mean = |of: fn(&(f64, f64)) -> f64| sampled.iter().map(of).sum::<f64>() / f64::from(STEPS);
-        let (x, z) = (mean(|point| point.0), mean(|point| normal::quantile(point.1)));
-        let squares: f64 = sampled.iter().map(|point| (point.0 - x).powi(2)).sum();
-        let products: f64 = sampled.iter().map(|point| (point.0 - x) * (normal::quantile(point.1) - z)).sum();
-        let beta = squares / products;
-        let error = |point: &(f64, f64)| (normal::cdf((point.0 - median.ln()) / beta) - point.1).abs();
-        lognormal.beta = Some(beta);
-        lognormal.largest_error = Some(sampled.iter().map(error).fold(0.0, f64::max));
-        lognormal
+        let end = points[points.len() - 1].intensity;
+        let to = reaching(given, points, state, MOST_FITTED).unwrap_or(end);
+        let intensities = spaced(from, to, STEPS);
+        let p: Vec<f64> = probabilities(given, &intensities).iter().map(|p| p.get(state)).collect();
+        let x: Vec<f64> = intensities.iter().map(|intensity| intensity.ln()).collect();
+        let z: Vec<f64> = p.iter().map(|p| normal::quantile(*p)).collect();
+        let Ok(line) = least_squares(&[&x], &z) else { return lognormal };
+        let beta = 1.0 / line.fit.coefficients[1];
+        let errors = x.iter().zip(&p).map(|(x, p)| (normal::cdf((x - median.ln()) / beta) - p).abs());
+        Lognormal { beta: Some(beta), largest_error: Some(errors.fold(0.0, f64::max)), ..lognormal }
     }
 }
 
-/// An intensity (m/s2 or m/s) with its unit; that which is beyond all that was recorded by that.
+/// Returns this many intensities at equal ratios.
+fn spaced(from: f64, to: f64, count: i32) -> Vec<f64> {
+    (0..count).map(|k| from * (to / from).powf(f64::from(k) / f64::from(count - 1))).collect()
+}
+
+/// Writes an intensity (m/s2 or m/s) with its unit; that which is beyond all that was recorded by that.
 pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
     let (_, unit, symbol) = over.words();
     match intensity {
@@ -213,14 +196,14 @@ fn probabilities(given: &GivenPeak, intensities: &[f64]) -> Vec<LimitStates<f64>
     intensities.iter().map(|intensity| given.limit_states(*intensity)).collect()
 }
 
-/// The intensity from which on a probability is at least `level`, sought beside the first point that has it.
+/// Finds the intensity from which on a probability is at least `level`, sought beside the first point that has it.
 fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, level: f64) -> Option<f64> {
     let after = points.iter().position(|point| point.p.get(state).value >= level)?;
     let [low, high] = [after.saturating_sub(1), after].map(|k| points[k].intensity.ln());
     Some(first(low, high, |ln| given.limit_states(ln.exp()).get(state) >= level).exp())
 }
 
-/// The intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
+/// Finds the intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
 fn crossing(points: &[FragilityPoint], level: f64, of: impl Fn(&FragilityPoint) -> f64) -> Option<f64> {
     let after = points.iter().position(|point| of(point) >= level)?;
     let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
@@ -230,8 +213,4 @@ fn crossing(points: &[FragilityPoint], level: f64, of: impl Fn(&FragilityPoint) 
     }
     let share = (normal::quantile(level) - a) / (b - a);
     Some(low.intensity * (high.intensity / low.intensity).powf(share))
-}
-
-fn logit(p: f64) -> f64 {
-    (p / (1.0 - p)).ln()
 }

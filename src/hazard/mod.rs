@@ -7,6 +7,7 @@
 //! budget    what is not known exactly, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
+//! motions   the motions of which one peak is given, and what is not known of them
 //! ratio     the rate after a change over that before
 //! share     the shares of a rate by intensity
 //! site      the rates of a structure at a site, with limits and warnings
@@ -18,6 +19,7 @@ mod count;
 mod curve;
 mod fragility;
 mod motion;
+mod motions;
 mod pgv_pga;
 mod rates;
 mod ratio;
@@ -29,7 +31,7 @@ pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
 pub use motion::{Motion, MotionProbabilities};
-pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, magnitude, velocity_of_spectrum};
+pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 pub use rates::{AnnualRate, PairOfPeaks, Rate, exceedance, mean_annual_rates, rates_over_curve};
 pub use ratio::{RateByParts, ratio_of_rates};
 pub use share::RateByIntensity;

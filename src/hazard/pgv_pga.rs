@@ -42,37 +42,51 @@ pub struct PgvPgaRatio {
 
 /// The magnitude that lines of sites in general are for.
 const MIDDLE: f64 = 6.3;
-/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general, and the
-/// standard deviation about a mean that is given.
-const MAGNITUDE: [f64; 2] = [6.35, 0.6];
-const SD_OF_MEAN: f64 = 0.2;
-/// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at
-/// 2475 years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s)
-/// lies half way, and needs no correction.
-const ABOVE_MEAN_OF_PGA: [f64; 2] = [0.45, 0.3];
-/// Lines of sites in general (scripts/reference/sites.py): ln(PGV / PGA) in s at PGA of 0.4 g or PGV of 0.4
-/// m/s, its slope over ln of the peak, the standard deviation about it, its rise with magnitude, and the
-/// standard deviation of the level between sites of one magnitude.
-const GIVEN_PGA: [f64; 5] = [-2.86, -0.06, 0.58, 0.30, 0.28];
-const GIVEN_PGV: [f64; 5] = [-2.21, 0.25, 0.50, 0.33, 0.23];
-/// At a known Vs30, given PGA and given PGV: the rise of these lines with ln(Vs30 / 440 m/s), and the
-/// standard deviation of the level that is left.
-const AT_VS30: [[f64; 2]; 2] = [[-0.31, 0.23], [-0.20, 0.21]];
-/// Vs30 at which the lines of sites in general hold, m/s.
+/// The line of sites in general given a peak, ln(PGV / PGA) in s.
+struct LineOfSites {
+    /// Where it has its level: m/s2 or m/s.
+    at: f64,
+    level: f64,
+    /// Over ln of the peak.
+    slope: f64,
+    /// Standard deviation about it.
+    sd: f64,
+    per_magnitude: f64,
+    /// Standard deviation of the level between sites of one magnitude.
+    sd_of_level: f64,
+    /// Rise of the level with ln(Vs30 / 440 m/s), and its standard deviation where that is known.
+    per_ln_vs30: f64,
+    sd_at_vs30: f64,
+}
+
+/// By scripts/reference/sites.py.
+#[rustfmt::skip]
+const GIVEN_PGA: LineOfSites = LineOfSites {
+    at: 0.4 * G_M_S2, level: -2.86, slope: -0.06, sd: 0.58, per_magnitude: 0.30,
+    sd_of_level: 0.28, per_ln_vs30: -0.31, sd_at_vs30: 0.23,
+};
+#[rustfmt::skip]
+const GIVEN_PGV: LineOfSites = LineOfSites {
+    at: 0.4, level: -2.21, slope: 0.25, sd: 0.50, per_magnitude: 0.33,
+    sd_of_level: 0.23, per_ln_vs30: -0.20, sd_at_vs30: 0.21,
+};
+/// Vs30 at which these lines hold, m/s.
 const USUAL_VS30_M_S: f64 = 440.0;
-/// Where the lines of sites in general have their level: m/s2 and m/s.
-const LEVEL_AT: [f64; 2] = [0.4 * G_M_S2, 0.4];
 /// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
 const SCATTER: f64 = 0.42;
-/// Standard deviations of the level by two curves: of PGA and PGV, and of PGA and SA(1.0 s).
-const SD_BY_CURVES: [f64; 2] = [0.08, 0.12];
+/// Standard deviation of the level by two curves, of PGA and PGV, and of PGA and SA(1.0 s).
+const SD_BY_VELOCITY: f64 = 0.08;
+const SD_BY_SPECTRUM: f64 = 0.12;
 /// PGV (m/s) = 0.090 SA(1.0 s)^0.64 PGA^0.36 exp(0.13 (M - 6.3)), accelerations in m/s2 and each exceeded as
-/// often (scripts/reference/sites.py): the factor, the exponent of PGA and the rise with magnitude. Newmark
-/// & Hall's (1982) 0.096 SA(1.0 s), without PGA, scatters twice as much between sites.
-const BY_SPECTRUM: [f64; 3] = [0.090, 0.36, 0.13];
+/// often (scripts/reference/sites.py). Newmark & Hall's (1982) 0.096 SA(1.0 s), without PGA, scatters twice
+/// as much between sites.
+const BY_SPECTRUM: f64 = 0.090;
+const EXPONENT_OF_PGA: f64 = 0.36;
+const PER_MAGNITUDE_BY_SPECTRUM: f64 = 0.13;
 
 /// Rates a year between which two curves are matched, and at how many.
-const MATCHED: [f64; 2] = [1e-6, 2e-2];
+const LEAST_MATCHED: f64 = 1e-6;
+const MOST_MATCHED: f64 = 2e-2;
 const LEVELS: usize = 16;
 /// Widest panel of the quadrature, in ln PGA.
 const PANEL: f64 = 0.25;
@@ -97,18 +111,11 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Magnitude of the controlling earthquakes: its median, by the one that is given, and what is not known of
-/// it; `sd` of a mean of the disaggregation.
-pub fn magnitude(given: Option<f64>, sd: Option<f64>) -> (f64, Unknown<f64>) {
-    let [median, sd] = given.map_or(MAGNITUDE, |mean| [mean, sd.unwrap_or(SD_OF_MEAN)]);
-    let (low, high) = (median - Z_95 * sd, median + Z_95 * sd);
-    (median, Unknown { part: Part::Magnitude, low, high })
-}
-
-/// The curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
+/// Returns the curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
 pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCurve {
-    let [factor, of_pga, _] = BY_SPECTRUM;
-    sa_1s.map(|sa, rate| factor * sa.powf(1.0 - of_pga) * pga.intensity(rate).powf(of_pga))
+    sa_1s.map(|sa, rate| {
+        BY_SPECTRUM * sa.powf(1.0 - EXPONENT_OF_PGA) * pga.intensity(rate).powf(EXPONENT_OF_PGA)
+    })
 }
 
 impl PgvPgaRatio {
@@ -124,59 +131,52 @@ impl PgvPgaRatio {
 
     /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in
     /// general, of this Vs30 (m/s) if it is known.
-    pub fn of_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
-        let [level, slope, sd, per_magnitude, sd_of_level] = match given {
+    pub fn by_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
+        let line = match given {
             Peak::Pga => GIVEN_PGA,
             Peak::Pgv => GIVEN_PGV,
         };
-        match model {
-            Model::Calibrated { overturning, .. }
-                if overturning.n == 0 && overturning.kind == Kind::Recorded =>
-            {
-                let [per_ln_vs30, sd_at_vs30] = AT_VS30[given as usize];
-                let [of_vs30, sd_of_level] = vs30_m_s.map_or([0.0, sd_of_level], |vs30| {
-                    [per_ln_vs30 * (vs30 / USUAL_VS30_M_S).ln(), sd_at_vs30]
-                });
-                let at = LEVEL_AT[given as usize];
-                let ratio = RatioGiven::line(level + of_vs30 - slope * at.ln(), slope, sd);
-                PgvPgaRatio { ratio, per_magnitude, sd: sd_of_level, source: VelocitySource::Sites }
-            }
-            _ => PgvPgaRatio {
-                ratio: model.peaks().given(given),
-                per_magnitude: 0.0,
-                sd: sd_of_level,
-                source: VelocitySource::Motions,
-            },
+        let is_of_sites = matches!(model, Model::Calibrated { overturning, .. }
+            if overturning.n == 0 && overturning.kind == Kind::Recorded);
+        if !is_of_sites {
+            let (ratio, sd) = (model.peaks().given(given), line.sd_of_level);
+            return PgvPgaRatio { ratio, per_magnitude: 0.0, sd, source: VelocitySource::Motions };
+        }
+        let by_vs30 = vs30_m_s.map_or(0.0, |vs30| line.per_ln_vs30 * (vs30 / USUAL_VS30_M_S).ln());
+        PgvPgaRatio {
+            ratio: RatioGiven::line(line.level + by_vs30 - line.slope * line.at.ln(), line.slope, line.sd),
+            per_magnitude: line.per_magnitude,
+            sd: if vs30_m_s.is_some() { line.sd_at_vs30 } else { line.sd_of_level },
+            source: VelocitySource::Sites,
         }
     }
 
-    /// PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level
+    /// Finds PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level
     /// and slope by least squares in ln rate.
     ///
     /// # Errors
     /// If the curves cannot belong together.
-    pub fn of_curves(
+    pub fn by_curves(
         pga: &HazardCurve,
         pgv: &HazardCurve,
         source: VelocitySource,
     ) -> Result<PgvPgaRatio, MatchError> {
         let [[(_, first), (_, last)], [(_, first_v), (_, last_v)]] = [pga.ends(), pgv.ends()];
-        let most = MATCHED[1].min(0.5 * first).min(first_v);
-        let least = MATCHED[0].max(2.0 * last).max(last_v);
+        let most = MOST_MATCHED.min(0.5 * first).min(first_v);
+        let least = LEAST_MATCHED.max(2.0 * last).max(last_v);
         if most < 3.0 * least {
             return Err(MatchError::NothingInCommon(least, most));
         }
-        let rate = |k: usize| most * (least / most).powf(k as f64 / (LEVELS - 1) as f64);
-        let levels: Vec<(f64, f64)> = (0..LEVELS).map(|k| (pgv.intensity(rate(k)), rate(k))).collect();
-        let off = |line: &Vector2<f64>| {
+        let rates = (0..LEVELS).map(|k| most * (least / most).powf(k as f64 / (LEVELS - 1) as f64));
+        let levels: Vec<(f64, f64)> = rates.map(|rate| (pgv.intensity(rate), rate)).collect();
+        let at_equal_rates = levels.iter().map(|(v, rate)| (v / pga.intensity(*rate)).ln());
+        let start = Vector2::new(at_equal_rates.sum::<f64>() / LEVELS as f64, 0.0);
+        let (found, remainder) = least_squares_of_two(start, |line| {
             let line = line_at_pga(line[0], line[1]);
-            let off = |&(v, rate): &(f64, f64)| (exceedance_of_velocity(pga, &line, v) / rate).ln();
-            DVector::from_iterator(LEVELS, levels.iter().map(off))
-        };
-        let at_equal_rates = |&(v, rate): &(f64, f64)| (v / pga.intensity(rate)).ln();
-        let start = levels.iter().map(at_equal_rates).sum::<f64>() / LEVELS as f64;
-        let ([level, slope], remainder) = least_squares_of_two([start, 0.0], off);
-        let line = line_at_pga(level, slope);
+            let off = levels.iter().map(|&(v, rate)| (exceedance_of_velocity(pga, &line, v) / rate).ln());
+            DVector::from_iterator(LEVELS, off)
+        });
+        let line = line_at_pga(found[0], found[1]);
         for a in [most, least].map(|rate| pga.intensity(rate)) {
             let ratio_s = line.ratio(a, 0.0);
             if !PGV_PGA_OF_SITE_S.contains(&ratio_s) {
@@ -186,59 +186,50 @@ impl PgvPgaRatio {
         if remainder > LARGEST_REMAINDER || remainder.is_nan() {
             return Err(MatchError::Unlike(remainder));
         }
-        let is_spectrum = source == VelocitySource::Spectrum;
-        let per_magnitude = if is_spectrum { BY_SPECTRUM[2] } else { 0.0 };
-        Ok(PgvPgaRatio { ratio: line, per_magnitude, sd: SD_BY_CURVES[usize::from(is_spectrum)], source })
+        let (per_magnitude, sd) = match source {
+            VelocitySource::Spectrum => (PER_MAGNITUDE_BY_SPECTRUM, SD_BY_SPECTRUM),
+            _ => (0.0, SD_BY_VELOCITY),
+        };
+        Ok(PgvPgaRatio { ratio: line, per_magnitude, sd, source })
     }
 
-    /// Its uncertainty, as ln of a factor.
+    /// Returns how well it is known, as ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
         Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
-    /// The magnitude of the motions: `median`, but none where none is given and PGV / PGA tells it, which is
-    /// known by two curves or that of the model's motions.
-    pub fn magnitude(&self, given: Option<f64>, median: f64) -> Option<f64> {
-        match self.source {
-            VelocitySource::Sites | VelocitySource::Given => Some(median),
-            _ => given.map(|_| median),
-        }
-    }
-
-    /// By how much the mean magnitude of the motions that overturn exceeds a mean of the disaggregation, and
-    /// the standard deviation about it: that of SA(1.0 s) where PGV / PGA is by this curve, else that of PGA.
-    pub fn above_mean(&self) -> [f64; 2] {
-        if self.source == VelocitySource::Spectrum { [0.0, SD_OF_MEAN] } else { ABOVE_MEAN_OF_PGA }
-    }
-
-    /// PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
+    /// Returns PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
     pub fn at(&self, mw: f64, ln: f64) -> RatioGiven {
         let intercept = self.ratio.intercept + (self.per_magnitude * (mw - MIDDLE) + ln);
         RatioGiven { intercept, ..self.ratio }
     }
 }
 
-/// The line through a level at 0.4 g.
+/// Makes the line through a level at 0.4 g.
 fn line_at_pga(level: f64, slope: f64) -> RatioGiven {
-    RatioGiven::line(level - slope * LEVEL_AT[0].ln(), slope, SCATTER)
+    RatioGiven::line(level - slope * GIVEN_PGA.at.ln(), slope, SCATTER)
 }
 
-/// The annual rate at which a PGV (m/s) is exceeded, by a curve of PGA and PGV / PGA given PGA.
+/// Computes the annual rate at which a PGV (m/s) is exceeded, by a curve of PGA and PGV / PGA given PGA.
 fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) -> f64 {
-    let exceeds = |a: f64| [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)];
-    pga.mean_annual_rates(&[], PANEL, exceeds)[0]
+    let [rate] = pga.mean_annual_rates(&[], PANEL, |a| {
+        [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)]
+    });
+    rate
 }
 
 /// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at
 /// the minimum.
-fn least_squares_of_two(start: [f64; 2], off: impl Fn(&Vector2<f64>) -> DVector<f64>) -> ([f64; 2], f64) {
+fn least_squares_of_two(
+    start: Vector2<f64>,
+    off: impl Fn(&Vector2<f64>) -> DVector<f64>,
+) -> (Vector2<f64>, f64) {
     const STEP: f64 = 1e-4;
     const MOST: usize = 30;
-    let mut at = Vector2::from(start);
-    let mut current = off(&at);
+    let (mut at, mut current) = (start, off(&start));
     for _ in 0..MOST {
-        let slope = |k: usize| (off(&(at + Vector2::ith(k, STEP))) - &current) / STEP;
-        let slopes = DMatrix::from_columns(&[slope(0), slope(1)]);
+        let slopes = [0, 1].map(|k| (off(&(at + Vector2::ith(k, STEP))) - &current) / STEP);
+        let slopes = DMatrix::from_columns(&slopes);
         let Some(inverse) = slopes.tr_mul(&slopes).try_inverse() else { break };
         let step = inverse * slopes.tr_mul(&current);
         // Far from the minimum, steps are held to what keeps PGV rising with PGA.
@@ -249,5 +240,5 @@ fn least_squares_of_two(start: [f64; 2], off: impl Fn(&Vector2<f64>) -> DVector<
             break;
         }
     }
-    (at.into(), current.norm() / (current.len() as f64).sqrt())
+    (at, current.norm() / (current.len() as f64).sqrt())
 }

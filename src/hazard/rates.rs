@@ -54,7 +54,7 @@ pub fn mean_annual_rates<const N: usize>(
 pub struct Rate {
     pub value: f64,
     /// The part of it above the last intensity of the curve, with the probability at that intensity.
-    pub of_last: f64,
+    pub at_last: f64,
     /// What would come on top if each stronger motion caused the event.
     pub beyond: f64,
 }
@@ -62,7 +62,7 @@ pub struct Rate {
 impl Rate {
     /// Returns it if no motion above the last intensity causes the event.
     pub fn least(&self) -> f64 {
-        self.value - self.of_last
+        self.value - self.at_last
     }
 
     /// Returns it if each motion above the last intensity causes the event.
@@ -103,13 +103,13 @@ impl From<AnnualRate> for Limited {
 
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
-    let states = |intensity| given_peak.limit_states(intensity);
-    let (breaks, widest) = (given_peak.breaks(), given_peak.widest_panel());
-    let sums = curve.mean_annual_rates(&breaks, widest, |intensity| states(intensity).into_array());
+    let sums = curve.mean_annual_rates(&given_peak.breaks(), given_peak.widest_panel(), |intensity| {
+        given_peak.limit_states(intensity).into_array()
+    });
     let [_, (last, rate_beyond)] = curve.ends();
-    LimitStates::from(sums).zip(states(last), |value, at_last| Rate {
+    LimitStates::from(sums).zip(given_peak.limit_states(last), |value, at_last| Rate {
         value,
-        of_last: at_last * rate_beyond,
+        at_last: at_last * rate_beyond,
         beyond: (1.0 - at_last).max(0.0) * rate_beyond,
     })
 }
@@ -121,34 +121,33 @@ pub(super) fn rates_over_pairs(
     bins: &[PairOfPeaks],
 ) -> LimitStates<Rate> {
     let mut ready = ReadyObject::new(directions, mw);
-    let states = |bin: &PairOfPeaks| {
+    let sums = mean_annual_rates(bins, |bin| {
         let mw = bin.mw.or(mw);
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
         ready.limit_states(bin.peaks, Level::Estimate).into_array()
-    };
-    LimitStates::from(mean_annual_rates(bins, states)).map(|value| Rate { value, of_last: 0.0, beyond: 0.0 })
+    });
+    LimitStates::from(sums).map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })
 }
 
-/// The intensity above which half of the annual rate of overturning comes from, to a hundredth of the curve's
-/// range.
+/// Finds the intensity above which half of the annual rate of overturning comes from.
 pub(super) fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
-    const STEPS: i32 = 100;
-    let [(first, _), (last, rate_beyond)] = curve.ends();
-    let edge = |k: i32| first * (last / first).powf(f64::from(k) / f64::from(STEPS));
     let overturning = |intensity| given_peak.limit_states(intensity).overturning;
-    let step = |k: i32| {
-        let middle = (edge(k) * edge(k + 1)).sqrt();
-        (middle, overturning(middle) * (curve.exceedance(edge(k)) - curve.exceedance(edge(k + 1))))
-    };
-    let parts: Vec<(f64, f64)> =
-        (0..STEPS).map(step).chain([(last, overturning(last) * rate_beyond)]).collect();
-    let half = 0.5 * parts.iter().map(|part| part.1).sum::<f64>();
-    let mut sum = 0.0;
-    let is_half = |part: &&(f64, f64)| {
-        sum += part.1;
-        sum >= half
-    };
-    parts.iter().find(is_half).map_or(last, |part| part.0)
+    let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel());
+    let parts: Vec<f64> = nodes.iter().map(|node| overturning(node.intensity) * node.annual_rate).collect();
+    let [_, (last, rate_beyond)] = curve.ends();
+    let half = 0.5 * (parts.iter().sum::<f64>() + overturning(last) * rate_beyond);
+    // A part lies half below its node, half above.
+    let (mut before, mut below) = (0.0, 0.0);
+    for (k, part) in parts.iter().enumerate() {
+        let at_node = below + 0.5 * part;
+        if at_node >= half {
+            let share = (half - before) / (at_node - before);
+            let from = nodes[k.saturating_sub(1)].intensity;
+            return from * (nodes[k].intensity / from).powf(share);
+        }
+        (before, below) = (at_node, below + part);
+    }
+    last
 }

@@ -15,7 +15,13 @@ pub struct RateByParts {
     pub sds: Vec<(Part, f64)>,
 }
 
-/// The rate after a change over the rate before, with 95 % limits. A part that is shared moves both rates
+impl RateByParts {
+    fn sd(&self, part: Part) -> f64 {
+        self.sds.iter().find(|(other, _)| *other == part).map_or(0.0, |(_, sd)| *sd)
+    }
+}
+
+/// Returns the rate after a change over the rate before, with 95 % limits. A part that is shared moves both rates
 /// alike: only the difference of what it does to either counts, sd^2 = (sd_after - sd_before)^2; another
 /// counts twice, sd_after^2 + sd_before^2.
 pub fn ratio_of_rates(
@@ -23,14 +29,11 @@ pub fn ratio_of_rates(
     after: &RateByParts,
     is_shared: impl Fn(Part) -> bool,
 ) -> Estimate {
-    let sd_of = |of: &RateByParts, part: Part| {
-        of.sds.iter().find(|(other, _)| *other == part).map_or(0.0, |(_, sd)| *sd)
-    };
-    let variance = |&part: &Part| {
-        let [before, after] = [before, after].map(|of| sd_of(of, part));
+    let variances = Part::ALL.iter().map(|&part| {
+        let [before, after] = [before, after].map(|of| of.sd(part));
         if is_shared(part) { (after - before).powi(2) } else { before * before + after * after }
-    };
-    let factor = (Z_95 * Part::ALL.iter().map(variance).sum::<f64>().sqrt()).exp();
+    });
+    let factor = (Z_95 * variances.sum::<f64>().sqrt()).exp();
     let ratio = after.rate / before.rate;
     Estimate { value: ratio, low: ratio / factor, high: ratio * factor }
 }

@@ -4,9 +4,10 @@
 use super::budget::Budget;
 use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
-use super::pgv_pga::{PgvPgaRatio, VelocitySource, magnitude};
+use super::motions::Motions;
+use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use super::rates::{AnnualRate, PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Case, Cases, Direction, GivenPeak, Kind, LimitStates, Peak};
+use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -90,8 +91,7 @@ pub struct SiteRates {
     pub beyond: Option<f64>,
     /// The rate of overturning, counted among the responses.
     pub counted: Option<CountedRate>,
-    /// PGA and PGV (m/s2 and m/s) of a motion above which half of the rate of overturning lies; of a joint
-    /// hazard those of the strongest.
+    /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
     pub motion: Peaks,
     pub warnings: Vec<Warning>,
 }
@@ -114,8 +114,8 @@ impl Site {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
             Hazard::Joint(bins) => {
                 let rates = |directions: &[Direction]| rates_over_pairs(directions, self.mw, bins);
-                let varied =
-                    Varied { rates: rates(&subject.directions), ends: ends_of_subject(subject, rates) };
+                let ends = subject.ends(&subject.model_errors(), rates);
+                let varied = Varied { rates: rates(&subject.directions), ends };
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
                 let motion = strongest.map_or(Peaks { pga_m_s2: 0.0, pgv_m_s: 0.0 }, |bin| bin.peaks);
                 varied.with_limits(motion, false)
@@ -125,135 +125,106 @@ impl Site {
 
     /// Computes the annual rate of overturning alone; none where the hazard ends too early for it.
     pub fn overturning(&self, subject: &Subject) -> Option<f64> {
-        let rate = match &self.hazard {
-            Hazard::Joint(bins) => rates_over_pairs(&subject.directions, self.mw, bins).overturning.value,
+        let rates = match &self.hazard {
+            Hazard::Joint(bins) => rates_over_pairs(&subject.directions, self.mw, bins),
             Hazard::Curve(hazard) => {
-                let given = self.motions(hazard, subject).given(&subject.directions, 0.0, None);
-                let rate = rates_over_curve(&given, &hazard.curve).overturning;
-                match (ends_early(hazard, &rate), self.extrapolate) {
-                    (false, _) => rate.value,
-                    (true, false) => return None,
-                    (true, true) => rates_over_curve(&given, &hazard.curve.extrapolated()).overturning.value,
-                }
+                let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
+                let Integrated { rates, ends_early, .. } = self.integrated(hazard, &given);
+                Some(rates).filter(|_| !ends_early)?
             }
         };
-        Some(rate).filter(|rate| !rate.is_nan())
+        Some(rates.overturning.value).filter(|rate| !rate.is_nan())
     }
 
-    /// The motions of a curve of one peak, with all that is not given of them at its median.
+    /// Integrates the probabilities over a curve, which is extrapolated if it ends too early and is to be.
+    pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak) -> Integrated {
+        let (curve, rates) = (hazard.curve.clone(), rates_over_curve(given, &hazard.curve));
+        let [_, (last, _)] = curve.ends();
+        let overturning = rates.overturning;
+        let ends_early = last < strongest(hazard.peak) && overturning.beyond > NEGLIGIBLE * overturning.value;
+        if !(ends_early && self.extrapolate) {
+            return Integrated { curve, rates, ends_early, beyond: None };
+        }
+        let curve = curve.extrapolated();
+        let rates = rates_over_curve(given, &curve);
+        let beyond = Some(1.0 - overturning.least() / rates.overturning.value);
+        Integrated { curve, rates, ends_early: false, beyond }
+    }
+
+    /// Returns the motions of a curve of one peak, with all that is not given of them at its median.
     pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
-        let of_model = || PgvPgaRatio::of_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
-        let velocity = hazard.velocity.unwrap_or_else(of_model);
-        let given = self.mw.filter(|_| hazard.peak == Peak::Pga);
-        let [above, sd] = velocity.above_mean();
-        let (median, unknown) = magnitude(given, Some(sd));
-        let above = given.map_or(0.0, |_| above);
-        Motions { peak: hazard.peak, velocity, given, above, median, unknown }
+        let by_model = || PgvPgaRatio::by_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
+        let velocity = hazard.velocity.unwrap_or_else(by_model);
+        Motions::at_site(hazard.peak, velocity, self.mw)
     }
 
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
-        let (directions, motions) = (&subject.directions[..], self.motions(hazard, subject));
-        let middle = motions.given(directions, 0.0, None);
-        let as_given = rates_over_curve(&middle, &hazard.curve);
-        let ends_early = ends_early(hazard, &as_given.overturning);
-        let is_extrapolated = ends_early && self.extrapolate;
-        let [curve, low, high] = match &hazard.fractiles {
-            Some([low, high]) => [&hazard.curve, low, high],
-            None => [&hazard.curve; 3],
+        let motions = self.motions(hazard, subject);
+        let middle = motions.given(&subject.directions, 0.0);
+        let Integrated { curve, rates, ends_early, beyond } = self.integrated(hazard, &middle);
+        let mut ends =
+            motions.ends(subject, &subject.model_errors(), |given| rates_over_curve(given, &curve));
+        if let Some([low, high]) = &hazard.fractiles {
+            ends.push(Unknown { part: Part::Hazard, low, high }.map(|fractile| match beyond {
+                Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
+                None => rates_over_curve(&middle, fractile),
+            }));
         }
-        .map(|curve| if is_extrapolated { curve.extrapolated() } else { curve.clone() });
-        let rates = if is_extrapolated { rates_over_curve(&middle, &curve) } else { as_given };
-
-        let mut ends = Vec::new();
-        if directions[0].model.depends_on_magnitude() && middle.mw.is_some() {
-            let at = |mw: &f64| rates_over_curve(&motions.given(directions, 0.0, Some(*mw)), &curve);
-            ends.push(motions.unknown.map(at));
-        }
-        let velocity = motions.velocity.unknown();
-        ends.push(velocity.map(|ln| rates_over_curve(&motions.given(directions, *ln, None), &curve)));
-        ends.extend(ends_of_subject(subject, |directions| {
-            rates_over_curve(&motions.given(directions, 0.0, None), &curve)
-        }));
-        if hazard.fractiles.is_some() {
-            let fractiles = Unknown { part: Part::Hazard, low, high };
-            ends.push(fractiles.map(|curve| rates_over_curve(&middle, curve)));
-        }
-
         let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
         let [(first, _), _] = hazard.curve.ends();
         let warnings = [
-            is_extrapolated.then_some(Warning::HazardExtrapolated),
-            (ends_early && !is_extrapolated).then_some(Warning::HazardEndsEarly),
-            (first > middle.uplift()[1]).then_some(Warning::HazardStartsLate),
+            beyond.map(|_| Warning::HazardExtrapolated),
+            ends_early.then_some(Warning::HazardEndsEarly),
+            (first > middle.uplift().usual).then_some(Warning::HazardStartsLate),
         ];
-        let share_beyond = 1.0 - as_given.overturning.least() / rates.overturning.value;
         SiteRates {
             velocity: Some(motions.velocity.source),
-            beyond: is_extrapolated.then_some(share_beyond),
+            beyond,
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().flatten().collect(),
-            ..Varied { rates, ends }.with_limits(motion, ends_early && !is_extrapolated)
+            ..Varied { rates, ends }.with_limits(motion, ends_early)
         }
     }
 
-    /// The rate of overturning, counted among the responses of this structure to this kind of motion.
+    /// Counts the rate of overturning among the responses of this structure to this kind of motion.
     fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
-        let kind_of = |suite: &Option<String>| Kind::of_word(suite.as_deref());
         let [Direction { structure, model }] = given.directions else { return None };
-        let kind = model.kind();
-        let is_same = |cases: &&Cases| kind_of(&cases.suite) == kind && structure.is_like(&cases.structure);
-        let cases = self.responses.iter().find(is_same)?;
-        let motion = |case: &Case| CountedMotion {
+        let cases = self.responses.iter().find(|cases| {
+            Kind::from_suite(cases.suite.as_deref()) == model.kind() && structure.is_like(&cases.structure)
+        })?;
+        let motions = cases.all.iter().map(|case| CountedMotion {
             intensity: if given.peak == Peak::Pga { case.peaks.pga_m_s2 } else { case.peaks.pgv_m_s },
             event: case.outcome == Outcome::Overturned,
             cluster: case.cluster,
-        };
-        let motions: Vec<CountedMotion> = cases.all.iter().map(motion).collect();
+        });
         // Weaker motions uplift nothing.
         let least = match given.peak {
             Peak::Pga => structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => given.uplift()[0],
+            Peak::Pgv => given.uplift().least,
         };
-        counted_rate(curve, least, motions, SEED)
+        counted_rate(curve, least, motions.collect(), SEED)
     }
 }
 
-/// Whether a curve ends too early for a rate.
-pub(super) fn ends_early(hazard: &PeakHazard, rate: &Rate) -> bool {
-    let [_, (last, _)] = hazard.curve.ends();
-    last < strongest(hazard.peak) && rate.beyond > NEGLIGIBLE * rate.value
-}
-
-/// The motions of a curve of one peak.
-pub(super) struct Motions {
-    pub peak: Peak,
-    pub velocity: PgvPgaRatio,
-    /// The mean magnitude, if it is given, and how far that of the motions is above; the median of the mean,
-    /// and what is not known of it.
-    pub given: Option<f64>,
-    pub above: f64,
-    pub median: f64,
-    pub unknown: Unknown<f64>,
-}
-
-impl Motions {
-    /// The motions with this error of ln(PGV / PGA), of this magnitude or the median one.
-    pub fn given<'a>(&self, directions: &'a [Direction], ln: f64, mw: Option<f64>) -> GivenPeak<'a> {
-        let mw = mw.unwrap_or(self.median);
-        let known = self.velocity.magnitude(self.given, mw).map(|mw| mw + self.above);
-        GivenPeak::new(directions, self.peak, self.velocity.at(mw, ln), known)
-    }
+/// Rates over a curve, as it is or extrapolated.
+pub(super) struct Integrated {
+    pub curve: HazardCurve,
+    pub rates: LimitStates<Rate>,
+    /// Whether it ends too early for the rate of overturning.
+    pub ends_early: bool,
+    /// The share of that rate beyond the last point of a curve that is extrapolated.
+    pub beyond: Option<f64>,
 }
 
 impl Varied {
     /// Gives the rates their limits; `ends_early` where the hazard does so for values.
     fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
-        let LimitStates { rocking, failure, overturning } = &self.rates;
+        let rocking = self.rates.rocking;
         let is_rocking_early = ends_early && rocking.beyond > NEGLIGIBLE * rocking.value;
         SiteRates {
-            rocking: self.limited(rocking, |rates| &rates.rocking, is_rocking_early),
-            failure: self.limited(failure, |rates| &rates.failure, ends_early),
-            overturning: self.limited(overturning, |rates| &rates.overturning, ends_early),
+            rocking: self.limited(LimitState::Rocking, is_rocking_early),
+            failure: self.limited(LimitState::Failure, ends_early),
+            overturning: self.limited(LimitState::Overturning, ends_early),
             errors: self.budget(|rates| rates.overturning.value),
             velocity: None,
             beyond: None,
@@ -266,37 +237,25 @@ impl Varied {
     /// Gives one rate its limits. Where the hazard ends too early, either no stronger motion than its last
     /// has the effect, or each: the rate lies within the lower limit of the one and the upper limit of the
     /// other.
-    fn limited(
-        &self,
-        rate: &Rate,
-        of: fn(&LimitStates<Rate>) -> &Rate,
-        ends_early: bool,
-    ) -> Option<AnnualRate> {
+    fn limited(&self, state: LimitState, ends_early: bool) -> Option<AnnualRate> {
+        let (rate, rocking) = (self.rates.get(state), self.rates.rocking);
         if rate.value.is_nan() {
             return None;
         }
-        let most = self.rates.rocking.value + if ends_early { self.rates.rocking.beyond } else { 0.0 };
-        Some(match ends_early {
-            false => AnnualRate::Estimate(self.budget(|rates| of(rates).value).limit_rate(rate.value, most)),
-            true => AnnualRate::Range {
-                low: self.budget(|rates| of(rates).least()).limit_rate(rate.least(), most).low,
-                high: self.budget(|rates| of(rates).most()).limit_rate(rate.most(), most).high,
-            },
+        if !ends_early {
+            let budget = self.budget(|rates| rates.get(state).value);
+            return Some(AnnualRate::Estimate(budget.limit_rate(rate.value, rocking.value)));
+        }
+        let (least, most) =
+            (self.budget(|rates| rates.get(state).least()), self.budget(|rates| rates.get(state).most()));
+        Some(AnnualRate::Range {
+            low: least.limit_rate(rate.least(), rocking.most()).low,
+            high: most.limit_rate(rate.most(), rocking.most()).high,
         })
     }
 
-    /// The standard deviations of ln of a rate.
+    /// Returns the standard deviations of ln of a rate.
     fn budget(&self, rate: impl Fn(&LimitStates<Rate>) -> f64) -> Budget {
         Budget::new(&self.rates, &self.ends, |rates| rate(rates).max(LEAST).ln())
     }
-}
-
-/// Computes rates with each unknown of an object, and each error of its models, at its quantiles.
-fn ends_of_subject(
-    subject: &Subject,
-    rates: impl Fn(&[Direction]) -> LimitStates<Rate>,
-) -> Vec<Unknown<LimitStates<Rate>>> {
-    let model_errors = subject.model_errors();
-    let all = model_errors.iter().chain(&subject.unknowns);
-    all.map(|unknown| unknown.map(|change| rates(&subject.changed(change)))).collect()
 }

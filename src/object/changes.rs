@@ -1,7 +1,7 @@
 //! What would change how likely an object is to overturn, one thing at a time.
 
 use super::given::{Object, Restitution};
-use super::subject::Part;
+use super::subject::{Part, Unknown};
 use crate::fragility::Z_95;
 use crate::motion::Floor;
 use crate::number;
@@ -67,20 +67,22 @@ impl Object {
     /// With eta known: a standard deviation below and above its median, where it is not.
     fn measured(&self) -> Vec<Changed> {
         let Ok(sides) = self.sides() else { return Vec::new() };
-        let Some((_, ends)) = sides[0].unknowns.iter().find(|(part, _)| *part == Part::Eta) else {
+        let Some(Unknown { low, high, .. }) =
+            sides[0].unknowns.iter().find(|unknown| unknown.part == Part::Eta)
+        else {
             return Vec::new();
         };
         let median = sides[0].structure.eta;
-        let at = |end: f64| match self.place.eta_sd {
-            Some(_) => median + (end - median) / Z_95,
-            None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
-        };
-        let changed = |eta: f64| {
+        let changes = [low.eta, high.eta].map(|end| {
+            let eta = match self.place.eta_sd {
+                Some(_) => median + (end - median) / Z_95,
+                None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
+            };
             let mut object = self.clone();
             object.shape.eta = Some(Restitution::Number(eta));
             object.place.eta_sd = None;
             Changed { words: format!("restitution measured: {}", number::fixed(eta, 2)), object }
-        };
-        ends.iter().map(|end| changed(at(end.eta))).collect()
+        });
+        changes.into()
     }
 }

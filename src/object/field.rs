@@ -1,6 +1,7 @@
 //! The numbers that may be known of an object, by the names that options, lists and messages have for them.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::RangeInclusive;
 
 use crate::keyword::keywords;
 use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
@@ -54,25 +55,26 @@ impl Field {
     /// structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2
     /// rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
-    pub fn range(self) -> ([f64; 2], &'static str) {
+    pub fn range(self) -> (RangeInclusive<f64>, &'static str) {
         match self {
-            Field::Width | Field::Depth => ([1e-4, 200.0], LENGTH),
-            Field::Height => ([1e-3, 200.0], LENGTH),
-            Field::CentreHeight => ([1e-6, 200.0], LENGTH),
-            Field::CentreOffset => ([-100.0, 100.0], "a length up to 100 m: is it in cm or mm?"),
-            Field::Inertia => ([1e-9, 2e4], "m2, above 0: is it about an edge, or times mass?"),
-            Field::BeamMassRatio => ([0.0, 20.0], "a mass ratio from 0 to 20: is it in percent?"),
-            Field::P => ([*GIVEN_FREQUENCIES_RAD_S.start(), *GIVEN_FREQUENCIES_RAD_S.end()], "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"),
-            Field::Alpha => ([0.01, FRAC_PI_4],
+            Field::Width | Field::Depth => (1e-4..=200.0, LENGTH),
+            Field::Height => (1e-3..=200.0, LENGTH),
+            Field::CentreHeight => (1e-6..=200.0, LENGTH),
+            Field::CentreOffset => (-100.0..=100.0, "a length up to 100 m: is it in cm or mm?"),
+            Field::Inertia => (1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?"),
+            Field::BeamMassRatio => (0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?"),
+            Field::P => (GIVEN_FREQUENCIES_RAD_S,
+                "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"),
+            Field::Alpha => (0.01..=FRAC_PI_4,
                 "rad, from 0.01 to 0.7854 (45 degrees): is it in degrees, height over width, or p?"),
-            Field::Eta => ([f64::MIN_POSITIVE, 1.0], "a number above 0 and up to 1, or housner"),
-            Field::Period => ([0.02, 10.0], "a period from 0.02 to 10 s: is it in Hz?"),
-            Field::Level => ([0.0, 1.0], "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"),
-            Field::PeriodSd => ([0.0, 1.0],
+            Field::Eta => (f64::MIN_POSITIVE..=1.0, "a number above 0 and up to 1, or housner"),
+            Field::Period => (0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"),
+            Field::Level => (0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"),
+            Field::PeriodSd => (0.0..=1.0,
                 "a standard deviation of ln(period), 0 to 1: is it in s or percent?"),
-            Field::Friction => ([0.01, 2.0], "a coefficient of friction from 0.01 to 2"),
-            Field::EtaSd => ([0.0, 0.5], "a standard deviation from 0 to 0.5"),
-            Field::CentreHeightSd | Field::CentreOffsetSd => ([0.0, 100.0], SD),
+            Field::Friction => (0.01..=2.0, "a coefficient of friction from 0.01 to 2"),
+            Field::EtaSd => (0.0..=0.5, "a standard deviation from 0 to 0.5"),
+            Field::CentreHeightSd | Field::CentreOffsetSd => (0.0..=100.0, SD),
         }
     }
 
@@ -95,9 +97,9 @@ impl Field {
     /// # Errors
     /// With what is expected.
     pub fn parse_value(self, text: &str) -> Result<f64, String> {
-        let ([least, most], expected) = self.range();
+        let (range, expected) = self.range();
         match text.parse::<f64>() {
-            Ok(value) if (least..=most).contains(&value) => Ok(value),
+            Ok(value) if range.contains(&value) => Ok(value),
             _ if text.contains(',') => Err(format!("expected {expected}, with a point before the decimals")),
             _ => Err(format!("expected {expected}")),
         }

@@ -52,7 +52,7 @@ pub enum Restitution {
     /// A number.
     #[serde(untagged)]
     Number(f64),
-    /// That of a fitted structure: its fits do not say how it was found.
+    /// The number of a fitted structure: its fits do not say how it was found.
     #[serde(untagged)]
     Fitted(f64),
 }
@@ -75,7 +75,7 @@ pub enum Reason {
     /// What is given cannot be right.
     #[error("{0}")]
     Implausible(String),
-    /// It does not rock: it slides, rolls or is held.
+    /// What is given does not rock: it slides, rolls or is held.
     #[error("{0}")]
     NotRocking(String),
 }
@@ -104,13 +104,6 @@ pub struct Object {
     pub refused: Option<Reason>,
 }
 
-/// The names and values of a mapping, without those that are null.
-fn given(mapping: BTreeMap<String, Value>) -> Vec<(String, String)> {
-    let text = |value: Value| value.as_str().map_or_else(|| value.to_string(), str::to_string);
-    let given = mapping.into_iter().filter(|(_, value)| !value.is_null());
-    given.map(|(name, value)| (name, text(value))).collect()
-}
-
 impl FromStr for Object {
     type Err = String;
 
@@ -118,14 +111,16 @@ impl FromStr for Object {
     fn from_str(text: &str) -> Result<Object, String> {
         let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
         // A mapping of a pipeline file or of Python is JSON, whose values may have commas.
-        let mapping = serde_json::from_str::<BTreeMap<String, Value>>(text).map_or(Vec::new(), given);
-        let pair = |pair: &str| {
-            let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-            (name.trim().to_string(), value.trim().to_string())
+        let Ok(mapping) = serde_json::from_str::<BTreeMap<String, Value>>(text) else {
+            for pair in text.split(',') {
+                let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+                object.set(&name.trim().replace('_', "-"), value.trim())?;
+            }
+            return Ok(object);
         };
-        let pairs = if mapping.is_empty() { text.split(',').map(pair).collect() } else { mapping };
-        for (name, value) in pairs {
-            object.set(&name.replace('_', "-"), &value)?;
+        for (name, value) in mapping.into_iter().filter(|(_, value)| !value.is_null()) {
+            let text = value.as_str().map_or_else(|| value.to_string(), str::to_string);
+            object.set(&name.replace('_', "-"), &text)?;
         }
         Ok(object)
     }
@@ -159,8 +154,8 @@ impl Object {
             "name" => self.name = text.to_string(),
             "count" => {
                 let count = text.parse().ok().filter(|count| *count <= MOST_OBJECTS);
-                self.count =
-                    Some(count.ok_or_else(|| refuse("expected a whole number of objects".to_string()))?);
+                let expected = || refuse("expected a whole number of objects".to_string());
+                self.count = Some(count.ok_or_else(expected)?);
             }
             "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
             _ => {

@@ -3,26 +3,26 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::given::{Object, Place, Reason, Restitution, Shape};
-use super::subject::Part;
+use super::subject::{Part, Unknown};
 use crate::fragility::Z_95;
 use crate::rocking::{Body, Structure, StructureError, housner_eta};
-use crate::statistics::{normal, numerics};
+use crate::statistics::{Estimate, normal, numerics};
 
 /// A direction in which an object rocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Side {
     /// The structure that it rocks like.
     pub structure: Structure,
-    /// What is not known of that: parts, each with the structures at the 2.5 and 97.5 % quantiles.
-    pub unknowns: Vec<(Part, [Structure; 2])>,
+    /// What is not known of that: other structures.
+    pub unknowns: Vec<Unknown<Structure>>,
 }
 
 /// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
 /// 1.8 times as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al.
 /// 2016, Ther & Kollar 2017).
 const SD_OF_LOSS: f64 = 0.4;
-/// Least and largest coefficient of restitution at the ends of what is not known.
-const POSSIBLE_ETA: [f64; 2] = [0.01, 1.0];
+/// Least coefficient of restitution at the ends of what is not known.
+const LEAST_ETA: f64 = 0.01;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
 const FARTHEST: f64 = 0.98;
@@ -112,17 +112,15 @@ impl Object {
     /// Makes the side of a structure of which nothing but eta is unknown: by its standard deviation if that
     /// is given, of a computed one by tests.
     fn side_like(&self, structure: Structure) -> Side {
-        let limits = match (self.place.eta_sd, self.shape.given_eta()) {
-            (Some(sd), _) => Some([-Z_95, Z_95].map(|off| structure.eta + off * sd)),
+        let off = Unknown { part: Part::Eta, low: -Z_95, high: Z_95 };
+        let etas = match (self.place.eta_sd, self.shape.given_eta()) {
+            (Some(sd), _) => Some(off.map(|off| structure.eta + off * sd)),
             (None, Some(_)) => None,
-            (None, None) => {
-                Some([Z_95, -Z_95].map(|off| 1.0 - (1.0 - structure.eta) * (off * SD_OF_LOSS).exp()))
-            }
+            (None, None) => Some(off.map(|off| 1.0 - (1.0 - structure.eta) * (-off * SD_OF_LOSS).exp())),
         };
-        let [least, most] = POSSIBLE_ETA;
-        let with = |eta: f64| Structure { eta: eta.clamp(least, most), ..structure.clone() };
-        let unknowns = limits.map(|limits| (Part::Eta, limits.map(with))).into_iter().collect();
-        Side { structure, unknowns }
+        let unknown = etas
+            .map(|etas| etas.map(|eta| Structure { eta: eta.clamp(LEAST_ETA, 1.0), ..structure.clone() }));
+        Side { structure, unknowns: unknown.into_iter().collect() }
     }
 
     /// Finds both directions of a body, or that of its width.
@@ -145,27 +143,28 @@ impl Object {
         let inertia_m2 =
             self.shape.inertia.map_or(solid.inertia_m2, |inertia| inertia + solid.inertia_m2 - across);
         let centre = self.shape.centre_height.unwrap_or(0.5 * height);
-        let [left, middle, right] = folded_quantiles(offset, centre_offset_sd.unwrap_or(0.0));
+        let offset = folded_quantiles(offset, centre_offset_sd.unwrap_or(0.0));
         let at = |centre_height_m: f64, centre_offset_m: f64| Body {
             width_m: side,
             centre_height_m: centre_height_m.clamp((1.0 - FARTHEST) * height, FARTHEST * height),
             centre_offset_m: centre_offset_m.min(FARTHEST * 0.5 * side),
             inertia_m2,
         };
-        let mut found = self.side_like(self.structure_of_body(at(centre, middle), height)?);
+        let mut found = self.side_like(self.structure_of_body(at(centre, offset.value), height)?);
         let alpha_rad = found.structure.alpha_rad;
         if alpha_rad > FRAC_PI_4 {
             let tan = alpha_rad.tan();
             let text = format!("squat: it slides unless its friction is above {tan:.2}");
             return Err(Reason::NotRocking(text));
         }
-        let by_height = centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, middle)));
-        let by_offset = centre_offset_sd.map(|_| [at(centre, left), at(centre, right)]);
+        let by_height =
+            centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, offset.value)));
+        let by_offset = centre_offset_sd.map(|_| [offset.low, offset.high].map(|offset| at(centre, offset)));
         for bodies in [by_height, by_offset].into_iter().flatten() {
             // A body that is squat is no danger.
-            let structures = bodies
+            let [low, high] = bodies
                 .map(|body| self.structure_of_body(body, height).unwrap_or_else(|_| found.structure.clone()));
-            found.unknowns.push((Part::Object, structures));
+            found.unknowns.push(Unknown { part: Part::Object, low, high });
         }
         Ok(found)
     }
@@ -181,17 +180,22 @@ impl Object {
 }
 
 impl Side {
-    /// The friction below which it slides, tan(alpha).
+    /// Returns the friction below which it slides, tan(alpha).
     fn friction(&self) -> f64 {
         self.structure.alpha_rad.tan()
     }
 }
 
-/// Finds the 2.5, 50 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as bad.
-fn folded_quantiles(mean: f64, sd: f64) -> [f64; 3] {
-    let within = |x: f64| normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd);
-    [0.025, 0.5, 0.975].map(|share| match sd > 0.0 {
-        true => numerics::first(0.0, mean.abs() + 5.0 * sd, |x| within(x) > share),
-        false => mean.abs(),
-    })
+/// Finds the median and the 2.5 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as
+/// bad.
+fn folded_quantiles(mean: f64, sd: f64) -> Estimate {
+    if sd == 0.0 {
+        return Estimate::exact(mean.abs());
+    }
+    let [low, value, high] = [0.025, 0.5, 0.975].map(|share| {
+        numerics::first(0.0, mean.abs() + 5.0 * sd, |x| {
+            normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd) > share
+        })
+    });
+    Estimate { value, low, high }
 }

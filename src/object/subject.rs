@@ -117,30 +117,34 @@ impl Subject {
         let (sides, floor) = (object.sides()?, object.place.floor()?);
         let mut unknowns = Vec::new();
         // The sides of an object have the same parts unknown.
-        for (number, &(part, _)) in sides[0].unknowns.iter().enumerate() {
-            let at = |end: usize| sides.iter().map(|side| side.unknowns[number].1[end].clone()).collect();
-            let [low, high] = [0, 1].map(|end| Change::Structures(at(end)));
-            unknowns.push(Unknown { part, low, high });
+        for (number, Unknown { part, .. }) in sides[0].unknowns.iter().enumerate() {
+            let all = sides.iter().map(|side| &side.unknowns[number]);
+            let (low, high) = all.map(|unknown| (unknown.low.clone(), unknown.high.clone())).unzip();
+            unknowns.push(Unknown {
+                part: *part,
+                low: Change::Structures(low),
+                high: Change::Structures(high),
+            });
         }
         if let Some(floor) = floor {
             let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
-            let [low, high] = [-Z_95, Z_95].map(|off| floor.period_s * (off * sd).exp());
-            let [low, high] = [low, high].map(|period_s| Change::Floor(Floor { period_s, ..floor }));
-            unknowns.push(Unknown { part: Part::Floor, low, high });
+            let off = Unknown { part: Part::Floor, low: -Z_95, high: Z_95 };
+            unknowns.push(
+                off.map(|off| Change::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })),
+            );
         }
-        let mut directions = Vec::new();
-        for (side, model) in sides.into_iter().zip(models) {
-            let problem =
-                || Reason::Implausible("period: the paper's model is that of the ground".to_string());
-            directions
-                .push(Direction { structure: side.structure, model: model.on(floor).ok_or_else(problem)? });
-        }
+        let directions = sides
+            .into_iter()
+            .zip(models)
+            .map(|(side, model)| Some(Direction { structure: side.structure, model: model.on(floor)? }));
+        let problem = "period: the paper's model is that of the ground";
+        let directions: Option<Vec<Direction>> = directions.collect();
+        let directions = directions.ok_or_else(|| Reason::Implausible(problem.to_string()))?;
         Ok(Subject { directions, unknowns })
     }
 
     /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is
-    /// a demand
-    /// |theta|max / alpha above `limit_state`, or overturning.
+    /// a demand |theta|max / alpha above `limit_state`, or overturning.
     ///
     /// # Errors
     /// Why there is no answer.
@@ -161,7 +165,7 @@ impl Subject {
             }
             Change::Floor(floor) => {
                 for Direction { model, .. } in &mut directions {
-                    if let Some(moved) = model.on(Some(*floor)) {
+                    if let Some(moved) = model.clone().on(Some(*floor)) {
                         *model = moved;
                     }
                 }
@@ -181,11 +185,14 @@ impl Subject {
     /// Lists what is not known of the models: the same error moves all directions.
     pub fn model_errors(&self) -> Vec<Unknown> {
         let fewest = self.directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
-        let unknown = |error: usize| {
-            let [low, high] = [false, true].map(|is_high| Change::Model { error, is_high });
-            Unknown { part: Part::Fit, low, high }
-        };
-        (0..fewest).map(unknown).collect()
+        let ends = Unknown { part: Part::Fit, low: false, high: true };
+        (0..fewest).map(|error| ends.map(|&is_high| Change::Model { error, is_high })).collect()
+    }
+
+    /// Finds what follows with each of these errors of the models, and each unknown, at its quantiles.
+    pub fn ends<T>(&self, errors: &[Unknown], result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
+        let all = errors.iter().chain(&self.unknowns);
+        all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
     }
 
     /// Warns of structures that are hardly possible.

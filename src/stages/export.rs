@@ -9,8 +9,8 @@ use super::shared::model_args::{ModelArgs, words_of};
 use super::shared::objects::{StructureArgs, named};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
-use crate::fragility::{GivenPeak, LimitStates, Peak};
-use crate::hazard::{PgvPgaRatio, magnitude, strongest};
+use crate::fragility::{LimitStates, Peak};
+use crate::hazard::{SitesInGeneral, strongest};
 use crate::inputs::Renames;
 use crate::keyword::keywords;
 use crate::object::{Object, Place, Subject};
@@ -145,13 +145,12 @@ impl Export {
     /// or nothing was ever recorded.
     fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
         let model = &subject.directions[0].model;
-        let (velocity, median) = (PgvPgaRatio::of_model(model, self.im, None), magnitude(None, None).0);
-        let (ratio, mw) = (velocity.at(median, 0.0), velocity.magnitude(None, median));
-        let given_peak = GivenPeak::new(&subject.directions, self.im, ratio, mw);
+        let general = SitesInGeneral { over: self.im, mw: None, vs30_m_s: None, ratio_s: None };
+        let given_peak = general.given_peak(&subject.directions);
         let reaching =
             |intensity: f64| given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0)).into_array();
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
-        let [uplift, _] = given_peak.uplift();
+        let uplift = given_peak.uplift().least;
         let most = strongest(self.im).max(2.0 * uplift);
         let end = whole_curve_end(uplift, tolerance, reaching).min(most);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);

@@ -57,7 +57,7 @@ impl Stage for Validate {
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.
-            let kind = Kind::of_word(cases.suite.as_deref());
+            let kind = Kind::from_suite(cases.suite.as_deref());
             models.args.suite = self.fits.suite.or(Some(kind));
             let (model, warnings) = models.model(&cases.structure)?;
             let warnings = warnings.into_iter().map(|warning| (warning, cases.structure.name.clone()));

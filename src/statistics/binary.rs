@@ -94,7 +94,7 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
     if !converged {
         return Err(FitStatus::NotConverged);
     }
-    let fit = Fit::new(design.of_given(&at, &inverse), f64::INFINITY, events.len());
+    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY, events.len());
     Ok(ProbitFit { fit, log_likelihood: log_likelihood(&design.x, events, &at) })
 }
 
@@ -102,11 +102,15 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
 /// that the likelihood has no maximum.
 fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance: &DMatrix<f64>) -> bool {
     let z = x * b;
-    let of = |event: bool| z.iter().zip(events).filter(move |(_, of)| **of == event).map(|(z, _)| *z);
-    let least = |event| of(event).fold(f64::INFINITY, f64::min);
-    let largest = |event| of(event).fold(f64::NEG_INFINITY, f64::max);
+    // Least and largest z of other cases, and of events.
+    let mut ends = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    for (&z, &event) in z.iter().zip(events) {
+        let (least, largest) = &mut ends[usize::from(event)];
+        (*least, *largest) = (least.min(z), largest.max(z));
+    }
     // They may touch. Where z is the same for all cases, it separates nothing.
-    let do_not_overlap = largest(false) <= least(true) && least(false) < largest(true);
+    let [(least_other, largest_other), (least_event, largest_event)] = ends;
+    let do_not_overlap = largest_other <= least_event && least_other < largest_event;
     let largest_variance = (x * covariance).component_mul(x).column_sum().max();
     do_not_overlap || largest_variance > ENDLESS * ENDLESS
 }
@@ -116,11 +120,9 @@ fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance:
 pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
     let mut probit = probit(x, events)?;
     let z = predict(probit.fit.coefficients.as_slice(), x);
-    let score = |(&z, &event): (&f64, &bool)| {
-        let sign = if event { 1.0 } else { -1.0 };
-        sign * normal::ln_cdf_and_slope(sign * z).1
-    };
-    let scores: Vec<f64> = z.iter().zip(events).map(score).collect();
+    let signs = events.iter().map(|&event| if event { 1.0 } else { -1.0 });
+    let scores: Vec<f64> =
+        z.iter().zip(signs).map(|(&z, sign)| sign * normal::ln_cdf_and_slope(sign * z).1).collect();
     (probit.fit.clustered, probit.fit.clusters) = sandwich(x, &scores, &probit.fit.covariance, clusters);
     probit.fit.note_misfit(misfit(&probit, x, events));
     Ok(probit)

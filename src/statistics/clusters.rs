@@ -63,7 +63,7 @@ pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Folds {
     /// Fold of each case.
-    of: Vec<usize>,
+    fold: Vec<usize>,
     /// Number of folds.
     pub count: usize,
 }
@@ -74,12 +74,15 @@ impl Folds {
     pub fn new(clusters: &[u32], most: usize) -> Option<Folds> {
         let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
         let count = distinct.len().min(most);
-        let fold = |cluster: &u32| distinct.partition_point(|other| other < cluster) % count;
-        (count > 1).then(|| Folds { of: clusters.iter().map(fold).collect(), count })
+        if count < 2 {
+            return None;
+        }
+        let places = clusters.iter().map(|cluster| distinct.partition_point(|other| other < cluster));
+        Some(Folds { fold: places.map(|place| place % count).collect(), count })
     }
 
     /// Returns the cases to fit, and those left out, for a fold.
     pub fn split(&self, fold: usize) -> (Vec<usize>, Vec<usize>) {
-        (0..self.of.len()).partition(|&case| self.of[case] != fold)
+        (0..self.fold.len()).partition(|&case| self.fold[case] != fold)
     }
 }

@@ -48,7 +48,7 @@ impl DesignMatrix {
     }
 
     /// Transforms coefficients and covariance of `x` to those of the original predictors.
-    pub fn of_given(&self, b: &DVector<f64>, covariance: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    pub fn to_given(&self, b: &DVector<f64>, covariance: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
         (&self.to_given * b, &self.to_given * covariance * self.to_given.transpose())
     }
 }

@@ -98,14 +98,16 @@ pub fn independent_errors(coefficients: &[f64], covariance: &[f64], deviations: 
     let k = coefficients.len();
     let square = (covariance.len() == k * k).then(|| DMatrix::from_row_slice(k, k, covariance));
     let Some(factor) = square.and_then(DMatrix::cholesky) else { return Vec::new() };
-    let at = |error: usize, away: f64| {
-        coefficients.iter().zip(factor.l().column(error).iter()).map(|(b, l)| b + away * l).collect()
-    };
-    (0..k).map(|error| [-deviations, deviations].map(|away| at(error, away))).collect()
+    let errors = factor.l();
+    let columns = errors.column_iter().map(|error| {
+        [-deviations, deviations]
+            .map(|away| coefficients.iter().zip(&error).map(|(b, l)| b + away * l).collect())
+    });
+    columns.collect()
 }
 
 /// Computes g' C g, the variance of a function of gradient g (k) by the delta method; C is k x k, by row.
 pub fn variance(covariance: &[f64], gradient: &[f64]) -> f64 {
-    let dot = |row: &[f64]| row.iter().zip(gradient).map(|(c, g)| c * g).sum::<f64>();
-    covariance.chunks_exact(gradient.len()).zip(gradient).map(|(row, g)| g * dot(row)).sum()
+    let rows = covariance.chunks_exact(gradient.len()).zip(gradient);
+    rows.map(|(row, g)| g * row.iter().zip(gradient).map(|(c, g)| c * g).sum::<f64>()).sum()
 }

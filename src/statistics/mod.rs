@@ -8,6 +8,7 @@
 //! design         design matrix
 //! newton         maximum of a log-likelihood
 //! clusters       standard errors and cross-validation for dependent cases
+//! range          the values between two bounds
 //! scores         AUC, Brier and log score of probabilities
 //! normal         standard normal distribution
 //! distributions  t, F and chi squared
@@ -26,6 +27,7 @@ pub mod newton;
 pub mod normal;
 #[doc(hidden)]
 pub mod numerics;
+mod range;
 pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
@@ -33,3 +35,4 @@ pub use clusters::Folds;
 pub use estimate::Estimate;
 pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};
+pub use range::Range;

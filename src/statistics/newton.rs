@@ -28,18 +28,18 @@ impl Objective {
     /// Sums the contributions of cases: chunks in parallel, then the chunks in order, so that the result does
     /// not depend on the number of threads. `add` adds a case to the sum.
     pub fn sum(cases: usize, coefficients: usize, add: impl Fn(usize, &mut Objective) + Sync) -> Objective {
-        let zero = || Objective {
+        let zero = Objective {
             value: 0.0,
             gradient: DVector::zeros(coefficients),
             information: DMatrix::zeros(coefficients, coefficients),
         };
-        let chunk = |chunk: usize| {
-            let mut sum = zero();
+        let chunks = (0..cases.div_ceil(CHUNK)).into_par_iter().map(|chunk| {
+            let mut sum = zero.clone();
             (chunk * CHUNK..cases.min((chunk + 1) * CHUNK)).for_each(|case| add(case, &mut sum));
             sum
-        };
-        let chunks: Vec<Objective> = (0..cases.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
-        chunks.into_iter().fold(zero(), |sum, chunk| Objective {
+        });
+        let chunks: Vec<Objective> = chunks.collect();
+        chunks.into_iter().fold(zero, |sum, chunk| Objective {
             value: sum.value + chunk.value,
             gradient: sum.gradient + chunk.gradient,
             information: sum.information + chunk.information,

@@ -1,6 +1,6 @@
 //! The standard normal distribution.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// The lower tail below this uses a continued fraction.
 const TAIL: f64 = -5.0;
@@ -12,9 +12,14 @@ pub fn cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
 }
 
+/// Computes the density.
+pub fn density(x: f64) -> f64 {
+    (-0.5 * x * x).exp() / TAU.sqrt()
+}
+
 /// Computes ln Phi(x) and its derivative, the inverse Mills ratio phi(x) / Phi(x).
 pub fn ln_cdf_and_slope(x: f64) -> (f64, f64) {
-    let ln_density = -0.5 * (x * x + (2.0 * PI).ln());
+    let ln_density = -0.5 * (x * x + TAU.ln());
     if x < TAIL {
         // phi / Phi = y + 1/(y + 2/(y + 3/(y + ...))), y = -x (Laplace).
         let mills = (1..=LEVELS).rev().fold(-x, |ratio, level| -x + f64::from(level) / ratio);

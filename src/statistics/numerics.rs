@@ -1,7 +1,10 @@
 //! Quadrature and bisection.
 
-/// Nodes and weights on (0, 1) of the Gauss-Legendre rule of order 8, exact for polynomials of degree 15.
-const GAUSS_LEGENDRE: [(f64, f64); 8] = [
+/// Nodes of a panel.
+const ORDER: usize = 8;
+
+/// Nodes and weights on (0, 1) of the Gauss-Legendre rule, exact for polynomials of degree 15.
+const GAUSS_LEGENDRE: [(f64, f64); ORDER] = [
     (0.019_855_071_751_231_884, 0.050_614_268_145_188_13),
     (0.101_666_761_293_186_63, 0.111_190_517_226_687_24),
     (0.237_233_795_041_835_5, 0.156_853_322_938_943_64),
@@ -12,25 +15,54 @@ const GAUSS_LEGENDRE: [(f64, f64); 8] = [
     (0.980_144_928_248_768_1, 0.050_614_268_145_188_13),
 ];
 
-/// Returns nodes and weights of the integral between two values: the Gauss-Legendre rule of order 8 on equal
-/// panels, none wider than `widest`.
-pub fn quadrature(from: f64, to: f64, widest: f64) -> impl Iterator<Item = (f64, f64)> {
-    let panels = ((to - from) / widest).ceil().max(1.0);
-    let width = (to - from) / panels;
-    (0..panels as usize).flat_map(move |panel| {
-        let start = from + width * panel as f64;
-        GAUSS_LEGENDRE.map(|(node, weight)| (start + node * width, weight * width))
-    })
+/// An interval over which a function is taken as the polynomial through its values at the nodes.
+#[derive(Debug, Clone, Copy)]
+pub struct Panel {
+    pub from: f64,
+    pub to: f64,
 }
 
-/// Returns by how much each value at the nodes of a panel counts in the polynomial through all, at a place
-/// between its ends, from 0 to 1.
-pub fn interpolation(place: f64) -> [f64; 8] {
-    std::array::from_fn(|k| {
-        let others =
-            (0..GAUSS_LEGENDRE.len()).filter(|other| *other != k).map(|other| GAUSS_LEGENDRE[other].0);
-        others.map(|other| (place - other) / (GAUSS_LEGENDRE[k].0 - other)).product()
-    })
+/// Returns the equal panels between two values, none wider than `widest`.
+pub fn panels(from: f64, to: f64, widest: f64) -> impl Iterator<Item = Panel> {
+    let count = ((to - from) / widest).ceil().max(1.0);
+    let width = (to - from) / count;
+    (0..count as usize)
+        .map(move |k| Panel { from: from + width * k as f64, to: from + width * (k + 1) as f64 })
+}
+
+impl Panel {
+    /// Returns nodes and weights of the integral.
+    pub fn nodes(self) -> impl Iterator<Item = (f64, f64)> {
+        let width = self.to - self.from;
+        GAUSS_LEGENDRE.into_iter().map(move |(node, weight)| (self.from + node * width, weight * width))
+    }
+
+    /// Returns nodes and weights of the integral over masses at places within it, by the moments of these on
+    /// the Legendre polynomials.
+    pub fn nodes_of(self, masses: impl Iterator<Item = (f64, f64)>) -> [(f64, f64); ORDER] {
+        let width = self.to - self.from;
+        let mut moments = [0.0; ORDER];
+        for (at, mass) in masses {
+            let values = legendre((at - self.from) / width);
+            moments.iter_mut().zip(values).for_each(|(moment, value)| *moment += mass * value);
+        }
+        GAUSS_LEGENDRE.map(|(node, weight)| {
+            let terms = legendre(node).into_iter().zip(moments).enumerate();
+            let density: f64 = terms.map(|(n, (value, moment))| (2 * n + 1) as f64 * value * moment).sum();
+            (self.from + node * width, weight * density)
+        })
+    }
+}
+
+/// Computes the Legendre polynomials of degree 0, 1, ... on (0, 1).
+fn legendre(place: f64) -> [f64; ORDER] {
+    let x = 2.0 * place - 1.0;
+    let mut values = [1.0, x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    for n in 1..ORDER - 1 {
+        let k = n as f64;
+        values[n + 1] = ((2.0 * k + 1.0) * x * values[n] - k * values[n - 1]) / (k + 1.0);
+    }
+    values
 }
 
 /// Halvings of an interval to rounding.
@@ -38,10 +70,10 @@ const HALVINGS: usize = 60;
 
 /// Finds by bisection the least value between two at which a condition holds; it holds from there on, and at
 /// `high`.
-pub fn first(low: f64, high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    let halve = |(before, after): (f64, f64), _| {
-        let middle = 0.5 * (before + after);
-        if holds(middle) { (before, middle) } else { (middle, after) }
-    };
-    (0..HALVINGS).fold((low, high), halve).1
+pub fn first(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        *(if holds(middle) { &mut high } else { &mut low }) = middle;
+    }
+    high
 }

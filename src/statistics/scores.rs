@@ -18,14 +18,15 @@ pub fn auc(scores: &[f64], events: &[bool]) -> f64 {
 
 /// Computes the Brier score: the mean squared difference of probability and outcome.
 pub fn brier_score(probabilities: &[f64], events: &[bool]) -> f64 {
-    let square = |(p, &event): (&f64, &bool)| (p - f64::from(event)).powi(2);
-    probabilities.iter().zip(events).map(square).sum::<f64>() / events.len() as f64
+    let squares = probabilities.iter().zip(events).map(|(p, &event)| (p - f64::from(event)).powi(2));
+    squares.sum::<f64>() / events.len() as f64
 }
 
 /// Computes the logarithmic score: the mean log probability of the outcomes, at most 0.
 pub fn log_score(probabilities: &[f64], events: &[bool]) -> f64 {
-    let term = |(p, &event): (&f64, &bool)| if event { p.ln() } else { (-p).ln_1p() };
-    probabilities.iter().zip(events).map(term).sum::<f64>() / events.len() as f64
+    let logarithms =
+        probabilities.iter().zip(events).map(|(p, &event)| if event { p.ln() } else { (-p).ln_1p() });
+    logarithms.sum::<f64>() / events.len() as f64
 }
 
 /// Finds the value that this fraction of a sample lies below; NaN do not count. None of an empty sample.

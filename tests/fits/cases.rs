@@ -3,7 +3,7 @@
 use rockfrag::fragility::{Case, Cases, Cluster, Event, Measure};
 use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
-use rockfrag::statistics::FitStatus;
+use rockfrag::statistics::{FitStatus, Range};
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 
@@ -36,7 +36,8 @@ fn only_cases_with_a_demand_and_all_measures_are_fitted() {
     cases.raise_demands(1e-6);
     let sample = cases.sample(&[Measure::Im4, Measure::Im3Inverse], Case::ln_demand);
     assert_eq!(sample.y, [0.2f64.ln(), 1e-6f64.ln(), 1e-6f64.ln()]);
-    assert_eq!((&sample.clusters[..], &sample.ranges[..]), (&[1, 1, 2][..], &[[1.5, 2.5], [0.25, 0.5]][..]));
+    assert_eq!(sample.clusters, [1, 1, 2]);
+    assert_eq!(sample.ranges, [Range { low: 1.5, high: 2.5 }, Range { low: 0.25, high: 0.5 }]);
     assert_eq!([0, 3].map(|k| cases.all[k].outcome), [Outcome::NoRocking, Outcome::Overturned]);
     assert!(cases.sample(&[Measure::Im1], |_| Some(())).y.is_empty());
 }

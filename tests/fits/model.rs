@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use rand::RngExt;
 use rockfrag::fragility::{
     Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
-    p_failure_given_rocking, predictor,
+    p_failure_given_rocking,
 };
 use rockfrag::keyword::Keyword;
 use rockfrag::motion::{IntensityMeasures, Peaks};
@@ -57,7 +57,9 @@ fn logits_are_those_of_python() {
         let Point { im3, im4, im5, .. } = row;
         let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
         let mw = Some(row.mw).filter(|mw| *mw > 0.0);
-        let of = |limit| predictor(row.kind, &structure, &measures, mw, limit).unwrap();
+        let of = |limit| {
+            Calibration::shipped(row.kind, &structure, limit).predictor(&structure, &measures, mw).unwrap()
+        };
         let (pro, pex) = (of(None), of(Some(row.limit_state)));
         let pairs = [
             (pro.logit, row.logit_pro),

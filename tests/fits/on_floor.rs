@@ -17,7 +17,7 @@ fn stronger_motions_overturn_more_and_higher_floors_rock_sooner() {
         let structure = Structure::rectangular_block("block", width, height, None).unwrap();
         let model = Model::shipped(Kind::Recorded, &structure, 0.1);
         for (period_s, level) in [(0.2, 1.0), (0.6, 0.3), (0.6, 1.0), (2.0, 0.6)] {
-            let floor = model.on(Some(Floor { period_s, level })).unwrap();
+            let floor = model.clone().on(Some(Floor { period_s, level })).unwrap();
             let of = |scale: f64| overturning(&floor, &structure, scale, 0.12 * scale);
             let all: Vec<[f64; 2]> = (0..60).map(|k| of(0.5 * 1.08_f64.powi(k))).collect();
             for pair in all.windows(2) {
@@ -51,7 +51,7 @@ fn level_0_is_the_ground_and_a_rigid_building_moves_with_it() {
         for (floor, tolerance) in
             [(Floor { period_s: 0.6, level: 0.0 }, 1e-12), (Floor { period_s: 1e-8, level: 1.0 }, 0.02)]
         {
-            let found = overturning(&model.on(Some(floor)).unwrap(), &structure, pga, pgv);
+            let found = overturning(&model.clone().on(Some(floor)).unwrap(), &structure, pga, pgv);
             assert!((found[1] / ground[1] - 1.0).abs() < tolerance, "{floor:?}: {found:?}, {ground:?}");
         }
     }

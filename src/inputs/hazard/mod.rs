@@ -99,11 +99,11 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<PeakHazard, Input
     };
     let (peak, curve, velocity) = match (central(PGA)?, central(PGV)?, central(Spectral)?) {
         (Some(pga), Some(pgv), _) => {
-            (Peak::Pga, pga, Some(PgvPgaRatio::of_curves(pga, pgv, VelocitySource::Velocity)?))
+            (Peak::Pga, pga, Some(PgvPgaRatio::by_curves(pga, pgv, VelocitySource::Velocity)?))
         }
         (Some(pga), None, Some(spectral)) => {
             let pgv = velocity_of_spectrum(pga, spectral);
-            (Peak::Pga, pga, Some(PgvPgaRatio::of_curves(pga, &pgv, VelocitySource::Spectrum)?))
+            (Peak::Pga, pga, Some(PgvPgaRatio::by_curves(pga, &pgv, VelocitySource::Spectrum)?))
         }
         (Some(pga), None, None) => (Peak::Pga, pga, None),
         (None, _, Some(_)) => return missing("SA(1.0 s) without PGA", "the curve of PGA too"),

@@ -48,7 +48,7 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
 fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
     let structure = &cases.structure;
-    let shipped = || Calibration::shipped(Kind::of_word(cases.suite.as_deref()), structure, None);
+    let shipped = || Calibration::shipped(Kind::from_suite(cases.suite.as_deref()), structure, None);
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };

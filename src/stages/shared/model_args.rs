@@ -320,7 +320,7 @@ pub fn words_of(model: &Model) -> String {
         }
         Model::Paper { overturning: CurveFit { n, structure, suite, .. }, .. } => {
             let responses = counted(*n as usize, "response");
-            let motions = words_of_kind(Kind::of_word(suite.as_deref()));
+            let motions = words_of_kind(Kind::from_suite(suite.as_deref()));
             format!(
                 "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
             )

@@ -1,0 +1,81 @@
+//! Motions of which one peak is given: the other peak, the magnitude, and what is not known of either.
+
+use super::pgv_pga::{PgvPgaRatio, VelocitySource};
+use crate::fragility::{Direction, GivenPeak, Peak, Z_95};
+use crate::object::{Part, Subject, Unknown};
+
+/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general.
+const USUAL_MAGNITUDE: f64 = 6.35;
+const SD_OF_USUAL: f64 = 0.6;
+/// Standard deviation of their magnitude about a mean of the disaggregation of SA(1.0 s).
+const SD_OF_MEAN: f64 = 0.2;
+/// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at
+/// 2475 years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s)
+/// lies half way, and needs no correction.
+const ABOVE_MEAN_OF_PGA: f64 = 0.45;
+const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
+
+/// The motions of one peak.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motions {
+    pub peak: Peak,
+    pub velocity: PgvPgaRatio,
+    /// Median of the mean magnitude by which PGV / PGA is estimated, and what is not known of it.
+    mean: f64,
+    unknown: Unknown<f64>,
+    /// How far the magnitude of the motions is above that mean; none where PGV / PGA tells their magnitude.
+    above: Option<f64>,
+}
+
+impl Motions {
+    /// Makes the motions of earthquakes of a magnitude, or of those that matter at sites in general.
+    pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> Motions {
+        let (mean, sd) = mw.map_or((USUAL_MAGNITUDE, SD_OF_USUAL), |mw| (mw, 0.0));
+        let unknown = Unknown { part: Part::Magnitude, low: mean - Z_95 * sd, high: mean + Z_95 * sd };
+        // PGV / PGA that is known by two curves, or is that of the model's motions, tells it.
+        let is_told = !matches!(velocity.source, VelocitySource::Sites | VelocitySource::Given);
+        Motions { peak, velocity, mean, unknown, above: (mw.is_some() || !is_told).then_some(0.0) }
+    }
+
+    /// Makes the motions of a site with this mean magnitude of its disaggregation: of SA(1.0 s) where PGV /
+    /// PGA is by this curve, else of PGA; of PGV there is none.
+    pub fn at_site(peak: Peak, velocity: PgvPgaRatio, mean: Option<f64>) -> Motions {
+        let mean = mean.filter(|_| peak == Peak::Pga);
+        let motions = Motions::new(peak, velocity, mean);
+        let Some(mean) = mean else { return motions };
+        let (above, sd) = match velocity.source {
+            VelocitySource::Spectrum => (0.0, SD_OF_MEAN),
+            _ => (ABOVE_MEAN_OF_PGA, SD_ABOVE_MEAN_OF_PGA),
+        };
+        let unknown = Unknown { low: mean - Z_95 * sd, high: mean + Z_95 * sd, ..motions.unknown };
+        Motions { unknown, above: Some(above), ..motions }
+    }
+
+    /// Makes an object ready for these motions, of which this much is added to ln(PGV / PGA).
+    pub fn given<'a>(&self, directions: &'a [Direction], ln: f64) -> GivenPeak<'a> {
+        self.with_mean(directions, self.mean, ln)
+    }
+
+    fn with_mean<'a>(&self, directions: &'a [Direction], mean: f64, ln: f64) -> GivenPeak<'a> {
+        let mw = self.above.map(|above| mean + above);
+        GivenPeak::new(directions, self.peak, self.velocity.at(mean, ln), mw)
+    }
+
+    /// Finds what follows with each unknown of the motions, each of these errors of the models, and each
+    /// unknown of the object at its quantiles.
+    pub fn ends<T>(
+        &self,
+        subject: &Subject,
+        errors: &[Unknown],
+        result: impl Fn(&GivenPeak) -> T,
+    ) -> Vec<Unknown<T>> {
+        let directions = &subject.directions[..];
+        let mut ends = Vec::new();
+        if directions[0].model.depends_on_magnitude() && self.above.is_some() {
+            ends.push(self.unknown.map(|mean| result(&self.with_mean(directions, *mean, 0.0))));
+        }
+        ends.push(self.velocity.unknown().map(|ln| result(&self.given(directions, *ln))));
+        ends.extend(subject.ends(errors, |directions| result(&self.given(directions, 0.0))));
+        ends
+    }
+}
