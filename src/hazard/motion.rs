@@ -36,7 +36,8 @@ impl Motion {
         match self.given_peak(model) {
             Some((motions, intensity)) if !self.is_still() => motions.given(&[], 0.0).peaks(intensity, 0.0),
             _ => {
-                let [pga_m_s2, pgv_m_s] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
+                let known = [self.pga_m_s2, self.pgv_m_s].map(|peak| peak.filter(|_| !self.is_still()));
+                let [pga_m_s2, pgv_m_s] = known.map(Option::unwrap_or_default);
                 Peaks { pga_m_s2, pgv_m_s }
             }
         }

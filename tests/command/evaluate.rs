@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use rockfrag::hazard::PgvPgaRatio;
 use rockfrag::rocking::Structure;
 use rockfrag::units::G_M_S2;
 use rockfrag::warning::Warning;
