@@ -104,13 +104,6 @@ pub fn fit_curve<'py>(
     let im = numbers(im);
     let fit = |_| -> anyhow::Result<_> {
         let refuse = |problem: String| Err(UsageError::because(problem));
-        if im.len() != outcomes.len() {
-            return refuse(format!(
-                "{} intensities and {} outcomes; expected as many",
-                im.len(),
-                outcomes.len()
-            ));
-        }
         if let Some(at) = im.iter().position(|im| !(im.is_finite() && *im > 0.0)) {
             return refuse(format!("im[{at}] is {}; expected a finite number above 0", im[at]));
         }

@@ -29,6 +29,7 @@ pub fn describe() -> String {
         translate(&mut stage["help"]);
         for option in stage["options"].as_array_mut().into_iter().flatten() {
             translate(&mut option["help"]);
+            option["name"] = option["name"].as_str().unwrap_or_default().replace('-', "_").into();
         }
     }
     stages.to_string()

@@ -9,6 +9,7 @@ import pytest
 
 import rockfrag
 
+BLOCK = {"width": 0.5, "height": 2.0}
 FRAME = {"name": "frame", "p": 1.5, "alpha": 0.15, "eta": 0.92}
 
 
@@ -31,5 +32,18 @@ def command(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
         return subprocess.run(
             [program, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, check=False
         )
+
+    return run
+
+
+@pytest.fixture
+def python(tmp_path: Path) -> Callable[[str], str]:
+    """Runs a script by an interpreter of its own in the test's folder, and gives what it prints."""
+
+    def run(script: str) -> str:
+        words = [sys.executable, "-c", script]
+        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=300)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
 
     return run

@@ -4,11 +4,9 @@ import numpy as np
 import polars
 import pytest
 import statsmodels.api
-from conftest import FRAME
+from conftest import BLOCK, FRAME
 
 import rockfrag
-
-BLOCK = {"width": 0.5, "height": 2.0}
 
 
 def test_one_motion_is_the_row_and_trace_of_the_stage(motions):
@@ -43,6 +41,7 @@ def test_a_block_is_known_by_its_dimensions():
         ([[0.1, 0.2]], BLOCK, "2 dimensions"),
         ([0.1, 0.2], {"width": 50, "height": 2}, "width is 50; .* the height"),
         ([0.1, 0.2], {"widht": 0.5}, "'widht' .*did you mean 'width'"),
+        ([0.1, 0.2], {**BLOCK, "level": 0.5, "period": 0.6}, "level, period"),
         ([0.1, 0.2], {}, "expected p, alpha and eta, or width and height"),
     ],
 )
@@ -95,7 +94,7 @@ def test_a_curve_that_cannot_be_fitted_has_a_status(im, outcome, status):
     [
         ([1.0, 0.0], [0, 1], r"im\[1\] is 0; expected a finite number above 0"),
         ([1.0, 2.0], [0, 2], "outcome has other values"),
-        ([1.0, 2.0, 3.0], [0, 1], r"im has the shape \(3,\) and outcome \(2,\)"),
+        (np.ones((20, 10)), np.ones((10, 20)), r"im has the shape \(20, 10\) and outcome \(10, 20\)"),
     ],
 )
 def test_wrong_outcomes_are_told(im, outcome, message):
@@ -138,10 +137,3 @@ def test_a_print_of_probabilities_is_six_lines():
     assert len(repr(rockfrag.probability([0.5, 0.9], 0.6, **BLOCK)).splitlines()) == 6
     with pytest.raises(rockfrag.Error, match="cm/s"):
         rockfrag.probability(0.8, 90.0, **BLOCK)
-
-
-def test_an_error_leaves_no_folder(tmp_path, monkeypatch):
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    with pytest.raises(ValueError):
-        rockfrag.evaluate(pga=0.5, pgv=0.6)
-    assert list(tmp_path.iterdir()) == []

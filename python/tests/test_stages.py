@@ -1,7 +1,6 @@
 """Every stage is a function that does what the command does, with the same options."""
 
 import inspect
-import os
 import pydoc
 import subprocess
 import sys
@@ -44,7 +43,7 @@ def test_an_unknown_option_names_the_nearest(motions):
         ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "invalid value 'x' for 'p"),
         ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "15.*alpha.* is it in degrees"),
         ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
-        ({**FRAME, "name": None, "threads": 0}, ValueError, "threads"),
+        ({**FRAME, "name": None, "threads": 20_000}, ValueError, "threads"),
         ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is not a valid option value"),
     ],
 )
@@ -98,36 +97,10 @@ def test_a_run_is_that_of_the_command(tmp_path, command):
     assert section.to_polars().equals(results["simulate"].to_polars())
 
 
-def test_progress_is_told_and_an_interrupt_ends_the_call(tmp_path, motions):
-    steps: list[tuple[int, int]] = []
-    rockfrag.simulate(
-        motions, structure=FRAME, threads=1, progress=lambda done, total: steps.append((done, total))
-    )
+def test_progress_is_told(motions):
+    steps: list[tuple[int, ...]] = []
+    rockfrag.simulate(motions, structure=FRAME, threads=1, progress=lambda *step: steps.append(step))
     assert steps[-1] == (280, 280)
-    script = f"""
-import os, signal, threading, rockfrag
-threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-try:
-    rockfrag.ida({str(motions.path)!r}, out="ida.parquet", p=1.5, alpha=0.15, eta=0.92, steps=600)
-except KeyboardInterrupt:
-    print("interrupted", os.listdir("."))
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
-    assert done.stdout == "interrupted []\n"
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_a_forked_process_is_refused(motions):
-    pid = os.fork()
-    if pid == 0:
-        try:
-            rockfrag.simulate(motions, structure=FRAME)
-        except rockfrag.Error as error:
-            os._exit(7 if "spawn" in str(error) else 1)
-        os._exit(2)
-    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 7
 
 
 def test_types_of_the_package_and_of_its_users(tmp_path):

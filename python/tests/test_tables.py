@@ -1,8 +1,5 @@
 """Tables come and go as Arrow."""
 
-import subprocess
-import sys
-
 import pandas
 import polars
 import pyarrow
@@ -78,18 +75,3 @@ def test_a_temporary_file_goes_when_its_result_does(motions):
 def test_a_table_that_cannot_be_right_is_told_without_a_path(motions):
     with pytest.raises(rockfrag.Error, match="^in.parquet: no column 'dt_s'"):
         rockfrag.simulate(motions.to_polars().drop("dt_s"), structure=FRAME)
-
-
-def test_pandas_without_pyarrow_is_told_what_to_install(motions):
-    script = f"""
-import sys
-sys.modules["pyarrow"] = None
-import rockfrag
-made = rockfrag.simulate({str(motions.path)!r}, p=1.5, alpha=0.15, eta=0.92)
-try:
-    made.to_pandas()
-except ImportError as error:
-    print(error)
-"""
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert done.stdout == "pyarrow is not installed: pip install pyarrow\n"

@@ -3,7 +3,6 @@
 pub mod config;
 mod yaml;
 
-use std::any::TypeId;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::io::Write;
@@ -118,16 +117,11 @@ pub fn describe() -> Value {
 
 fn option(arg: &Arg) -> Value {
     let path = path_kind(arg);
-    let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<usize>()];
-    let value = arg.get_value_parser().type_id();
     let kind = match path.map(|path| path.role) {
-        Some(Role::Input) => "input",
-        Some(Role::Folder) => "folder",
-        Some(Role::Fits) => "fits",
         Some(Role::Output) => "output",
+        Some(_) => "input",
         None if matches!(arg.get_action(), ArgAction::SetTrue) => "flag",
-        None if numbers.iter().any(|number| value == *number) => "number",
-        None => "text",
+        None => "value",
     };
     let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
     json!({
@@ -136,7 +130,6 @@ fn option(arg: &Arg) -> Value {
         "formats": path.map_or(&[][..], |path| path.formats),
         "default": default.join(","),
         "help": words(arg.get_help()),
-        "heading": arg.get_help_heading().unwrap_or_default(),
         "positional": arg.is_positional(),
         "common": arg.get_help_heading() == Some(COMMON),
     })

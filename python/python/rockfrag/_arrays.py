@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _bridge, _plots, _rockfrag
+from . import _bridge, _plots, _result, _rockfrag
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -29,7 +29,7 @@ def known(array: ArrayLike) -> Floats:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Response:
+class Response(_plots.Shown):
     """The rocking response of a structure to a motion (section 2.2 of the paper)."""
 
     #: Moments, s: every sample, and every event between them.
@@ -66,9 +66,6 @@ class Response:
         structure = f"p {self.p:.3g} rad/s, alpha {self.alpha:.3g}, eta {self.eta:.3g}"
         return f"{self.outcome.replace('_', ' ')}{peak}, {impacts}; {structure}"
 
-    def _repr_html_(self) -> str:
-        return _plots.in_notebook(repr(self), self.plot)
-
 
 def simulate_motion(
     acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str
@@ -91,14 +88,11 @@ def simulate_motion(
     words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
     _bridge.warn(solved.pop("warnings"))
-    parts: dict[str, Any] = {
-        name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()
-    }
-    return Response(**parts)
+    return Response(**{name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()})
 
 
 @dataclass(frozen=True, eq=False)
-class FragilityCurve:
+class FragilityCurve(_plots.Shown):
     """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); without a fit numbers are NaN."""
 
     #: ok, poor_fit, wrong_sign, separated, too_few_events, degenerate or not_converged.
@@ -142,9 +136,6 @@ class FragilityCurve:
         named = [("fitted", self.probability(x), *self.limits(x))]
         return _plots.curves(x, "intensity", named, axes)
 
-    def _repr_html_(self) -> str:
-        return _plots.in_notebook(repr(self), self.plot)
-
 
 def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95) -> FragilityCurve:
     """Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22).
@@ -185,7 +176,7 @@ LINES = [
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Probabilities:
+class Probabilities(_plots.Shown):
     """The probabilities of the tree (Eq. 12) with 95 % limits, of the shape of the intensities.
 
     Of no rocking; given rocking, of exceeding the limit state (without overturning), of overturning, and of
@@ -221,9 +212,6 @@ class Probabilities:
         over_pga = len(np.unique(pga)) > 1
         return _plots.curves(pga if over_pga else pgv, "PGA, g" if over_pga else "PGV, m/s", named, axes)
 
-    def _repr_html_(self) -> str:
-        return _plots.in_notebook(repr(self), self.plot if np.size(self.p_nr) > 1 else None)
-
     def __repr__(self) -> str:
         def line(name: str, words: str) -> str:
             known = [of[~np.isnan(of)] for of in map(self._of, (name, f"{name}_low", f"{name}_high"))]
@@ -254,19 +242,25 @@ def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities
     for name, peaks in zip(("pga", "pgv"), given, strict=True):
         if np.isnan(peaks).any():
             raise ValueError(f"{name} has no value at {np.argwhere(np.isnan(peaks))[0].tolist()}")
-    names = [field.name for field in fields(Probabilities) if field.name.startswith("p_")]
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as folder:
         path = Path(folder, "intensities.parquet")
         _rockfrag.write_numbers({"pga_g": given[0].tobytes(), "pgv_m_s": given[1].tobytes()}, path)
         with _bridge.errors_without(folder):
             evaluated = _bridge.functions["evaluate"](path, **options)
-        columns = _rockfrag.read_numbers(evaluated._table(), names)
-    arrays: dict[str, Any] = {name: np.frombuffer(columns[name]).reshape(given[0].shape) for name in names}
+        columns = columns_of(evaluated, Probabilities)
+    arrays: dict[str, Any] = {name: column.reshape(given[0].shape) for name, column in columns.items()}
     return Probabilities(**arrays, pga=given[0], pgv=given[1], warnings=evaluated.warnings)
 
 
+def columns_of(evaluated: _result.Result, kind: type, *more: str) -> dict[str, Floats]:
+    """The columns of a table that are fields of a class, and more."""
+    names = [field.name for field in fields(kind) if field.name.startswith("p_")]
+    columns = _rockfrag.read_numbers(evaluated._table(), [*names, *more])
+    return {name: np.frombuffer(column) for name, column in columns.items()}
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Fragility:
+class Fragility(_plots.Shown):
     """Shares of the motions of one peak that rock an object, too far or until it overturns, with 95 % limits."""
 
     #: The peak: pga, in g, or pgv, in m/s; and its values.
@@ -294,9 +288,6 @@ class Fragility:
         named: Any = [("overturns", *overturns), ("overturns, or rocks too far", *fails)]
         return _plots.curves(self.intensity, self.label, named, axes)
 
-    def _repr_html_(self) -> str:
-        return _plots.in_notebook(repr(self), self.plot)
-
     def __repr__(self) -> str:
         name, unit = self.label.split(", ")
         ends = ["overturning_theta", "overturning_theta_low", "overturning_theta_high"]
@@ -305,23 +296,20 @@ class Fragility:
         return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
 
 
-def fragility(*, over: str | None = None, **options: Any) -> Fragility:
+def fragility(*, over: str = "pga", **options: Any) -> Fragility:
     """The fragility of one object over ``pga`` or ``pgv``; of a list :func:`rockfrag.evaluate` has all curves.
 
     Parameters
     ----------
-    over : str, optional
-        The peak; pga if it is not given.
+    over : str
+        The peak.
     **options
         Of :func:`rockfrag.evaluate`: the object, ``magnitude``, ``vs30``, ``ratio``, ``hazard``, ``limit_state`` ...
     """
-    over = over or "pga"
     evaluated = _bridge.functions["evaluate"](over=over, format="json", **options)
     rows = json.loads(evaluated.summary)
     if len(rows) != 1:
         raise ValueError(f"{len(rows)} objects; expected one, or evaluate(over='{over}') for the curves of all")
-    names = [field.name for field in fields(Fragility) if field.name.startswith("p_")]
     peak = "pga_g" if over == "pga" else "pgv_m_s"
-    columns = _rockfrag.read_numbers(evaluated._table(), [peak, *names])
-    arrays: dict[str, Any] = {name: np.frombuffer(columns[name]) for name in names}
-    return Fragility(over, np.frombuffer(columns[peak]), **arrays, row=rows[0], warnings=evaluated.warnings)
+    arrays: dict[str, Any] = columns_of(evaluated, Fragility, peak)
+    return Fragility(over, arrays.pop(peak), **arrays, row=rows[0], warnings=evaluated.warnings)

@@ -28,13 +28,12 @@ class Option(NamedTuple):
     """An option of a stage, as the command describes it."""
 
     name: str
-    #: flag, number, text, or of paths: input, folder, fits, output.
+    #: flag, value, or of paths: input, output.
     kind: str
     #: How the names of its files may end, the best first.
     formats: list[str]
     default: str
     help: str
-    heading: str
     positional: bool
     #: Whether all stages have it.
     common: bool
@@ -69,58 +68,36 @@ class Stage(NamedTuple):
 def described() -> list[Stage]:
     """All stages, in the order of a run."""
     stages = json.loads(_rockfrag.describe())
-    return [
-        Stage(each["name"], each["help"], [described_option(option) for option in each["options"]])
-        for each in stages
-    ]
-
-
-def described_option(option: dict[str, Any]) -> Option:
-    """An option under its name in Python."""
-    return Option(**{**option, "name": option["name"].replace("-", "_")})
+    return [Stage(each["name"], each["help"], [Option(**option) for option in each["options"]]) for each in stages]
 
 
 def call(
     stage: Stage,
-    given: object = None,
     /,
-    *,
+    *given: object,
     out: str | os.PathLike[str] | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
     **options: object,
 ) -> Result:
     """Runs a stage on tables and files."""
-    if stage.input is not None and given is not None:
-        options[stage.input.name] = given
+    if len(given) > (stage.input is not None):
+        raise TypeError(f"{stage.name}() takes {int(stage.input is not None)} table, {len(given)} were given")
+    if stage.input is not None and given:
+        options[stage.input.name] = given[0]
+    folder = Path(tempfile.mkdtemp(prefix="rockfrag.")) if stage.makes_table and out is None else None
+    options["out"] = folder / f"{stage.command}.parquet" if folder else out
     words = {flag(name): value for name, value in options.items() if value is not None}
-    folder = None
-    if out is not None:
-        words["out"] = out
-    elif stage.makes_table:
-        folder = Path(tempfile.mkdtemp(prefix="rockfrag."))
-        words["out"] = folder / f"{stage.command}.parquet"
-    if threads is not None:
-        words["threads"] = threads
-    files = {flag(option.name): option for option in stage.options if option.kind in ("input", "folder", "fits")}
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch, contextlib.ExitStack() as failed:
         if folder is not None:
             failed.callback(shutil.rmtree, folder)
-        for name, option in files.items():
-            table: Any = words.get(name)
-            if type(table).__name__ == "LazyFrame":
-                words[name] = table.collect()
-            if hasattr(words.get(name), "__arrow_c_stream__"):
-                words[name] = written(words[name], Path(scratch, name), option)
-            elif name in words:
-                expect_path(name, words[name])
+        for option in stage.options:
+            name = flag(option.name)
+            if option.kind == "input" and name in words:
+                words[name] = file_of(words[name], Path(scratch, name), option)
         with errors_without(scratch):
-            made = _rockfrag.call(
-                stage.command,
-                json.dumps({name: plain(value) for name, value in words.items()}, allow_nan=False),
-                threads,
-                progress,
-            )
+            text = json.dumps(words, allow_nan=False, default=plain)
+            made = _rockfrag.call(stage.command, text, threads, progress)
         # Where warnings are errors, the folder goes.
         done = result(made, folder)
         failed.pop_all()
@@ -157,35 +134,35 @@ def warn(texts: Iterable[str]) -> None:
         warnings.warn(text, stacklevel=level + 1)
 
 
-def written(table: Any, path: Path, option: Option) -> Path:
-    """The file of a table: a result has one, others are written to one."""
+def file_of(table: Any, path: Path, option: Option) -> object:
+    """The file of a table: a result has one, others are written to one; a path stays."""
     if isinstance(table, Result):
         return table._table()
-    path = path.with_suffix(f".{option.formats[0] if option.formats else 'parquet'}")
-    _rockfrag.write_table(table.__arrow_c_stream__(), path)
-    return path
-
-
-def expect_path(name: str, value: Any) -> None:
-    """A table that is not one would be taken for a path, and printed whole."""
-    paths = value if isinstance(value, (list, tuple)) else [value]
+    if type(table).__name__ == "LazyFrame":
+        table = table.collect()
+    if hasattr(table, "__arrow_c_stream__"):
+        path = path.with_suffix(f".{option.formats[0] if option.formats else 'parquet'}")
+        _rockfrag.write_table(table.__arrow_c_stream__(), path)
+        return path
+    paths = table if isinstance(table, (list, tuple)) else [table]
     if not all(isinstance(path, (str, os.PathLike)) for path in paths):
+        # It would be taken for a path, and printed whole.
         expected = "expected a table of polars, pandas, pyarrow or DuckDB, or the path of a file"
-        raise TypeError(f"{'input' if name == 'in' else name} is a {type(value).__name__}; {expected}")
+        name = "input" if option.name == "in" else option.name
+        raise TypeError(f"{name} is a {type(table).__name__}; {expected}")
+    return table
 
 
-def plain(value: Any) -> Any:
-    """A value as JSON has it."""
-    if value is None or isinstance(value, (str, bool, int, float)):
-        return value
-    if isinstance(value, Mapping):
-        return {name: plain(item) for name, item in value.items()}
+def plain(value: Any) -> object:
+    """A value that JSON does not know, as one that it knows."""
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if hasattr(value, "tolist"):
         return value.tolist()
+    if isinstance(value, Mapping):
+        return dict(value)
     if isinstance(value, Iterable):
-        return [plain(item) for item in value]
+        return list(value)
     raise TypeError(
         f"{value!r} is not a valid option value; expected a number, a string, a path, a list or a mapping"
     )
@@ -210,10 +187,6 @@ def function(stage: Stage) -> Callable[..., Result]:
     """The function of a stage."""
 
     def run(*given: object, **options: Any) -> Result:
-        if len(given) > (stage.input is not None):
-            raise TypeError(
-                f"{stage.name}() takes {int(stage.input is not None)} table, {len(given)} were given"
-            )
         return call(stage, *given, **options)
 
     given = [Parameter("input", Parameter.POSITIONAL_ONLY, default=None)] if stage.input else []
@@ -227,21 +200,20 @@ def function(stage: Stage) -> Callable[..., Result]:
 
 def stub() -> str:
     """The functions with all their options, for editors and type checkers; the wheel has it as ``_stages.pyi``."""
-    text = ["from os import PathLike", "from typing import Any, Callable", "from ._result import Result", ""]
+    common = [
+        "threads: int | None = ...",
+        "force: bool = ...",
+        "config: str | PathLike[str] | None = ...",
+        "progress: Callable[[int, int], object] | None = ...",
+    ]
+    text = "from os import PathLike\nfrom typing import Any, Callable\nfrom ._result import Result\n"
     for stage in described():
-        options = [f"{option.name}: {'bool' if option.kind == 'flag' else 'Any'} = ..." for option in stage.named]
-        options += [
-            "threads: int | None = ...",
-            "force: bool = ...",
-            "config: str | PathLike[str] | None = ...",
-        ]
-        options += ["progress: Callable[[int, int], object] | None = ..."]
+        own = [f"{option.name}: {'bool' if option.kind == 'flag' else 'Any'} = ..." for option in stage.named]
         given = ["input: Any = ...", "/"] if stage.input else []
-        text += (
-            [f"def {stage.name}("] + [f"    {word}," for word in [*given, "*", *options]] + [") -> Result:"]
-        )
-        text += [textwrap.indent(f'"""{docstring(stage)}"""', "    "), ""]
-    return "\n".join(text)
+        words = ", ".join([*given, "*", *own, *common])
+        help = textwrap.indent(f'''"""{docstring(stage)}"""''', "    ")
+        text += f"\ndef {stage.name}({words}) -> Result:\n{help}\n"
+    return text
 
 
 functions = {stage.name: function(stage) for stage in described()}

@@ -71,18 +71,20 @@ def curves(
     return on
 
 
-def in_notebook(text: str, plot: Any = None) -> str:
-    """Text, and below it a picture where matplotlib is installed."""
-    shown = f"<pre>{html.escape(text)}</pre>"
-    if plot is None:
-        return shown
-    try:
-        drawn = plot()
-    except (ImportError, ValueError):
-        return shown
-    from matplotlib import pyplot
+class Shown:
+    """What a notebook shows as text, and below it as a picture where there is one and matplotlib is installed."""
 
-    figure, svg = np.ravel(drawn)[0].figure, io.StringIO()
-    figure.savefig(svg, format="svg")
-    pyplot.close(figure)
-    return shown + svg.getvalue()[svg.getvalue().index("<svg") :]
+    plot: Any
+
+    def _repr_html_(self) -> str:
+        shown = f"<pre>{html.escape(repr(self))}</pre>"
+        try:
+            drawn = self.plot()
+        except (ImportError, ValueError):
+            return shown
+        from matplotlib import pyplot
+
+        figure, svg = np.ravel(drawn)[0].figure, io.StringIO()
+        figure.savefig(svg, format="svg")
+        pyplot.close(figure)
+        return shown + svg.getvalue()[svg.getvalue().index("<svg") :]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import shutil
 import weakref
 from collections.abc import Iterator
@@ -99,10 +100,7 @@ class Result:
         return "\n".join([self.summary.rstrip() or f"{self.stage}: {self.path}", *warnings])
 
     def _repr_html_(self) -> str:
-        # It needs numpy, which is not there when a wheel is built.
-        from . import _plots
-
-        return _plots.in_notebook(repr(self))
+        return f"<pre>{html.escape(repr(self))}</pre>"
 
 
 Result.__module__ = "rockfrag"

@@ -30,23 +30,10 @@ PathLike = str | os.PathLike[str]
 def synthesize(
     scenarios: PathLike, out: PathLike, *, partitions: int, num_cpus: int = 1, **options: object
 ) -> list[Path]:
-    """Synthesizes motions in partitions, a task each.
+    """Synthesizes the motions of a file of scenarios in partitions, a task each; gives the files in order.
 
-    Parameters
-    ----------
-    scenarios : path
-        File of scenarios.
-    out : path
-        Folder of the partitions.
-    num_cpus : int
-        Threads of a task.
-    **options
-        Of :func:`rockfrag.synthesize_motions`.
-
-    Returns
-    -------
-    list of Path
-        The files, in order.
+    ``out`` is the folder of the partitions, ``num_cpus`` the threads of a task; the options are those of
+    :func:`rockfrag.synthesize_motions`.
     """
     return _each("synthesize_motions", scenarios, out, partitions, num_cpus, options)
 
@@ -54,23 +41,10 @@ def synthesize(
 def simulate(
     motions: PathLike, out: PathLike, *, partitions: int | None = None, num_cpus: int = 1, **options: object
 ) -> list[Path]:
-    """Simulates the response to motions in partitions, a task each.
+    """Simulates the response to motions in partitions, a task each; gives the files in order.
 
-    Parameters
-    ----------
-    motions : path
-        The folder of the partitions of motions, or a file, of which ``partitions`` are made.
-    out : path
-        Folder of the partitions of responses.
-    num_cpus : int
-        Threads of a task.
-    **options
-        Of :func:`rockfrag.simulate`.
-
-    Returns
-    -------
-    list of Path
-        The files, in order.
+    ``motions`` is the folder of their partitions, or a file, of which ``partitions`` are made; the options
+    are those of :func:`rockfrag.simulate`.
     """
     partitions = partitions or max(1, len(list(Path(motions).glob("*.parquet"))))
     return _each("simulate", motions, out, partitions, num_cpus, options)
