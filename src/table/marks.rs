@@ -16,14 +16,16 @@ const IN_PICTURE: &[u8] = b"iTXtrockfrag\0\0\0\0\0";
 const META: [&str; 2] = ["name=\"rockfrag\" content=\"", "\""];
 /// The start of a second line of XML.
 const XML: &str = "<!-- rockfrag ";
-/// Where a PNG has its first chunk behind the head, and where the file of a workbook has our properties.
+/// Where a PNG has its first chunk behind the head, how a whole one ends, and where the file of a workbook has
+/// our properties.
 const BEHIND_HEAD: usize = 33;
+const END: &[u8] = b"IEND\xaeB`\x82";
 const PROPERTIES: &str = "docProps/custom.xml";
 
 impl Provenance {
-    /// Reads the provenance in a PNG; `None` if another program wrote it.
+    /// Reads the provenance in a PNG; `None` if another program wrote it, or if its end is missing.
     pub fn from_picture(png: &[u8]) -> Option<Provenance> {
-        let (length, rest) = png.get(BEHIND_HEAD..)?.split_first_chunk::<4>()?;
+        let (length, rest) = png.strip_suffix(END)?.get(BEHIND_HEAD..)?.split_first_chunk::<4>()?;
         let chunk = rest.get(..u32::from_be_bytes(*length) as usize + 4)?;
         Provenance::from_json(&String::from_utf8_lossy(chunk.strip_prefix(IN_PICTURE)?))
     }
@@ -43,9 +45,11 @@ impl Provenance {
     pub fn read(path: &Path) -> Result<Option<Provenance>, TableError> {
         let read = || std::fs::read(path).map_err(|source| TableError::io(path, source));
         match path.extension().and_then(|ending| ending.to_str()) {
-            Some("html" | "svg") => {
-                let text = read()?;
-                let json = between(&String::from_utf8_lossy(&text), META).map(unescaped);
+            Some(ending @ ("html" | "svg")) => {
+                let bytes = read()?;
+                let text = String::from_utf8_lossy(&bytes);
+                let whole = text.trim_end().strip_suffix(&format!("</{ending}>"));
+                let json = whole.and_then(|text| between(text, META)).map(unescaped);
                 Ok(json.and_then(|json| Provenance::from_json(&json)))
             }
             Some("png") => Ok(Provenance::from_picture(&read()?)),

@@ -19,16 +19,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import _bridge, _rockfrag
-from ._arrays import (
-    Fragility,
-    FragilityCurve,
-    Probabilities,
-    Response,
-    fit_fragility,
-    fragility,
-    probability,
-    simulate_motion,
-)
+from ._arrays import Fragility, FragilityCurve, Probabilities, Response
+from ._arrays import fit_fragility, fragility, probability, simulate_motion
 from ._result import Result
 from ._rockfrag import Error, __version__
 from ._stages import *
@@ -38,21 +30,8 @@ if TYPE_CHECKING:
     def __getattr__(name: str) -> Callable[..., Result]: ...
 
 
-__all__ = [
-    "Error",
-    "Fragility",
-    "FragilityCurve",
-    "Probabilities",
-    "Response",
-    "Result",
-    "__version__",
-    "fit_fragility",
-    "fragility",
-    "inspect",
-    "probability",
-    "run",
-    "simulate_motion",
-]
+__all__ = ["Error", "Fragility", "FragilityCurve", "Probabilities", "Response", "Result", "__version__"]
+__all__ += ["fit_fragility", "fragility", "inspect", "probability", "run", "simulate_motion"]
 __all__ += list(_bridge.functions)
 
 

@@ -9,7 +9,6 @@ import json
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from itertools import starmap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -70,17 +69,10 @@ class Response(_plots.Shown):
 def simulate_motion(
     acceleration: ArrayLike, dt: float, *, tail: float = 10.0, **structure: float | str
 ) -> Response:
-    """Simulates one structure under one motion.
+    """Simulates one structure under one motion: ground acceleration, m/s2, every ``dt`` s, then ``tail`` s of quiet.
 
-    Parameters
-    ----------
-    acceleration : array of shape (n,)
-        Ground acceleration, m/s2, every ``dt`` seconds.
-    tail : float
-        Quiet time after it in which free rocking shows, s.
-    **structure
-        ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta`` and
-        ``beam_mass_ratio`` if known. It stands on the ground: give the motion of a floor itself.
+    ``structure`` is ``p`` (rad/s), ``alpha`` (rad) and ``eta``; or ``width`` and ``height`` (m), with ``eta``
+    and ``beam_mass_ratio`` if known. It stands on the ground: give the motion of a floor itself.
     """
     samples = known(acceleration)
     if samples.ndim != 1:
@@ -138,16 +130,10 @@ class FragilityCurve(_plots.Shown):
 
 
 def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95) -> FragilityCurve:
-    """Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22).
+    """Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22), with limits of a confidence.
 
-    Parameters
-    ----------
-    im : array
-        Intensities, above 0.
-    outcome : array of the same shape
-        Whether the event happened: true or false, 1 or 0.
-    confidence : float
-        Level of the limits.
+    ``im`` has intensities above 0, and ``outcome`` of the same shape whether the event happened: true or
+    false, 1 or 0.
     """
     intensities: Any = np.ma.asarray(im, dtype=np.float64)
     happened: Any = np.ma.asarray(outcome)
@@ -166,13 +152,13 @@ def fit_fragility(im: ArrayLike, outcome: ArrayLike, *, confidence: float = 0.95
 
 
 #: What a print of probabilities shows.
-LINES = [
-    ("p_nr", "p_nr   does not rock"),
-    ("p_ex", "p_ex   exceeds, rocking safely"),
-    ("p_ro", "p_ro   overturns, given rocking"),
-    ("p_f_r", "p_f_r  fails, given rocking"),
-    ("p_f", "p_f    fails"),
-]
+LINES = {
+    "p_nr": "does not rock",
+    "p_ex": "exceeds, rocking safely",
+    "p_ro": "overturns, given rocking",
+    "p_f_r": "fails, given rocking",
+    "p_f": "fails",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -213,30 +199,24 @@ class Probabilities(_plots.Shown):
         return _plots.curves(pga if over_pga else pgv, "PGA, g" if over_pga else "PGV, m/s", named, axes)
 
     def __repr__(self) -> str:
-        def line(name: str, words: str) -> str:
-            known = [of[~np.isnan(of)] for of in map(self._of, (name, f"{name}_low", f"{name}_high"))]
-            if not known[0].size:
-                return f"{words:<32} none"
-            limits = f"  (95 % limits {known[1].min():.3g} to {known[2].max():.3g})" if known[1].size else ""
-            ends = sorted({f"{known[0].min():.3g}", f"{known[0].max():.3g}"}, key=float)
-            return f"{words:<32} {' to '.join(ends)}{limits}"
+        def line(name: str) -> str:
+            p, low, high = [self._known(name + end) for end in ("", "_low", "_high")]
+            ends = " to ".join(sorted({f"{p.min():.3g}", f"{p.max():.3g}"}, key=float)) if p.size else "none"
+            limits = f"  (95 % limits {low.min():.3g} to {high.max():.3g})" if low.size else ""
+            return f"{name:6} {LINES[name]:<25} {ends}{limits}"
 
         number = np.size(self.p_nr)
-        return "\n".join(["Probabilities at " + (f"{number} intensities" if number != 1 else "1 intensity"), *starmap(line, LINES)])
+        return "\n".join([f"Probabilities at {number} intensit{'y' if number == 1 else 'ies'}", *map(line, LINES)])
 
-    def _of(self, name: str) -> Floats:
-        return np.asarray(getattr(self, name, np.empty(0)))
+    def _known(self, name: str) -> Floats:
+        values: Floats = np.ravel(getattr(self, name, ()))
+        return values[~np.isnan(values)]
 
 
 def probability(pga: ArrayLike, pgv: ArrayLike, **options: Any) -> Probabilities:
-    """Predicts probabilities for one structure at intensities, as :func:`rockfrag.evaluate` does for a table.
+    """Predicts probabilities for one structure at PGA, g, and PGV, m/s: arrays that broadcast to one shape.
 
-    Parameters
-    ----------
-    pga, pgv : arrays that broadcast to one shape
-        Peak ground acceleration, g, and velocity, m/s.
-    **options
-        Of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
+    The options are those of :func:`rockfrag.evaluate`: the structure, ``fits``, ``suite``, ``limit_state`` ...
     """
     given = np.broadcast_arrays(known(pga), known(pgv))
     for name, peaks in zip(("pga", "pgv"), given, strict=True):
@@ -299,12 +279,7 @@ class Fragility(_plots.Shown):
 def fragility(*, over: str = "pga", **options: Any) -> Fragility:
     """The fragility of one object over ``pga`` or ``pgv``; of a list :func:`rockfrag.evaluate` has all curves.
 
-    Parameters
-    ----------
-    over : str
-        The peak.
-    **options
-        Of :func:`rockfrag.evaluate`: the object, ``magnitude``, ``vs30``, ``ratio``, ``hazard``, ``limit_state`` ...
+    The options are those of :func:`rockfrag.evaluate`: the object, ``magnitude``, ``vs30``, ``ratio``, ``hazard`` ...
     """
     evaluated = _bridge.functions["evaluate"](over=over, format="json", **options)
     rows = json.loads(evaluated.summary)

@@ -20,14 +20,8 @@ if TYPE_CHECKING:
 class Result:
     """A table that a stage has written: any library that speaks Arrow takes it, row group by row group.
 
-    Attributes
-    ----------
-    path : Path or None
-        Its file. Without ``out`` it is a temporary one, which goes when the result does.
-    summary : str
-        What the command prints.
-    warnings : list of str
-        Warnings about it.
+    ``path`` is its file; without ``out`` it is a temporary one, which goes when the result does. ``summary``
+    is what the command prints, and ``warnings`` are about it.
     """
 
     def __init__(
