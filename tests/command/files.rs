@@ -120,6 +120,12 @@ fn foreign_texts_are_not_replaced_and_own_ones_are() {
         succeed(folder.path(), &evaluate(name));
         succeed(folder.path(), &evaluate(name).replace("0.4", "0.3"));
     }
+    for name in ["cut.html", "cut.svg", "cut.png", "cut.xlsx"] {
+        succeed(folder.path(), &evaluate(name));
+        let whole = bytes(&folder.path().join(name));
+        fs::write(folder.path().join(name), &whole[..whole.len() - 100]).unwrap();
+        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
+    }
     let export = format!("export --to pelicun {BLOCK} --out mine.csv");
     fail(folder.path(), &export, 1, &["mine.csv", "--force"]);
     fs::write(folder.path().join("f.xml"), "<?xml version=\"1.0\"?>\n<a>rockfrag</a>\n").unwrap();
