@@ -35,19 +35,22 @@ def test_a_block_is_known_by_its_dimensions():
 
 
 @pytest.mark.parametrize(
-    ("acceleration", "structure", "message"),
+    ("call", "given", "structure", "message"),
     [
-        ([0.1, np.nan], BLOCK, "sample 1 of the acceleration is NaN"),
-        ([[0.1, 0.2]], BLOCK, "2 dimensions"),
-        ([0.1, 0.2], {"width": 50, "height": 2}, "width is 50; .* the height"),
-        ([0.1, 0.2], {"widht": 0.5}, "'widht' .*did you mean 'width'"),
-        ([0.1, 0.2], {**BLOCK, "level": 0.5, "period": 0.6}, "level, period"),
-        ([0.1, 0.2], {}, "expected p, alpha and eta, or width and height"),
+        (rockfrag.simulate_motion, ([0.1, np.nan], 0.01), BLOCK, "sample 1 of the acceleration is NaN"),
+        (rockfrag.simulate_motion, ([[0.1, 0.2]], 0.01), BLOCK, "2 dimensions"),
+        (rockfrag.simulate_motion, ([0.1, 0.2], 0.01), {"width": 50, "height": 2}, "width is 50; .* the height"),
+        (rockfrag.simulate_motion, ([0.1, 0.2], 0.01), {"widht": 0.5}, "'widht' .*did you mean 'width'"),
+        (rockfrag.simulate_motion, ([0.1, 0.2], 0.01), {**BLOCK, "level": 0.5, "period": 0.6}, "level, period"),
+        (rockfrag.simulate_motion, ([0.1, 0.2], 0.01), {}, "expected p, alpha and eta, or width and height"),
+        (rockfrag.fit_fragility, ([1.0, 0.0], [0, 1]), {}, r"im\[1\] is 0; expected a finite number above 0"),
+        (rockfrag.fit_fragility, ([1.0, 2.0], [0, 2]), {}, "outcome has other values"),
+        (rockfrag.fit_fragility, (np.ones((20, 10)), np.ones((10, 20))), {}, r"\(20, 10\) and outcome \(10, 20\)"),
     ],
 )
-def test_a_wrong_motion_or_structure_is_told(acceleration, structure, message):
+def test_wrong_arrays_and_structures_are_told(call, given, structure, message):
     with pytest.raises(ValueError, match=message):
-        rockfrag.simulate_motion(acceleration, 0.01, **structure)
+        call(*given, **structure)
 
 
 def test_a_curve_is_the_probit_of_statsmodels():
@@ -87,19 +90,6 @@ def test_a_curve_that_cannot_be_fitted_has_a_status(im, outcome, status):
     curve = rockfrag.fit_fragility(im, outcome)
     assert curve.status == status
     assert np.isnan(curve.probability(1.0)) == (status != "wrong_sign")
-
-
-@pytest.mark.parametrize(
-    ("im", "outcome", "message"),
-    [
-        ([1.0, 0.0], [0, 1], r"im\[1\] is 0; expected a finite number above 0"),
-        ([1.0, 2.0], [0, 2], "outcome has other values"),
-        (np.ones((20, 10)), np.ones((10, 20)), r"im has the shape \(20, 10\) and outcome \(10, 20\)"),
-    ],
-)
-def test_wrong_outcomes_are_told(im, outcome, message):
-    with pytest.raises(ValueError, match=message):
-        rockfrag.fit_fragility(im, outcome)
 
 
 def test_probabilities_are_those_of_the_command(command):

@@ -32,17 +32,13 @@ def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
         assert before.summary == done.stdout
 
 
-def test_an_unknown_option_names_the_nearest(motions):
-    with pytest.raises(TypeError, match="simulate: unknown option 'alpah'; did you mean 'alpha'?"):
-        rockfrag.simulate(motions, p=1.5, alpah=0.15, eta=0.92)
-
-
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "invalid value 'x' for 'p"),
+        ({"alpah": 0.15}, TypeError, "simulate: unknown option 'alpah'; did you mean 'alpha'?"),
+        ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "p is x"),
         ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "15.*alpha.* is it in degrees"),
-        ({"structures": "none.csv"}, FileNotFoundError, "none.csv"),
+        ({"structures": "none.csv"}, FileNotFoundError, "none.csv: no such file"),
         ({**FRAME, "name": None, "threads": 20_000}, ValueError, "threads"),
         ({"p": object(), "alpha": 0.15, "eta": 0.92}, TypeError, "is not a valid option value"),
     ],
@@ -52,9 +48,7 @@ def test_a_wrong_option_is_told(motions, options, error, message):
         rockfrag.simulate(motions, **options)
 
 
-def test_a_missing_or_damaged_file_is_named(tmp_path):
-    with pytest.raises(FileNotFoundError, match="none.parquet: no such file"):
-        rockfrag.simulate("none.parquet", structure=FRAME)
+def test_a_damaged_file_is_named(tmp_path):
     (tmp_path / "bad.parquet").write_bytes(b"PAR1 no Parquet")
     with pytest.raises(rockfrag.Error, match="bad.parquet: not a readable Parquet file"):
         rockfrag.simulate(tmp_path / "bad.parquet", structure=FRAME)

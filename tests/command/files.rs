@@ -186,10 +186,13 @@ fn a_link_keeps_pointing_and_a_long_name_is_a_name() {
 }
 
 #[test]
-fn init_leaves_no_half_file() {
+fn a_file_that_may_not_grow_is_an_error_and_leaves_nothing() {
     let folder = folder(&[]);
-    let line = format!("ulimit -f 0; {} init", env!("CARGO_BIN_EXE_rockfrag"));
-    Command::new("bash").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
-    assert!(!folder.path().join("pipeline.yaml").exists());
+    for call in ["init", "sample-scenarios --samples 2", "export --to openquake --width 0.5 --height 2"] {
+        let line = format!("ulimit -f 0; {} {call}", env!("CARGO_BIN_EXE_rockfrag"));
+        let output = Command::new("bash").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{call}: {output:?}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{call}");
+    }
     succeed(folder.path(), "init");
 }
