@@ -19,8 +19,8 @@ from calibration import apply, calibrate, cluster_sums, logistic, tangent  # noq
 from surface import NO_LIMIT, Surface  # noqa: E402
 
 G = 9.81
-# Standard deviation of the logit between structures (docs/review/universal.md).
-BETWEEN = 0.63
+# Standard deviation of c between structures (docs/review/universal.md).
+BETWEEN = 0.71
 surface = Surface(open(root_folder / "data/universal.csv"))
 PRIOR = surface.prior("pro", "recorded")
 TAU = surface.numbers["calibration", "recorded", "pro"][6]

@@ -8,7 +8,7 @@ from scipy.optimize import minimize
 from scipy.special import log_ndtr, ndtr
 
 import cases as of
-from calibration import apply, calibrate, logistic, tangent
+from calibration import apply, calibrate, logistic, spread, tangent
 from fit import monotone_logistic
 from make import CLASSES, held, of_cells_left_out, of_records_left_out, shift
 from surface import CORRECTED, KINDS, LIMIT, NO_LIMIT, TERMS, Surface, design, uplift
@@ -99,6 +99,12 @@ def coverage(event, kind, frame):
     show(f"Coverage at one motion, {event}, {kind}, tau {tau}", means.sort("P from"))
 
 
+def between_structures(event):
+    groups = of.counted(event, RECORDS, LIMIT).partition_by("structure")
+    known = [(surface.parts(event, "recorded", group), happened(group)) for group in groups]
+    print(f"{event}: sds of c, ln s, m between structures", spread(known, surface.prior(event, "recorded")[:3]).round(2))
+
+
 def cells_left_out(event):
     for kind in KINDS[1:]:
         study = of.read([f"{FOLDER}/study_102.parquet"], 1.0, kind)
@@ -176,7 +182,7 @@ def own_responses(event):
 
 of_records = of.read([f"{FOLDER}/records.parquet"])
 RECORDS = of_records.filter(pl.col("scale").is_in(of.FITTED))
-TABLES = earthquakes_left_out, few_records, cells_left_out, own_responses
+TABLES = earthquakes_left_out, few_records, between_structures, cells_left_out, own_responses
 demand_left_out()
 for event in TERMS:
     for table in TABLES:
