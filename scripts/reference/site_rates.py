@@ -41,10 +41,10 @@ def calibration():
 def surface(width, height, eta, mw):
     """Logits of P_ro at the bins of PGA and PGV; -inf below uplift."""
     a, v = np.meshgrid(S.X, S.Y, indexing="ij")
-    # The program takes other ratios for a wrong unit; no rates are there.
-    v = np.clip(v, a + np.log(0.0051), a + np.log(2.9))
     p, alpha = np.sqrt(3 * 9.81 / (2 * np.hypot(width, height))), np.arctan(width / height)
     keep = (np.exp(a) > 9.81 * np.tan(alpha)) & (np.exp(a) <= 4.5 * 9.81) & (np.exp(v) <= 5)
+    # The program takes other ratios for a wrong unit; no rates are there.
+    keep &= (v > a + np.log(0.0051)) & (v < a + np.log(2.9))
     table = pd.DataFrame({"pga_m_s2": np.exp(a)[keep], "pgv_m_s": np.exp(v)[keep], "mw": mw})
     table.to_csv(folder / "grid.csv", index=False)
     structure = "--p", p, "--alpha", alpha, "--eta", eta
