@@ -150,9 +150,10 @@ if __name__ == "__main__":
     of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
     found = pd.DataFrame(judged(of_objects), columns=["sites", "k", "route", "off", "held", "width"])
     is_area = (found["sites"] == "magnitude") & np.char.startswith(names[found["k"], 1], "area")
-    found = pd.concat([found, found[is_area].assign(sites="areas")])
+    areas = found[is_area].assign(sites="areas")
+    found = pd.concat([found, areas])
     print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
-    by_site = np.exp(found[is_area].groupby(["route", "k"], sort=False)["off"].mean())
+    by_site = np.exp(areas.groupby(["route", "k"], sort=False)["off"].mean())
     print("geometric means of area sites", by_site.groupby("route", sort=False).describe().round(2).to_string(), sep="\n")
     above = pd.DataFrame(magnitudes(of_objects), columns=["sites", "above that of PGA", "above that of SA"])
     print(above.groupby("sites", sort=False).agg(["mean", "min", "max"]).round(2).to_string())
