@@ -14,12 +14,11 @@ from scipy.optimize import minimize
 import peaks
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "universal"))
-from calibration import apply, logistic  # noqa: E402
+from calibration import apply  # noqa: E402
 from cases import counted  # noqa: E402
 from surface import NO_LIMIT, Surface  # noqa: E402
 
 FOLDS = 8
-PERIODS = pl.col("period").cut([0.3, 0.7, 1.4])
 
 
 def read(file):
@@ -70,8 +69,3 @@ for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
     z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
     print(event, fit(event, cases).round(3), "log score as on the ground and with earthquakes left out:",
           score(z, happened).round(4), score(left, happened).round(4))
-    sums = cases.with_columns(ground=logistic(z), floor=logistic(left)).group_by(T1=PERIODS).agg(
-        pl.col("happened", "ground", "floor").sum()
-    )  # fmt: skip
-    ratios = {name: pl.col("happened") / pl.col(name) for name in ("ground", "floor")}
-    print("observed over expected:", sums.sort("T1").select("T1", **ratios))

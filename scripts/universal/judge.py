@@ -72,10 +72,7 @@ def demand_left_out():
     of_size = {"limit": pl.col("limit"), "p_of": pl.col("p_rad_s").cut([1.5, 2.5])}
     for by in (of_size, of_size | {"is_chi_chi": pl.col("cluster") == "CHICHI"}):
         show("The same by p", scored(judged, **by).select(*by, "observed", "ratio"))
-    at_one = judged.filter(limit=LIMIT)
-    for by in ({"M": pl.lit("all")}, {"M": OF_M}, {"p": BINS}):
-        show("Records, demand above 0.1, earthquakes left out", scored(at_one, **by))
-    coverage("pex", "recorded", at_one)
+    coverage("pex", "recorded", judged.filter(limit=LIMIT))
 
 
 def earthquakes_left_out(event):
