@@ -12,7 +12,6 @@ import sys
 import time
 
 import numba
-import numpy as np
 import pyarrow.parquet as pq
 
 G = 9.81  # m/s2

@@ -11,7 +11,7 @@ import cases as of
 from calibration import apply, calibrate, logistic, spread, tangent
 from fit import monotone_logistic
 from make import CLASSES, held, of_cells_left_out, of_records_left_out, shift
-from surface import CORRECTED, KINDS, LIMIT, NO_LIMIT, TERMS, Surface, design, uplift
+from surface import CORRECTED, KINDS, LIMIT, TERMS, Surface, design, uplift
 
 _, path, FOLDER = sys.argv
 surface = Surface(open(path))
