@@ -10,7 +10,7 @@ const SD_OF_USUAL: f64 = 0.6;
 /// Standard deviation of their magnitude about a mean of the disaggregation of SA(1.0 s).
 const SD_OF_MEAN: f64 = 0.2;
 /// By how much the mean magnitude of the motions that overturn exceeds that of the disaggregation of PGA at
-/// 2475 years, and its standard deviation between sites (scripts/reference/magnitudes.py). That of SA(1.0 s)
+/// 2475 years, and its standard deviation between sites (scripts/reference/site_rates.py). That of SA(1.0 s)
 /// lies half way, and needs no correction.
 const ABOVE_MEAN_OF_PGA: f64 = 0.45;
 const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
