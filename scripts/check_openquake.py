@@ -22,7 +22,7 @@ UPLIFT_G = math.tan(ALPHA)
 def worst(im, folder):
     """The largest difference at 20 intensities, in steps equal in logarithm; of PGA some lie below uplift."""
     file = folder / f"{im}.xml"
-    run("export", "--to=openquake", f"--im={im}", f"--out={file}")
+    run("export", "--to=openquake", f"--over={im}", f"--out={file}")
     model = nrml.to_python(str(file))
     ((imt, _), functions), = model.items()
     assert imt == im.upper(), imt

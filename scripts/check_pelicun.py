@@ -50,7 +50,7 @@ def theirs(table, component, peak, intensity):
 with tempfile.TemporaryDirectory() as folder:
     for im in ["pga", "pgv"]:
         table = pathlib.Path(folder) / f"{im}.csv"
-        run("export", "--to=pelicun", f"--im={im}", f"--out={table}")
+        run("export", "--to=pelicun", f"--over={im}", f"--out={table}")
         component, = (name for name in json.loads(table.with_suffix(".json").read_text()) if not name.startswith("_"))
         worst = 0.0
         for im4 in [0.9, 1.05, 1.2, 1.4, 2.0, 3.0, 4.0, 6.0]:

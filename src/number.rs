@@ -2,6 +2,7 @@
 //! thousands (27,000), limits in brackets, columns in line.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +54,15 @@ pub fn count(value: usize) -> String {
 /// Writes a count of things: `1 motion`, `3,500 motions`.
 pub fn counted(value: usize, one: &str) -> String {
     format!("{} {one}{}", count(value), if value == 1 { "" } else { "s" })
+}
+
+/// Joins the items of a list, the first few by name: `a, b, c and 9 more`.
+pub fn listed<T: Display>(items: &[T], named: usize) -> String {
+    let first: Vec<String> = items.iter().take(named).map(T::to_string).collect();
+    match items.len() - first.len() {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
 }
 
 /// Writes a number as one types it, without zeros at its end.

@@ -47,13 +47,13 @@ def test_curves_are_drawn():
 def test_the_fragility_of_an_object_is_that_of_evaluate_and_is_drawn():
     for over, unit in [("pga", "g"), ("pgv", "m/s")]:
         curve = rockfrag.fragility(**BLOCK, over=over, magnitude=6.5)
-        assert all(np.diff(curve.intensity) > 0) and all(curve.p_overturns <= curve.p_fails + 1e-9)
+        assert all(np.diff(curve.intensity) > 0) and all(curve.p_overturning <= curve.p_failure + 1e-9)
         theta = curve.row["overturning_theta"]
         row = rockfrag.evaluate(**BLOCK, magnitude=6.5, **{over: theta}).to_polars()
         assert row["p_ro"][0] * (1 - row["p_nr"][0]) == pytest.approx(0.5, abs=1e-6)
-        assert np.interp(theta, curve.intensity, curve.p_overturns) == pytest.approx(0.5, abs=1e-3)
+        assert np.interp(theta, curve.intensity, curve.p_overturning) == pytest.approx(0.5, abs=1e-3)
         drawn = curve.plot()
-        assert unit in drawn.get_xlabel() and np.array_equal(drawn.lines[0].get_ydata(), curve.p_overturns)
+        assert unit in drawn.get_xlabel() and np.array_equal(drawn.lines[0].get_ydata(), curve.p_overturning)
     assert "half of the motions" in repr(curve) and "<svg" in curve._repr_html_()
     with pytest.raises(ValueError, match="expected one"):
         rockfrag.fragility(structures="paper")

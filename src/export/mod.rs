@@ -38,8 +38,16 @@ pub struct Function {
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
     pub probabilities: Vec<LimitStates<f64>>,
-    /// Intensity at uplift, and the largest one for which there are data and that was ever recorded.
-    pub range_of_data: [f64; 2],
+    /// The largest intensity for which there are data and that was ever recorded; the first level is that of
+    /// uplift, the least.
+    pub end_of_data: f64,
+}
+
+impl Function {
+    /// The intensity at uplift, m/s2 or m/s.
+    pub fn uplift(&self) -> f64 {
+        self.levels.first().copied().unwrap_or(self.end_of_data)
+    }
 }
 
 /// Makes an id for each name, without the signs that have a meaning in these programs: names that are told

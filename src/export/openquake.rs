@@ -23,7 +23,7 @@ pub fn discrete(model: &FragilityModel, functions: &[Function]) -> String {
     let mut tables = String::new();
     for function in functions {
         let (imt, unit) = measure(function.peak);
-        let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
+        let [low, high] = [function.uplift(), function.end_of_data].map(|intensity| intensity / unit);
         let (id, what) = (&function.id, &function.description);
         description.push(format!("{id}: {what}, from {imt} {low:.4} (uplift) to {high:.4}"));
         let levels = numbers(function.levels.iter().map(|level| level / unit));

@@ -11,6 +11,8 @@ use crate::units::G_M_S2;
 
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
+/// Columns of each limit state.
+const STATE: [&str; 4] = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
 
 /// Least rise of a probability from one level to the next: pelicun keeps six digits.
 const LEAST_RISE: f64 = 2e-6;
@@ -30,14 +32,14 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 /// distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let of_state = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
-    let names = COMMON.map(str::to_string).into_iter();
-    let states = LimitState::ALL.iter();
-    let names = names.chain(states.flat_map(|ls| of_state.map(|name| format!("{}-{name}", ls.as_str()))));
+    let mut names = COMMON.map(str::to_string).to_vec();
+    for state in LimitState::ALL {
+        names.extend(STATE.map(|name| format!("{}-{name}", state.as_str())));
+    }
     writer.write_record(names)?;
     for function in functions {
         let (name, unit_name, unit) = demand(function.peak);
-        let uplift = (function.range_of_data[0] / unit).to_string();
+        let uplift = (function.uplift() / unit).to_string();
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that
         // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
@@ -60,7 +62,7 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
 
 /// Writes the levels, a bar, and the probabilities at them.
 fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) -> String {
-    let below_uplift = (function.range_of_data[0] * (1.0 - GAP), 0.0);
+    let below_uplift = (function.uplift() * (1.0 - GAP), 0.0);
     let mut points = vec![below_uplift];
     for (&level, probabilities) in function.levels.iter().zip(&function.probabilities) {
         let (last_level, last) = points[points.len() - 1];
@@ -95,7 +97,7 @@ pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
     });
     for function in functions {
         let (name, unit_name, unit) = demand(function.peak);
-        let [low, high] = function.range_of_data.map(|intensity| intensity / unit);
+        let [low, high] = [function.uplift(), function.end_of_data].map(|intensity| intensity / unit);
         let end = function.levels.last().map_or(high, |end| end / unit);
         let state = |(index, meaning): (usize, &String)| {
             (format!("LS{}", index + 1), json!({ format!("DS{}", index + 1): { "Description": meaning } }))

@@ -125,6 +125,21 @@ impl Site {
 }
 
 impl Fragility {
+    /// Takes a fragility by its points alone, such as those of a file: nothing is known between them, nor why
+    /// the limits are where they are.
+    pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
+        let [failure, overturning] =
+            [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
+        Fragility {
+            over,
+            points,
+            failure,
+            overturning,
+            errors: Budget::default(),
+            motion: Peaks { pga_m_s2: f64::NAN, pgv_m_s: f64::NAN },
+        }
+    }
+
     fn new(motions: &Motions, subject: &Subject) -> Fragility {
         let middle = motions.given(&subject.directions, 0.0);
         let end = strongest(motions.peak);
@@ -155,14 +170,23 @@ impl Fragility {
 }
 
 impl Lognormal {
-    fn new(given: &GivenPeak, points: &[FragilityPoint], state: LimitState) -> Lognormal {
+    /// Finds the intensities between points, without a dispersion.
+    fn between(points: &[FragilityPoint], state: LimitState) -> Lognormal {
         let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Limited {
-            value: reaching(given, points, state, level),
+            value: crossing(points, level, |point| point.p.get(state).value),
             low: crossing(points, level, |point| point.p.get(state).high),
             high: crossing(points, level, |point| point.p.get(state).low),
         });
-        let lognormal = Lognormal { at_16, theta, at_84, ..Lognormal::default() };
-        let Some((from, median)) = reaching(given, points, state, LEAST_FITTED).zip(theta.value) else {
+        Lognormal { at_16, theta, at_84, ..Lognormal::default() }
+    }
+
+    fn new(given: &GivenPeak, points: &[FragilityPoint], state: LimitState) -> Lognormal {
+        let mut lognormal = Lognormal::between(points, state);
+        lognormal.at_16.value = reaching(given, points, state, 0.16);
+        lognormal.theta.value = reaching(given, points, state, 0.5);
+        lognormal.at_84.value = reaching(given, points, state, 0.84);
+        let least = reaching(given, points, state, LEAST_FITTED);
+        let Some((from, median)) = least.zip(lognormal.theta.value) else {
             return lognormal;
         };
         let end = points[points.len() - 1].intensity;

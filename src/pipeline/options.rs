@@ -1,6 +1,5 @@
 //! Option types of several stages.
 
-use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::str::FromStr;
@@ -77,13 +76,4 @@ pub fn in_one_line(refused: &clap::Error) -> String {
     let lines =
         lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"));
     lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
-}
-
-/// Joins the items of a list, the first few by name: `a, b, c and 9 more`.
-pub fn listed<T: Display>(items: &[T], named: usize) -> String {
-    let first: Vec<String> = items.iter().take(named).map(T::to_string).collect();
-    match items.len() - first.len() {
-        0 => first.join(", "),
-        more => format!("{} and {more} more", first.join(", ")),
-    }
 }

@@ -50,7 +50,7 @@ macro_rules! path_types {
             pub struct $type(pub PathBuf);
 
             impl $type {
-                const KIND: PathKind = PathKind { role: Role::$role, formats: &$formats, words: &$words };
+                pub const KIND: PathKind = PathKind { role: Role::$role, formats: &$formats, words: &$words };
 
                 /// The word in place of a path, if it is one.
                 pub fn word(&self) -> Option<&str> {

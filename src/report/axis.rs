@@ -1,6 +1,8 @@
 //! Axes: from values to fractions of a length, and the places of ticks.
 
-use super::figure::{Axis, Panel, Scale};
+use std::ops::RangeInclusive;
+
+use super::figure::{Axis, Panel, Scale, Span};
 use super::text::minus;
 use crate::number;
 
@@ -24,7 +26,7 @@ pub struct Tick {
 const MARGIN: f64 = 0.04;
 /// The least and the largest number that an axis reaches to, but for 0; and the least width of a range beside
 /// its ends, which is no accident of rounding.
-const SHOWN: [f64; 2] = [1e-30, 1e30];
+const SHOWN: RangeInclusive<f64> = 1e-30..=1e30;
 const NARROWEST: f64 = 1e-9;
 
 impl Panel {
@@ -35,12 +37,10 @@ impl Panel {
 
     pub fn rulers(&self) -> [Ruler<'_>; 2] {
         let (mut x, mut y) = (Vec::new(), Vec::new());
-        for layer in &self.layers {
-            for [at, value, low, high, _] in layer.marks.numbers() {
-                x.push(at);
-                y.push(value);
-                if self.names().is_empty() { &mut y } else { &mut x }.extend([low, high]);
-            }
+        for mark in self.layers.iter().flat_map(|layer| &layer.marks) {
+            x.push(mark.x);
+            y.push(mark.y);
+            if self.names().is_empty() { &mut y } else { &mut x }.extend([mark.low, mark.high]);
         }
         [Ruler::new(&self.x, &x), Ruler::new(&self.y, &y)]
     }
@@ -50,29 +50,28 @@ impl<'a> Ruler<'a> {
     fn new(axis: &'a Axis, values: &[f64]) -> Ruler<'a> {
         let scale = &axis.scale;
         let is_log = *scale == Scale::Log;
-        let is_usable = |value: &f64| value.abs() <= SHOWN[1] && (!is_log || *value >= SHOWN[0]);
-        let usable = values.iter().copied().filter(is_usable);
-        let [low, high] = usable
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
-        let [low, high] = match (axis.range, scale) {
-            (Some([first, last]), _) if first < last && last <= SHOWN[1] => [first, last],
-            (_, Scale::Names(names)) => [names.len() as f64 - 0.5, -0.5],
-            _ if low > high => [1.0, 10.0],
+        let (least, most) = SHOWN.into_inner();
+        let usable = values.iter().filter(|value| value.abs() <= most && (!is_log || **value >= least));
+        let Span { low, high } = Span::from_values(usable.copied());
+        let (low, high) = match (axis.range, scale) {
+            (Some(given), _) if given.low < given.high && given.high <= most => (given.low, given.high),
+            (_, Scale::Names(names)) => (names.len() as f64 - 0.5, -0.5),
+            _ if low > high => (1.0, 10.0),
             (_, Scale::Log) if high / low > 1.0 + NARROWEST => {
                 let margin = (high / low).powf(MARGIN);
-                [low / margin, high * margin]
+                (low / margin, high * margin)
             }
-            (_, Scale::Log) => [0.5 * low, 2.0 * low],
-            _ if high - low > (NARROWEST * low.abs().max(high.abs())).max(SHOWN[0]) => {
+            (_, Scale::Log) => (0.5 * low, 2.0 * low),
+            _ if high - low > (NARROWEST * low.abs().max(high.abs())).max(least) => {
                 let margin = MARGIN * (high - low);
-                [low - margin, high + margin]
+                (low - margin, high + margin)
             }
-            _ => [low - 1.0 - 0.1 * low.abs(), low + 1.0 + 0.1 * low.abs()],
+            _ => (low - 1.0 - 0.1 * low.abs(), low + 1.0 + 0.1 * low.abs()),
         };
         Ruler { scale, low, high }
     }
 
-    /// The same axis over a range of this length about the same middle.
+    /// Stretches the range to this length about its middle.
     pub fn over_length(&self, length: f64) -> Ruler<'a> {
         let middle = 0.5 * (self.low + self.high);
         Ruler { scale: self.scale, low: middle - 0.5 * length, high: middle + 0.5 * length }
@@ -94,9 +93,8 @@ impl<'a> Ruler<'a> {
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
             Scale::Names(names) => {
-                let tick =
-                    |(row, name): (usize, &String)| Tick { value: row as f64, label: Some(name.clone()) };
-                names.iter().enumerate().map(tick).collect()
+                let rows = names.iter().enumerate();
+                rows.map(|(row, name)| Tick { value: row as f64, label: Some(name.clone()) }).collect()
             }
             Scale::Linear => self.linear_ticks(most),
             Scale::Log => self.log_ticks(most),
@@ -109,24 +107,14 @@ impl<'a> Ruler<'a> {
         let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= least * (1.0 - 1e-9));
         let step = factor.unwrap_or(10.0) * power;
         let decimals = (-step.log10().floor()).max(0.0) as usize;
-        let ends = [(self.low / step - 1e-9).ceil() as i64, (self.high / step + 1e-9).floor() as i64];
-        let tick = |k: i64| {
-            let value = k as f64 * step;
-            Tick { value, label: Some(minus(number::fixed(value, decimals))) }
-        };
-        (ends[0]..=ends[1]).map(tick).collect()
+        let all = (self.low / step - 1e-9).ceil() as i64..=(self.high / step + 1e-9).floor() as i64;
+        all.map(|k| k as f64 * step)
+            .map(|value| Tick { value, label: Some(minus(number::fixed(value, decimals))) })
+            .collect()
     }
 
     /// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
     fn log_ticks(&self, most: usize) -> Vec<Tick> {
-        let decades = self.low.log10().floor() as i32..=self.high.log10().ceil() as i32;
-        let inside = |value: &f64| (self.low * (1.0 - 1e-9)..=self.high * (1.0 + 1e-9)).contains(value);
-        let at = |factors: &[f64], every: i32| -> Vec<f64> {
-            let decades = decades.clone().filter(|decade| decade.rem_euclid(every) == 0);
-            let values =
-                decades.flat_map(|decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
-            values.filter(inside).collect()
-        };
         // Powers of ten where plain numbers would be long.
         let as_powers = self.low < 0.00099 || self.high > 100_100.0;
         let choices: [(&[f64], i32); 10] = [
@@ -141,24 +129,33 @@ impl<'a> Ruler<'a> {
             (&[1.0], 10),
             (&[1.0], 20),
         ];
-        let mut fitting =
-            choices[if as_powers { 2 } else { 0 }..].iter().map(|&(factors, every)| at(factors, every));
+        let choices = choices[if as_powers { 2 } else { 0 }..].iter();
+        let mut fitting = choices.map(|&(factors, every)| self.in_decades(factors, every));
         let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
-        let label = |value: f64| match as_powers {
-            true => {
-                let exponent = (value.log10() + 1e-9).floor();
-                let power = format!("10^{{{}}}", minus(number::fixed(exponent, 0)));
-                match (value / 10_f64.powf(exponent)).round() {
-                    1.0 => power,
-                    factor => format!("{factor}\u{b7}{power}"),
-                }
-            }
-            false => number::plain(value),
-        };
+        let label = if as_powers { power_of_ten } else { number::plain };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
         let shown = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
-        let minor = at(shown, 1).into_iter().filter(|value| !labelled.contains(value));
+        let minor = self.in_decades(shown, 1).into_iter().filter(|value| !labelled.contains(value));
         let minor = minor.map(|value| Tick { value, label: None });
         labelled.iter().map(|&value| Tick { value, label: Some(label(value)) }).chain(minor).collect()
+    }
+
+    /// These multiples of each power of ten, or of one in so many.
+    fn in_decades(&self, factors: &[f64], every: i32) -> Vec<f64> {
+        let decades = self.low.log10().floor() as i32..=self.high.log10().ceil() as i32;
+        let inside = self.low * (1.0 - 1e-9)..=self.high * (1.0 + 1e-9);
+        let decades = decades.filter(|decade| decade.rem_euclid(every) == 0);
+        let values =
+            decades.flat_map(|decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
+        values.filter(|value| inside.contains(value)).collect()
+    }
+}
+
+fn power_of_ten(value: f64) -> String {
+    let exponent = (value.log10() + 1e-9).floor();
+    let power = format!("10^{{{}}}", minus(number::fixed(exponent, 0)));
+    match (value / 10_f64.powf(exponent)).round() {
+        1.0 => power,
+        factor => format!("{factor}\u{b7}{power}"),
     }
 }

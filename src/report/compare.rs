@@ -1,9 +1,10 @@
 //! The page of two evaluations, before and after: joined by the names of the objects.
 
-use super::figure::{Axis, Estimate, Figure, Ink, Layer, Panel, Side, Words};
-use super::object::{columns, limits_in_words, widened};
+use super::answers::{Evaluation, Expected, Rated};
+use super::figure::{Figure, Ink};
+use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
-use super::rated::{Evaluation, Rated, percent_in_row};
+use super::probabilities::{self, Row};
 use super::text::literal;
 use crate::hazard::{RateByParts, ratio_of_rates};
 use crate::number::{self, Limited, PERCENT, TWO_DIGITS};
@@ -20,83 +21,80 @@ pub struct Pair<'a> {
 /// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. The
 /// most likely to overturn before are first.
 pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>> {
-    let alone = |of: &Evaluation| of.rows.len() == 1 && of.rows[0].name.is_none();
-    let both_alone = alone(before) && alone(after);
-    let is_same = |a: &Rated, b: &Rated| both_alone || (a.name.is_some() && a.name == b.name);
+    let are_alone =
+        [before, after].iter().all(|one| matches!(&one.rows[..], [rated] if rated.object.name().is_none()));
     let same_hazard = before.hazard_key == after.hazard_key;
-    let pair = |one: &'a Rated| {
-        let other = after.rows.iter().find(|other| is_same(one, other))?;
-        Some(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) })
-    };
-    let mut pairs: Vec<Pair> = before.rows.iter().filter_map(pair).collect();
-    pairs.retain(|pair| pair.before.is_answered() || pair.after.is_answered());
+    let mut pairs = Vec::new();
+    for one in &before.rows {
+        let name = one.object.name();
+        let mut others = after.rows.iter();
+        let other = others.find(|other| are_alone || (name.is_some() && name == other.object.name()));
+        let Some(other) = other.filter(|other| one.is_answered() || other.is_answered()) else { continue };
+        pairs.push(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) });
+    }
     pairs.sort_by(|a, b| b.before.severity().total_cmp(&a.before.severity()));
     pairs
 }
 
 /// PGV/PGA, and what is not known of the hazard, is the same only under the same hazard.
 fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Limited {
-    let known = |of: &Rated| {
-        Some(RateByParts { rate: of.rate.value.filter(|rate| *rate > 0.0)?, sds: of.sds.clone() })
-    };
-    let Some((before, after)) = known(before).zip(known(after)) else { return Limited::default() };
+    let [before, after] = [before, after].map(|rated| {
+        let rate = rated.row.overturning_per_year.value.filter(|rate| *rate > 0.0);
+        rate.map(|rate| RateByParts { rate, sds: rated.doubts.part_sds() })
+    });
+    let Some((before, after)) = before.zip(after) else { return Limited::default() };
     let is_shared = |part: Part| same_hazard || !matches!(part, Part::Velocity | Part::Hazard);
     ratio_of_rates(&before, &after, is_shared).into()
 }
 
+impl Pair<'_> {
+    fn name(&self) -> String {
+        self.before.object.marked_name()
+    }
+
+    fn is_changed(&self) -> bool {
+        let is_other_rate = self.before.row.overturning_per_year != self.after.row.overturning_per_year;
+        is_other_rate || place(self.before) != place(self.after)
+    }
+}
+
+/// The size and the place of an object.
+fn place(rated: &Rated) -> String {
+    let floor = rated.object.floor().map_or(String::new(), |floor| format!(", {floor}"));
+    rated.object.set_size() + &floor
+}
+
 /// Before and after in one row.
 pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
-    let both = pairs.iter().flat_map(|pair| [pair.before.overturning, pair.after.overturning]);
-    let x = Axis::log(&format!("probability of overturning {}, %", when));
-    let x = widened(x, both.chain([Limited::value(target)]));
-    let estimates = |of: fn(&Pair) -> Limited, off: f64| -> Vec<Estimate> {
-        pairs.iter().enumerate().map(|(row, pair)| percent_in_row(of(pair), row as f64 + off)).collect()
-    };
-    let word = |(row, pair): (usize, &Pair)| {
-        let ends =
-            [pair.before, pair.after].map(|of| of.overturning.high.or(of.overturning.value).unwrap_or(0.0));
-        let x = 100.0 * ends[0].max(ends[1]);
-        let text = match is_changed(pair) {
-            true => format!("× {}", TWO_DIGITS.value(pair.ratio)),
-            false => "as before".to_string(),
+    let (before, after) = (Ink::Muted, Ink::Data(1));
+    let mut rows = Vec::new();
+    for pair in pairs {
+        let values = vec![(before, pair.before.row.p_overturning), (after, pair.after.row.p_overturning)];
+        let words = match pair.ratio.value {
+            None => String::new(),
+            Some(_) if pair.is_changed() => format!("× {}", TWO_DIGITS.value(pair.ratio)),
+            Some(_) => "as before".to_string(),
         };
-        Some(Words { x, y: row as f64, text, side: Side::Right })
-            .filter(|_| x > 0.0 && pair.ratio.value.is_some())
-    };
-    let mut layers = Vec::new();
-    if let Some(target) = target {
-        let at = [pairs.len() as f64 - 0.5, -0.5];
-        layers.extend(Layer::upright(
-            100.0 * target,
-            at,
-            &format!("target {}", PERCENT.one(target)),
-            Side::Above,
-        ));
+        rows.push(Row { name: pair.name(), values, words });
     }
-    layers.extend([
-        Layer::estimates("before", Ink::Muted, estimates(|pair| pair.before.overturning, -0.17)),
-        Layer::estimates("after", Ink::Data(1), estimates(|pair| pair.after.overturning, 0.17)),
-        Layer::words(Ink::Text, pairs.iter().enumerate().filter_map(word)),
-    ]);
-    let name = |pair: &Pair| pair.before.name.as_deref().map_or("the object".to_string(), literal);
-    let panel = Panel::new("", x, Axis::names(pairs.iter().map(name)), layers);
+    let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p).chain([Limited::value(target)]);
+    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
+    let labels = [(before, "before"), (after, "after")];
+    let panel = probabilities::panel("", x, &rows, &labels, target);
     let caption = format!(
-        "Probability of overturning {} before and after, with 95 % limits; beside it the ratio of the rates, \
-         after over before.",
-        when
+        "Probability of overturning {when} before and after, with 95 % limits; beside it the ratio of the rates, \
+         after over before."
     );
     let panels = if pairs.is_empty() { Vec::new() } else { vec![panel] };
-    Figure::new("compared", "Before and after", caption, 1, 0.0, panels)
+    Figure::new("compared", "Before and after", 1, 0.0, panels).explained(caption)
 }
 
 /// The page of two evaluations.
 pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
     let pairs = pairs(before, after);
     let when = &before.when;
-    let target = before.target.or(after.target);
     let Some(worst) = pairs.first() else { return Page::default() };
-    let name = worst.before.name.as_deref().map_or("The object".to_string(), literal);
-    let p = [worst.before, worst.after].map(|of| PERCENT.value(of.overturning));
+    let p = [worst.before, worst.after].map(|rated| PERCENT.value(rated.row.p_overturning));
     let ratio = match worst.ratio.value {
         Some(_) => format!(
             "; it overturns {} times as often {}",
@@ -105,128 +103,112 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         ),
         None => String::new(),
     };
-    let same_hazard = before.hazard_key == after.hazard_key;
     let joined = match pairs.len() {
-        1 if worst.before.name.is_none() => "The one object of each file.".to_string(),
+        1 if worst.before.object.name().is_none() => "The one object of each file.".to_string(),
         _ => format!("{} of the same name in both files.", number::counted(pairs.len(), "object")),
     };
-    let hazard = if same_hazard { "the same hazard" } else { "different hazards" };
-    let cancels = format!(
-        "Ratio: what is not known of both, and moves both alike, cancels; under {hazard}, {}.",
-        if same_hazard { "that is all but what only one of them has" } else { "PGV/PGA does not" }
-    );
-    let files = format!(
-        "Before: {}. After: {}. Hazard: {}.",
-        literal(&before.file),
-        literal(&after.file),
-        literal(&if same_hazard {
-            before.hazard.clone()
-        } else {
-            format!("{}; {}", before.hazard, after.hazard)
-        })
-    );
-    let alone = pairs.len() == 1;
+    let (hazards, cancels) = match before.hazard_key == after.hazard_key {
+        true => (before.hazard.clone(), "the same hazard, that is all but what only one of them has"),
+        false => (format!("{}; {}", before.hazard, after.hazard), "different hazards, PGV/PGA does not"),
+    };
+    let cancels =
+        format!("Ratio: what is not known of both, and moves both alike, cancels; under {cancels}.");
+    let [file_before, file_after, hazards] = [&before.file, &after.file, &hazards].map(|name| literal(name));
+    let facts =
+        [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.doubts.part_sds())];
     Page {
-        title: match alone {
-            true => format!("{}, before and after", worst.before.name.as_deref().unwrap_or("One object")),
-            false => format!("{}, before and after", number::counted(pairs.len(), "object")),
+        title: match &pairs[..] {
+            [pair] => format!("{}, before and after", pair.before.object.name().unwrap_or("One object")),
+            _ => format!("{}, before and after", number::counted(pairs.len(), "object")),
         },
-        place: files,
+        place: format!("Before: {file_before}. After: {file_after}. Hazard: {hazards}."),
         sentence: format!(
-            "{name} overturns with a probability of {} before and {} after, {}{ratio}.",
-            p[0], p[1], when
+            "{} overturns with a probability of {} before and {} after, {when}{ratio}.",
+            worst.name(),
+            p[0],
+            p[1]
         ),
         tiles: tiles(&pairs, when),
-        facts: [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.sds)]
-            .into_iter()
-            .flatten()
-            .collect(),
+        facts: facts.into_iter().flatten().collect(),
         table: Some(table(&pairs, when)),
         notes: unpaired(before, after, &pairs),
-        figures: vec![figure(&pairs, when, target)],
+        figures: vec![figure(&pairs, when, before.target.or(after.target))],
         ..Page::default()
     }
 }
 
 fn tiles(pairs: &[Pair], when: &str) -> Vec<Tile> {
     let worst = &pairs[0];
-    let tile = |number: String, words: String| Tile { number, words };
-    let limits = |p: Limited| PERCENT.limits(p, "95 % limits ");
-    let [p, q] = [worst.before.overturning, worst.after.overturning];
-    let mut tiles = vec![
-        tile(PERCENT.value(q), format!("after: overturns {when} {}", limits(q))),
-        tile(PERCENT.value(p), format!("before: overturns {when} {}", limits(p))),
-        tile(
-            format!("× {}", TWO_DIGITS.value(worst.ratio)),
-            format!("as often as before {}", TWO_DIGITS.limits(worst.ratio, "95 % limits ")),
-        ),
-    ];
+    let mut tiles = Vec::new();
+    for (word, rated) in [("after", worst.after), ("before", worst.before)] {
+        let (p, limits) = (rated.row.p_overturning, PERCENT.limits(rated.row.p_overturning, "95 % limits "));
+        tiles.push(Tile::new(PERCENT.value(p), format!("{word}: overturns {when} {limits}")));
+    }
+    tiles.extend(worst.ratio.value.map(|_| {
+        let limits = TWO_DIGITS.limits(worst.ratio, "95 % limits ");
+        Tile::new(format!("× {}", TWO_DIGITS.value(worst.ratio)), format!("as often as before {limits}"))
+    }));
     if pairs.len() > 1 {
-        let before = super::list::expected(pairs.iter().map(|pair| pair.before)).number();
-        let after = super::list::expected(pairs.iter().map(|pair| pair.after)).number();
-        tiles.push(tile(format!("{before} → {after}"), format!("objects expected to overturn {when}")));
+        let before = Expected::new(pairs.iter().map(|pair| pair.before)).number();
+        let after = Expected::new(pairs.iter().map(|pair| pair.after)).number();
+        let words = format!("objects expected to overturn {when}");
+        tiles.push(Tile::new(format!("{before} → {after}"), words));
     }
     tiles
 }
 
 fn table(pairs: &[Pair], when: &str) -> Table {
-    let heads =
-        ["object", &format!("before, {when}"), "after", "95 % limits", "times as often", "95 % limits"];
-    let row = |pair: &Pair| {
-        let [times, limits] = match (is_changed(pair), pair.ratio.value) {
-            (false, _) => ["as before".to_string(), String::new()],
-            (true, None) => [String::new(), String::new()],
-            (true, Some(_)) => {
-                [TWO_DIGITS.value(pair.ratio), TWO_DIGITS.limits(pair.ratio, "").replace(['(', ')'], "")]
-            }
+    let before = format!("before, {when}");
+    let heads = ["object", &before, "after", "95 % limits", "times as often", "95 % limits"];
+    let mut rows = Vec::new();
+    for pair in pairs {
+        let (times, limits) = match (pair.is_changed(), pair.ratio.value) {
+            (false, _) => ("as before".to_string(), String::new()),
+            (true, None) => Default::default(),
+            (true, Some(_)) => (TWO_DIGITS.value(pair.ratio), TWO_DIGITS.limits(pair.ratio, "")),
         };
-        vec![
-            pair.before.name.as_deref().map_or("unnamed".to_string(), literal),
-            PERCENT.value(pair.before.overturning),
-            PERCENT.value(pair.after.overturning),
-            PERCENT.limits(pair.after.overturning, "").replace(['(', ')'], ""),
-            times,
-            limits,
-        ]
-    };
-    Table { columns: columns(&heads), rows: pairs.iter().map(row).collect(), ..Table::default() }
-}
-
-fn place(rated: &Rated) -> String {
-    rated.floor.as_ref().map_or(rated.size.clone(), |floor| format!("{}, {floor}", rated.size))
-}
-
-fn is_changed(pair: &Pair) -> bool {
-    pair.before.rate != pair.after.rate || place(pair.before) != place(pair.after)
+        let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
+        let limits_after = PERCENT.limits(q, "");
+        let mut row = vec![pair.name(), PERCENT.value(p), PERCENT.value(q)];
+        row.extend([limits_after, times, limits].map(|cell| cell.replace(['(', ')'], "")));
+        rows.push(row);
+    }
+    Table::new(&heads, rows)
 }
 
 /// The size and the place of what is changed.
 fn what_changed(pairs: &[Pair]) -> Option<String> {
-    let line = |pair: &Pair| {
-        let name = pair.before.name.as_deref().map_or("the object".to_string(), literal);
-        format!("{name}: {}, then {}", place(pair.before), place(pair.after))
-    };
-    let lines: Vec<String> =
-        pairs.iter().filter(|pair| place(pair.before) != place(pair.after)).map(line).collect();
+    let mut lines = Vec::new();
+    for pair in pairs {
+        let [before, after] = [pair.before, pair.after].map(place);
+        if before != after {
+            lines.push(format!("{}: {before}, then {after}", pair.name()));
+        }
+    }
     (!lines.is_empty()).then(|| format!("What changed: {}.", lines.join("; ")))
 }
 
 /// Objects of one file alone, and those without an answer in both.
 fn unpaired(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
-    let line = |of: &Evaluation, words: String, is_told: &dyn Fn(&Rated) -> bool| {
-        let told = of.rows.iter().filter(|rated| is_told(rated));
-        let names: Vec<String> = told.map(Rated::title).collect();
-        (!names.is_empty()).then(|| format!("{words}: {}.", names.join(", ")))
-    };
-    let in_both =
-        |rated: &Rated| [before, after].iter().all(|of| of.rows.iter().any(|o| o.name == rated.name));
-    let is_paired = |rated: &Rated| {
-        pairs.iter().any(|pair| std::ptr::eq(pair.before, rated) || std::ptr::eq(pair.after, rated))
-    };
-    let only = |of: &Evaluation| {
-        line(of, format!("Only in {}", literal(&of.file)), &|rated| !is_paired(rated) && !in_both(rated))
-    };
-    let silent =
-        line(before, "No answer before or after".to_string(), &|rated| !is_paired(rated) && in_both(rated));
-    [only(before), only(after), silent].into_iter().flatten().collect()
+    let mut lines = Vec::new();
+    for (one, other) in [(before, after), (after, before)] {
+        let (mut alone, mut silent) = (Vec::new(), Vec::new());
+        for rated in &one.rows {
+            let is_paired =
+                pairs.iter().any(|pair| std::ptr::eq(pair.before, rated) || std::ptr::eq(pair.after, rated));
+            let is_in_both = other.rows.iter().any(|o| o.object.structure == rated.object.structure);
+            match (is_paired, is_in_both) {
+                (true, _) => {}
+                (false, true) => silent.push(rated.object.marked_name()),
+                (false, false) => alone.push(rated.object.marked_name()),
+            }
+        }
+        if !alone.is_empty() {
+            lines.push(format!("Only in {}: {}.", literal(&one.file), alone.join(", ")));
+        }
+        if !silent.is_empty() && std::ptr::eq(one, before) {
+            lines.push(format!("No answer before or after: {}.", silent.join(", ")));
+        }
+    }
+    lines
 }

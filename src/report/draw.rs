@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use super::axis::{Ruler, Tick};
-use super::figure::{Dash, Figure, Frame, Ink, Layer, Marks, Panel, Side, Words};
-use super::pen::{LETTERS, Pen, SMALL, course, round};
-use super::text::{escape, html, words};
+use super::axis::Ruler;
+use super::figure::{Dash, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side};
+use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
+use super::text::{escape, html, literal, words};
 
 /// How wide a picture is drawn, and the height of its letters over that of a file, which is 8 points.
 #[derive(Debug, Clone, Copy)]
@@ -68,44 +68,42 @@ pub fn svg(figure: &Figure, key: &str) -> String {
 /// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
 /// below a legend, so that they stand beside each other where there is room.
 pub fn html_of_panels(figure: &Figure) -> String {
-    let entries = legend_entries(figure);
-    let entry = |layer: &&Layer| {
-        let mut pen = Pen { unit: 1.0, text: String::new() };
-        pen.legend_mark(layer, [0.0, 5.0]);
-        let (mark, label) = (pen.text, html(&layer.label));
-        format!("<span><svg viewBox=\"0 0 {MARK} 10\" aria-hidden=\"true\">{mark}</svg>{label}</span>\n")
-    };
-    let legend = match &entries[..] {
-        [] => String::new(),
-        _ => format!("<div class=\"legend\">\n{}</div>\n", entries.iter().map(entry).collect::<String>()),
+    let entries: String = legend_entries(figure).into_iter().map(legend_entry).collect();
+    let legend = match entries.as_str() {
+        "" => String::new(),
+        _ => format!("<div class=\"legend\">\n{entries}</div>\n"),
     };
     // A legend that is of one panel alone stands below it.
     let mut labelled =
         figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
     let owner = labelled.next().filter(|_| labelled.next().is_none() && figure.panels.len() > 1);
     let is_wide = figure.columns == 1 && figure.panels.iter().all(|panel| panel.names().is_empty());
-    let panel = |panel: &Panel| {
+    let mut panels = String::new();
+    for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
         let caption = match panel.caption.as_str() {
             "" => String::new(),
             words => format!("<figcaption>{}</figcaption>\n", html(words)),
         };
         let small = svg_of_panel(panel, name, figure, NARROW, if is_wide { "small" } else { "" });
-        let wide = match is_wide {
-            true => svg_of_panel(panel, name, figure, WIDE, "wide"),
-            false => String::new(),
-        };
-        let legend = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
-        format!("<figure>\n{wide}{small}{legend}{caption}</figure>\n")
-    };
+        let wide = if is_wide { svg_of_panel(panel, name, figure, WIDE, "wide") } else { String::new() };
+        let own = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
+        panels += &format!("<figure>\n{wide}{small}{own}{caption}</figure>\n");
+    }
     let above = if owner.is_some() { "" } else { legend.as_str() };
     let class = match figure.panels.len() {
         _ if is_wide => "panels long",
         4 => "panels four",
         _ => "panels",
     };
-    let panels: String = figure.panels.iter().map(panel).collect();
-    Ink::of_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
+    Ink::in_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
+}
+
+fn legend_entry(layer: &Layer) -> String {
+    let mut pen = Pen { unit: 1.0, text: String::new() };
+    pen.legend_mark(layer, Point::new(0.0, 5.0));
+    let (mark, label) = (pen.text, html(&layer.label));
+    format!("<span><svg viewBox=\"0 0 {MARK} 10\" aria-hidden=\"true\">{mark}</svg>{label}</span>\n")
 }
 
 fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure, look: Look, class: &str) -> String {
@@ -113,14 +111,10 @@ fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure, look: Look, class: &
     let mut pen = Pen { text: String::new(), unit };
     // As high over its width as in the file.
     let across = look.width / unit * figure.columns.max(1) as f64 / FILE.width;
-    let height = match panel.names().len() {
-        0 => (figure.height * across.min(1.6)).max(LEAST_HEIGHT) * unit,
-        rows => ROW * unit * rows as f64,
-    };
+    let height = unit * own_height(panel, (figure.height * across.min(1.6)).max(LEAST_HEIGHT));
     let left = names_room(panel, look.width, unit);
     let top = head(panel) * unit;
-    let area = [left, top, look.width - left - RIGHT * unit, height];
-    pen.panel(panel, area, top);
+    pen.panel(panel, Area { left, top, width: look.width - left - RIGHT * unit, height }, top);
     let bottom = round(top + height + foot(panel) * unit);
     let (width, name) = (look.width, escape(&words(name)));
     format!(
@@ -161,8 +155,14 @@ fn with_text(png: &[u8], text: &str) -> Vec<u8> {
     [&png[..HEAD], &length, &content, &sum, &png[HEAD..]].concat()
 }
 
-/// The area of the data of a panel: left, top, width and height.
-type Area = [f64; 4];
+/// The area of the data of a panel.
+#[derive(Debug, Clone, Copy)]
+struct Area {
+    left: f64,
+    top: f64,
+    width: f64,
+    height: f64,
+}
 
 /// Draws all panels in rows below one legend, as a file has them; returns the height too.
 fn whole(figure: &Figure) -> (String, f64) {
@@ -171,38 +171,37 @@ fn whole(figure: &Figure) -> (String, f64) {
     let across = FILE.width / columns as f64;
     let mut top = pen.legend(&legend_entries(figure), 4.0, FILE.width);
     for row in figure.panels.chunks(columns) {
-        let height = |panel: &Panel| match panel.names().len() {
-            0 => figure.height,
-            rows => ROW * rows as f64,
-        };
-        let height = row.iter().map(height).fold(0.0, f64::max);
+        let highest = row.iter().map(|panel| own_height(panel, figure.height)).fold(0.0, f64::max);
         let above = row.iter().map(head).fold(0.0, f64::max);
-        // Panels below each other have the same room for names.
-        let names = |panel: &Panel| names_room(panel, across, 1.0);
         for (column, panel) in row.iter().enumerate() {
-            let column_of_panels = figure.panels.iter().skip(column).step_by(columns);
-            let left = column_of_panels.map(names).fold(0.0, f64::max);
-            let own = match panel.names().len() {
-                0 => height,
-                rows => ROW * rows as f64,
-            };
-            let area = [column as f64 * across + left, top + above, across - left - RIGHT, own];
-            pen.panel(panel, area, above);
+            // Panels below each other have the same room for names.
+            let below_each_other = figure.panels.iter().skip(column).step_by(columns);
+            let room = below_each_other.map(|panel| names_room(panel, across, 1.0)).fold(0.0, f64::max);
+            let (left, width) = (column as f64 * across + room, across - room - RIGHT);
+            let height = own_height(panel, figure.height);
+            pen.panel(panel, Area { left, top: top + above, width, height }, above);
         }
-        top += above + height + row.iter().map(foot).fold(0.0, f64::max);
+        top += above + highest + row.iter().map(foot).fold(0.0, f64::max);
     }
     (pen.text, round(top.max(1.0)))
 }
 
+/// The height of the area of the data; of a panel of names by their number.
+fn own_height(panel: &Panel, usual: f64) -> f64 {
+    if panel.names().is_empty() { usual } else { ROW * panel.names().len() as f64 }
+}
+
 /// The room above the area of the data.
 fn head(panel: &Panel) -> f64 {
-    let line = |text: &str, height: f64| if text.is_empty() { 0.0 } else { height };
-    let is_above = |words: &Words| words.side == Side::Above;
-    let has_words = panel.layers.iter().any(|layer| match &layer.marks {
-        Marks::Words(words) => words.iter().any(is_above),
-        _ => false,
-    });
-    GAP + line(&panel.title, TITLE) + line(&panel.y.label, LABEL) + if has_words { LABEL } else { 0.0 }
+    let mut room = GAP;
+    for (is_there, height) in [
+        (!panel.title.is_empty(), TITLE),
+        (!panel.y.label.is_empty(), LABEL),
+        (panel.words.iter().any(|words| words.side == Side::Above), LABEL),
+    ] {
+        room += if is_there { height } else { 0.0 };
+    }
+    room
 }
 
 /// The room below it.
@@ -258,26 +257,26 @@ impl Pen {
             if x > left && x + long > across {
                 (x, y) = (left, y + LEGEND);
             }
-            self.legend_mark(layer, [x, y - 2.6]);
-            self.label([x + MARK + 3.0, y], LETTERS, "", Ink::Text, &layer.label);
+            self.legend_mark(layer, Point::new(x, y - 2.6));
+            self.label(Point::new(x + MARK + 3.0, y), LETTERS, "", Ink::Text, &layer.label);
             x += long + BETWEEN;
         }
         if entries.is_empty() { 0.0 } else { y + 5.0 }
     }
 
     /// The mark of a layer in the legend, from this place to the right.
-    fn legend_mark(&mut self, layer: &Layer, [x, y]: [f64; 2]) {
-        let colour = layer.ink.colour();
-        let middle = [x + 0.5 * MARK, y];
-        match &layer.marks {
-            Marks::Points(_) | Marks::Words(_) => self.dots(&[middle], 2.0, colour, 1.0),
-            Marks::Line { dash, .. } => self.path(&[[x, y], [x + MARK, y]], colour, 1.3, *dash),
-            Marks::Area(_) => {
-                let corners = [[x, y - 3.5], [x + MARK, y - 3.5], [x + MARK, y + 3.5], [x, y + 3.5]];
-                self.fill(&corners, colour, 0.3);
+    fn legend_mark(&mut self, layer: &Layer, from: Point) {
+        let (colour, y) = (layer.ink.colour(), from.y);
+        let [middle, end] = [0.5, 1.0].map(|part| Point::new(from.x + part * MARK, y));
+        match layer.shape {
+            Shape::Points => self.dots(&[middle], 2.0, colour, 1.0),
+            Shape::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
+            Shape::Area => {
+                let corners = [(from.x, -3.5), (end.x, -3.5), (end.x, 3.5), (from.x, 3.5)];
+                self.fill(&corners.map(|(x, off)| Point::new(x, y + off)), colour, 0.3);
             }
-            Marks::Estimates(_) => {
-                self.interval([[x + 1.0, y], [x + MARK - 1.0, y]], colour);
+            Shape::Estimates => {
+                self.interval(Point::new(from.x + 1.0, y), Point::new(end.x - 1.0, y), colour);
                 self.dots(&[middle], 2.2, colour, 1.0);
             }
         }
@@ -285,139 +284,138 @@ impl Pen {
 
     /// Draws a panel with its title and label of y in the room `above` the area of its data.
     fn panel(&mut self, panel: &Panel, area: Area, above: f64) {
-        let [left, top, width, height] = area;
-        let mut rulers = panel.rulers();
+        let Area { left, top, width, height } = area;
+        let [mut x, mut y] = panel.rulers();
         if panel.frame == Frame::ToScale {
-            let [x, y] = &rulers;
             let longest = (x.length() / width).max(y.length() / height);
-            rulers = [x.over_length(longest * width), y.over_length(longest * height)];
-        }
-        let [x, y] = &rulers;
-        if panel.frame == Frame::Axes {
-            self.guides(y, area);
+            (x, y) = (x.over_length(longest * width), y.over_length(longest * height));
+        } else {
+            self.guides(&y, area);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
-        let [x_at, y_at, wide, high] = area.map(round);
+        let [x_at, y_at, wide, high] = [left, top, width, height].map(round);
         let _ = writeln!(self.text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
-        let place = |[x_value, y_value]: [f64; 2]| {
-            [width * x.fraction(x_value), height * (1.0 - y.fraction(y_value))]
-        };
+        let inside = Place { x: &x, y: &y, area: Area { left: 0.0, top: 0.0, ..area } };
         for layer in &panel.layers {
-            self.marks(layer, !panel.names().is_empty(), place);
+            self.marks(layer, !panel.names().is_empty(), &inside);
         }
         self.text.push_str("</svg>\n");
-        for layer in &panel.layers {
-            let Marks::Words(words) = &layer.marks else { continue };
-            for one in words {
-                let [x_at, y_at] = place([one.x, one.y]);
-                self.beside([left + x_at, top + y_at], layer.ink, one);
-            }
+        for words in &panel.words {
+            self.beside(Place { area, ..inside }.at(words.x, words.y), words);
         }
         if panel.frame == Frame::Axes {
-            self.axes(panel, [x, y], area);
+            self.axes(panel, &x, &y, area);
         }
         let unit = self.unit;
         // Titles stand over the ticks, not over the names of rows.
         let room = if panel.names().is_empty() { LEFT } else { NAMES };
         let edge = (left - room * unit).max(0.0) + 2.0 * unit;
-        let first = top - above + 9.0 * unit;
-        self.label([edge, first], LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
-        self.label([edge, top - GAP * unit], SMALL, "", Ink::Muted, &panel.y.label);
+        let first = Point::new(edge, top - above + 9.0 * unit);
+        self.label(first, LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
+        self.label(Point::new(edge, top - GAP * unit), SMALL, "", Ink::Muted, &panel.y.label);
     }
 
     /// Faint lines behind the data: at labelled ticks of y, or along rows.
-    fn guides(&mut self, y: &Ruler, [left, top, width, height]: Area) {
-        let at = |tick: &Tick| top + height * (1.0 - y.fraction(tick.value));
-        let lines = y.ticks(self.y_ticks(height)).into_iter().filter(|tick| tick.label.is_some());
-        let places: Vec<f64> = lines.map(|tick| at(&tick)).collect();
-        let d: String = places.iter().map(|&at| course(&[[left, at], [left + width, at]])).collect();
-        let (rule, stroke) = (Ink::Rule.colour(), round(0.45 * self.unit));
-        let _ = writeln!(
-            self.text,
-            "<path d=\"{d}\" fill=\"none\" stroke=\"{rule}\" stroke-width=\"{stroke}\"/>"
-        );
+    fn guides(&mut self, y: &Ruler, area: Area) {
+        let mut d = String::new();
+        for tick in y.ticks(self.y_ticks(area.height)).iter().filter(|tick| tick.label.is_some()) {
+            let at = area.y_at(y, tick.value);
+            d += &course(&[Point::new(area.left, at), Point::new(area.left + area.width, at)]);
+        }
+        self.stroke(&d, Ink::Rule.colour(), 0.45, "");
     }
 
     fn y_ticks(&self, height: f64) -> usize {
         ((height / (18.0 * self.unit)) as usize).max(5)
     }
 
-    fn axes(&mut self, panel: &Panel, [x, y]: [&Ruler; 2], [left, top, width, height]: Area) {
-        let unit = self.unit;
-        let bottom = top + height;
-        let mut lines = vec![vec![[left, bottom], [left + width, bottom]]];
-        let middle = " text-anchor=\"middle\"";
+    fn axes(&mut self, panel: &Panel, x: &Ruler, y: &Ruler, area: Area) {
+        let Area { left, top, width, height } = area;
+        let (unit, bottom, middle) = (self.unit, top + height, " text-anchor=\"middle\"");
+        let mut d = course(&[Point::new(left, bottom), Point::new(left + width, bottom)]);
         for tick in x.ticks((width / (28.0 * unit)) as usize) {
             let at = left + width * x.fraction(tick.value);
             let length = if tick.label.is_some() { 3.0 } else { 1.6 };
-            lines.push(vec![[at, bottom], [at, bottom + length * unit]]);
+            d += &course(&[Point::new(at, bottom), Point::new(at, bottom + length * unit)]);
             if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
-                self.label([at, bottom + 10.5 * unit], SMALL, middle, Ink::Muted, &words);
+                self.label(Point::new(at, bottom + 10.5 * unit), SMALL, middle, Ink::Muted, &words);
             }
         }
-        for words in y.ticks(self.y_ticks(height)) {
-            let at = top + height * (1.0 - y.fraction(words.value));
-            let place = [left - 4.0 * unit, at + 0.35 * SMALL * unit];
-            let Some(words) = words.label else { continue };
+        let room = left - 4.0 * unit;
+        for tick in y.ticks(self.y_ticks(height)) {
+            let place = Point::new(room, area.y_at(y, tick.value) + 0.35 * SMALL * unit);
+            let Some(words) = tick.label else { continue };
             let (ink, words) = match panel.names() {
                 [] => (Ink::Muted, words),
-                _ => (Ink::Text, super::text::literal(&shortened(&words, left - 4.0 * unit, SMALL * unit))),
+                _ => (Ink::Text, literal(&shortened(&words, room, SMALL * unit))),
             };
             self.label(place, SMALL, " text-anchor=\"end\"", ink, &words);
         }
-        let d: String = lines.iter().map(|line| course(line)).collect();
-        let (ink, stroke) = (Ink::Muted.colour(), round(0.6 * unit));
-        let _ =
-            writeln!(self.text, "<path d=\"{d}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"{stroke}\"/>");
-        let place = [left + 0.5 * width, bottom + 21.0 * unit];
+        self.stroke(&d, Ink::Muted.colour(), 0.6, "");
+        let place = Point::new(left + 0.5 * width, bottom + 21.0 * unit);
         self.label(place, SMALL, middle, Ink::Muted, &panel.x.label);
     }
 
     /// Draws the marks of a layer, each value at its place.
-    fn marks(&mut self, layer: &Layer, has_rows: bool, place: impl Fn([f64; 2]) -> [f64; 2]) {
-        let colour = layer.ink.colour();
-        match &layer.marks {
-            Marks::Words(_) => {}
-            Marks::Area(points) => {
-                self.fill(&points.iter().map(|&point| place(point)).collect::<Vec<_>>(), colour, 0.22);
-            }
-            Marks::Points(points) => {
-                let places: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
-                let (radius, opacity) = match points.len() {
+    fn marks(&mut self, layer: &Layer, has_rows: bool, place: &Place) {
+        let (colour, marks) = (layer.ink.colour(), &layer.marks);
+        let places: Vec<Point> = marks.iter().map(|mark| place.at(mark.x, mark.y)).collect();
+        match layer.shape {
+            Shape::Area => self.fill(&places, colour, 0.22),
+            Shape::Points => {
+                let (radius, opacity) = match marks.len() {
                     ..6 => (2.2, 1.0),
                     6..FEW_POINTS => (1.3, 0.85),
                     _ => (0.8, 0.5),
                 };
                 self.dots(&places, radius, colour, opacity);
             }
-            Marks::Line { points, band, dash } => {
-                let limits: Vec<([f64; 2], [f64; 2])> =
-                    points.iter().copied().zip(band.iter().copied()).collect();
-                for piece in
-                    limits.split(|([x, y], _)| !(x + y).is_finite()).filter(|piece| !piece.is_empty())
-                {
-                    let edge = |end: usize| piece.iter().map(move |([x, _], limits)| [*x, limits[end]]);
-                    let outline: Vec<_> = edge(0).chain(edge(1).rev()).map(&place).collect();
-                    self.fill(&outline, colour, 0.16);
+            Shape::Line(dash) => {
+                let has_band = |mark: &Mark| mark.is_finite() && mark.low.is_finite();
+                for piece in marks.split(|mark| !has_band(mark)).filter(|piece| !piece.is_empty()) {
+                    let lows = piece.iter().map(|mark| place.at(mark.x, mark.low));
+                    let highs = piece.iter().rev().map(|mark| place.at(mark.x, mark.high));
+                    self.fill(&lows.chain(highs).collect::<Vec<_>>(), colour, 0.16);
                 }
-                let line: Vec<[f64; 2]> = points.iter().map(|&point| place(point)).collect();
-                let stroke = match points.len() {
-                    ..=FEW_POINTS if *dash == Dash::Short => 0.9,
+                let stroke = match marks.len() {
+                    ..=FEW_POINTS if dash == Dash::Short => 0.9,
                     ..=FEW_POINTS => 1.4,
                     _ => 0.65,
                 };
-                self.path(&line, colour, stroke, *dash);
+                self.path(&places, colour, stroke, dash);
             }
-            Marks::Estimates(estimates) => {
-                let most = estimates.iter().map(|e| e.n).fold(1.0, f64::max);
-                for e in estimates {
-                    let ends =
-                        if has_rows { [[e.low, e.y], [e.high, e.y]] } else { [[e.x, e.low], [e.x, e.high]] };
-                    self.interval(ends.map(&place), colour);
-                    let radius = if e.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (e.n / most).sqrt() };
-                    self.dots(&[place([e.x, e.y])], radius, colour, 1.0);
+            Shape::Estimates => {
+                let most = marks.iter().map(|mark| mark.n).fold(1.0, f64::max);
+                for (mark, at) in marks.iter().zip(places) {
+                    let [low, high] = [mark.low, mark.high].map(|limit| match has_rows {
+                        true => place.at(limit, mark.y),
+                        false => place.at(mark.x, limit),
+                    });
+                    self.interval(low, high, colour);
+                    let radius = if mark.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (mark.n / most).sqrt() };
+                    self.dots(&[at], radius, colour, 1.0);
                 }
             }
         }
+    }
+}
+
+impl Area {
+    fn y_at(&self, y: &Ruler, value: f64) -> f64 {
+        self.top + self.height * (1.0 - y.fraction(value))
+    }
+}
+
+/// Where values stand in a picture.
+#[derive(Clone, Copy)]
+struct Place<'a> {
+    x: &'a Ruler<'a>,
+    y: &'a Ruler<'a>,
+    area: Area,
+}
+
+impl Place<'_> {
+    fn at(&self, x: f64, y: f64) -> Point {
+        Point::new(self.area.left + self.area.width * self.x.fraction(x), self.area.y_at(self.y, y))
     }
 }

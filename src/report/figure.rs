@@ -1,6 +1,7 @@
 //! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
 use super::text::words;
+use crate::statistics::Estimate;
 
 /// One picture: panels in rows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -26,6 +27,8 @@ pub struct Panel {
     pub y: Axis,
     /// Each over those before.
     pub layers: Vec<Layer>,
+    /// Over all layers and the edge of the panel.
+    pub words: Vec<Words>,
     /// Marked text that is enough to read the panel alone; below it on the page.
     pub caption: String,
     pub frame: Frame,
@@ -46,7 +49,7 @@ pub struct Axis {
     /// Marked text; a horizontal axis without a label has ticks without numbers.
     pub label: String,
     pub scale: Scale,
-    pub range: Option<[f64; 2]>,
+    pub range: Option<Span>,
 }
 
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,30 +61,53 @@ pub enum Scale {
     Names(Vec<String>),
 }
 
-/// Marks that belong together.
+/// All between two values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Span {
+    /// Finds the least and the largest of values; of none, `low` is above `high`.
+    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Span {
+        let none = Span { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        values.into_iter().fold(none, |span, v| Span { low: span.low.min(v), high: span.high.max(v) })
+    }
+}
+
+/// Marks of one kind that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Name in the legend, which has each name once; none if empty.
     pub label: String,
     pub ink: Ink,
-    pub marks: Marks,
+    pub shape: Shape,
+    pub marks: Vec<Mark>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub enum Marks {
-    Points(Vec<[f64; 2]>),
-    /// A line, and limits of y at each of its points if `band` is not empty.
-    Line {
-        points: Vec<[f64; 2]>,
-        band: Vec<[f64; 2]>,
-        dash: Dash,
-    },
+/// What is drawn of marks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    Points,
+    /// A line, and between the limits of y a band.
+    Line(Dash),
     /// Values with limits of y, or of x where y is an axis of names.
-    Estimates(Vec<Estimate>),
+    Estimates,
     /// A closed outline, filled.
-    Area(Vec<[f64; 2]>),
-    /// Marked texts at places.
-    Words(Vec<Words>),
+    Area,
+}
+
+/// A place over the axes; with limits if it is an estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    pub x: f64,
+    pub y: f64,
+    /// NaN where it has no limits.
+    pub low: f64,
+    pub high: f64,
+    /// Number of cases behind it, which its dot shows; NaN if unknown.
+    pub n: f64,
 }
 
 /// A text at a place.
@@ -92,6 +118,7 @@ pub struct Words {
     /// Marked text.
     pub text: String,
     pub side: Side,
+    pub ink: Ink,
 }
 
 /// Where a text stands, seen from its place.
@@ -103,18 +130,6 @@ pub enum Side {
     Below,
     /// Upright, to the left.
     Along,
-}
-
-/// A value with its limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    pub x: f64,
-    pub y: f64,
-    /// NaN where it has no limits.
-    pub low: f64,
-    pub high: f64,
-    /// Number of cases behind it, which its dot shows; NaN if unknown.
-    pub n: f64,
 }
 
 /// A colour by its role; the page has others in the dark.
@@ -130,9 +145,8 @@ pub enum Ink {
     Band(usize),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
-    #[default]
     Solid,
     Long,
     Short,
@@ -142,56 +156,52 @@ pub enum Dash {
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
 
+impl Mark {
+    pub fn new(x: f64, y: f64) -> Mark {
+        Mark { x, y, low: f64::NAN, high: f64::NAN, n: f64::NAN }
+    }
+
+    /// A value of y with its limits.
+    pub fn estimate(x: f64, Estimate { value, low, high }: Estimate) -> Mark {
+        Mark { low, high, ..Mark::new(x, value) }
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.x.is_finite() && self.y.is_finite()
+    }
+}
+
 impl Layer {
+    pub fn new(label: &str, ink: Ink, shape: Shape, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer { label: label.to_string(), ink, shape, marks: marks.into_iter().collect() }
+    }
+
     /// Draws points; of too many, some that are spread over all.
-    pub fn points(label: &str, ink: Ink, points: impl IntoIterator<Item = [f64; 2]>) -> Layer {
-        let points: Vec<[f64; 2]> =
-            points.into_iter().filter(|point| point.iter().all(|v| v.is_finite())).collect();
-        let step = points.len().div_ceil(MOST_POINTS).max(1);
-        let marks = Marks::Points(points.into_iter().step_by(step).collect());
-        Layer { label: label.to_string(), ink, marks }
+    pub fn points(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        let marks: Vec<Mark> = marks.into_iter().filter(Mark::is_finite).collect();
+        let step = marks.len().div_ceil(MOST_POINTS).max(1);
+        Layer::new(label, ink, Shape::Points, marks.into_iter().step_by(step))
     }
 
-    pub fn line(label: &str, ink: Ink, points: Vec<[f64; 2]>) -> Layer {
-        Layer::curve(label, ink, Dash::Solid, points, Vec::new())
+    pub fn line(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer::new(label, ink, Shape::Line(Dash::Solid), marks)
     }
 
-    pub fn curve(label: &str, ink: Ink, dash: Dash, points: Vec<[f64; 2]>, band: Vec<[f64; 2]>) -> Layer {
-        Layer { label: label.to_string(), ink, marks: Marks::Line { points, band, dash } }
-    }
-
-    /// A vertical line between two heights, with words at its upper end.
-    pub fn upright(x: f64, [low, high]: [f64; 2], text: &str, side: Side) -> [Layer; 2] {
-        let line = Layer::curve("", Ink::Muted, Dash::Short, vec![[x, low], [x, high]], Vec::new());
-        [line, Layer::words(Ink::Muted, [Words { x, y: high, text: text.to_string(), side }])]
-    }
-
-    pub fn area(label: &str, ink: Ink, outline: Vec<[f64; 2]>) -> Layer {
-        Layer { label: label.to_string(), ink, marks: Marks::Area(outline) }
-    }
-
-    pub fn words(ink: Ink, words: impl IntoIterator<Item = Words>) -> Layer {
-        Layer { label: String::new(), ink, marks: Marks::Words(words.into_iter().collect()) }
-    }
-
-    pub fn estimates(label: &str, ink: Ink, estimates: impl IntoIterator<Item = Estimate>) -> Layer {
-        let marks = Marks::Estimates(estimates.into_iter().collect());
-        Layer { label: label.to_string(), ink, marks }
+    /// Draws a thin dashed line.
+    pub fn guide(ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer::new("", ink, Shape::Line(Dash::Short), marks)
     }
 }
 
 impl Figure {
-    pub fn new(
-        name: &str,
-        title: &str,
-        caption: impl Into<String>,
-        columns: usize,
-        height: f64,
-        panels: Vec<Panel>,
-    ) -> Figure {
+    pub fn new(name: &str, title: &str, columns: usize, height: f64, panels: Vec<Panel>) -> Figure {
         let columns = columns.min(panels.len());
         let [name, title] = [name, title].map(str::to_string);
-        Figure { name, title, caption: caption.into(), columns, height, panels }
+        Figure { name, title, columns, height, panels, ..Figure::default() }
+    }
+
+    pub fn explained(self, caption: impl Into<String>) -> Figure {
+        Figure { caption: caption.into(), ..self }
     }
 
     /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
@@ -204,10 +214,8 @@ impl Figure {
                 [&panel.title, &panel.x.label, &panel.y.label].map(|label| words(label));
             for layer in &panel.layers {
                 let name = words(&layer.label);
-                for numbers in layer.marks.numbers() {
-                    let written =
-                        |value: f64| if value.is_finite() { value.to_string() } else { String::new() };
-                    let [x, y, low, high, n] = numbers.map(written);
+                for mark in &layer.marks {
+                    let [x, y, low, high, n] = [mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
                     writer.write_record([&title, &name, &x_is, &x, &y_is, &y, &low, &high, &n])?;
                 }
             }
@@ -216,32 +224,23 @@ impl Figure {
     }
 }
 
+fn written(value: f64) -> String {
+    if value.is_finite() { value.to_string() } else { String::new() }
+}
+
 impl Panel {
     pub fn new(title: &str, x: Axis, y: Axis, layers: Vec<Layer>) -> Panel {
         Panel { title: title.to_string(), x, y, layers, ..Panel::default() }
     }
 
-    /// The same with a caption.
     pub fn explained(self, caption: impl Into<String>) -> Panel {
         Panel { caption: caption.into(), ..self }
     }
-}
 
-impl Marks {
-    /// Rows of x, y, low, high and n; NaN where a kind of marks has no such number. Words have none.
-    pub fn numbers(&self) -> Vec<[f64; 5]> {
-        const NONE: f64 = f64::NAN;
-        match self {
-            Marks::Words(_) => Vec::new(),
-            Marks::Points(points) | Marks::Area(points) => {
-                points.iter().map(|&[x, y]| [x, y, NONE, NONE, NONE]).collect()
-            }
-            Marks::Line { points, band, .. } => {
-                let limits = band.iter().copied().chain(std::iter::repeat([NONE; 2]));
-                points.iter().zip(limits).map(|(&[x, y], [low, high])| [x, y, low, high, NONE]).collect()
-            }
-            Marks::Estimates(estimates) => estimates.iter().map(|e| [e.x, e.y, e.low, e.high, e.n]).collect(),
-        }
+    /// Adds words, and a vertical line from a height to them.
+    pub fn add_upright(&mut self, words: Words, from: f64) {
+        self.layers.push(Layer::guide(words.ink, [Mark::new(words.x, from), Mark::new(words.x, words.y)]));
+        self.words.push(words);
     }
 }
 
@@ -259,7 +258,7 @@ impl Axis {
     }
 
     pub fn over(self, low: f64, high: f64) -> Axis {
-        Axis { range: Some([low, high]), ..self }
+        Axis { range: Some(Span { low, high }), ..self }
     }
 
     /// From 0 to 1, with room for dots at both ends.

@@ -1,234 +1,195 @@
 //! The page of a list of objects: the worst first, and how many are to be expected.
 
-use super::figure::{Axis, Figure, Layer, Panel, Side};
-use super::object::{columns, facts, limits_in_words, widened, words_of};
+use super::answers::{BAND_NAMES, Evaluation, Expected, Rated, words_of_silent};
+use super::figure::{Figure, Ink};
+use super::object::{limits_in_words, model_in_words};
 use super::page::{Page, Table, Tile};
-use super::rated::{BAND_NAMES, Evaluation, Rated, percent_in_row};
+use super::probabilities::{self, Row};
 use super::text::literal;
 use crate::keyword::Keyword;
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT};
 use crate::object::Part;
 
-/// The most objects that are drawn.
+/// The most objects that are drawn, and files whose expected numbers are shown.
 const DRAWN: usize = 60;
+const FILES: usize = 3;
+
+/// An object of one of several evaluations.
+#[derive(Clone, Copy)]
+struct Listed<'a> {
+    evaluation: &'a Evaluation,
+    rated: &'a Rated,
+}
 
 /// Objects of all evaluations, the worst first, those without an answer last.
-fn sorted(evaluations: &[Evaluation]) -> Vec<(&Evaluation, &Rated)> {
-    let mut all: Vec<(&Evaluation, &Rated)> =
-        evaluations.iter().flat_map(|of| of.rows.iter().map(move |rated| (of, rated))).collect();
-    all.sort_by(|(_, a), (_, b)| b.severity().total_cmp(&a.severity()));
+fn sorted(evaluations: &[Evaluation]) -> Vec<Listed<'_>> {
+    let mut all: Vec<Listed> = evaluations
+        .iter()
+        .flat_map(|evaluation| evaluation.rows.iter().map(move |rated| Listed { evaluation, rated }))
+        .collect();
+    all.sort_by(|a, b| b.rated.severity().total_cmp(&a.rated.severity()));
     all
 }
 
 /// How likely each object overturns, those on the ground and those on floors apart.
 pub fn figure(evaluations: &[Evaluation]) -> Figure {
-    let all = sorted(evaluations);
-    let answered: Vec<&Rated> =
-        all.iter().map(|(_, rated)| *rated).filter(|rated| rated.is_answered()).collect();
+    let mut answered: Vec<&Rated> = sorted(evaluations).iter().map(|listed| listed.rated).collect();
+    answered.retain(|rated| rated.is_answered());
     let drawn = &answered[..answered.len().min(DRAWN)];
     let (upstairs, ground): (Vec<&Rated>, Vec<&Rated>) =
-        drawn.iter().partition(|rated| rated.floor.is_some());
-    let places = [("On the ground", ground), ("On floors", upstairs)];
-    let when = evaluations.first().map_or("", |of| of.when.as_str());
-    let target = evaluations.iter().find_map(|of| of.target);
-    let x = Axis::log(&format!("probability of overturning {when}, %"));
-    let x = widened(x, drawn.iter().map(|rated| rated.overturning).chain([Limited::value(target)]));
-    let several = places.iter().all(|(_, rows)| !rows.is_empty());
-    let panels = places.into_iter().filter(|(_, rows)| !rows.is_empty()).map(|(title, rows)| {
-        let title = if several { title } else { "" };
-        panel(title, x.clone(), &rows, target)
-    });
-    let left_out = answered.len() - drawn.len();
-    let rest = match left_out {
+        drawn.iter().partition(|rated| rated.object.floor().is_some());
+    let is_split = !upstairs.is_empty() && !ground.is_empty();
+    let when = evaluations.first().map_or("", |evaluation| evaluation.when.as_str());
+    let target = evaluations.iter().find_map(|evaluation| evaluation.target);
+    let all = drawn.iter().map(|rated| rated.row.p_overturning).chain([Limited::value(target)]);
+    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
+    let bands: Vec<(Ink, &str)> = (0..3).rev().map(|band| (Ink::Band(band), BAND_NAMES[band])).collect();
+    let mut panels = Vec::new();
+    for (title, group) in [("On the ground", ground), ("On floors", upstairs)] {
+        let row = |rated: &&Rated| {
+            Row::new(rated.object.marked_name(), Ink::Band(rated.band()), rated.row.p_overturning)
+        };
+        let rows: Vec<Row> = group.iter().map(row).collect();
+        if !rows.is_empty() {
+            let title = if is_split { title } else { "" };
+            panels.push(probabilities::panel(title, x.clone(), &rows, &bands, target));
+        }
+    }
+    let rest = match answered.len() - drawn.len() {
         0 => String::new(),
-        _ => format!(" Not drawn: {} that are less likely to overturn.", number::counted(left_out, "object")),
+        rest => format!(" Not drawn: {} that are less likely to overturn.", number::counted(rest, "object")),
     };
     let caption = format!(
         "Probability of overturning {when} with 95 % limits. The colours part at 2 and 10 %, in 50 years those of \
          the earthquakes that codes consider and design for.{rest}"
     );
-    Figure::new("list", "How likely each object is to overturn", caption, 1, 0.0, panels.collect())
-}
-
-fn panel(title: &str, x: Axis, rows: &[&Rated], target: Option<f64>) -> Panel {
-    let mut layers = Vec::new();
-    if let Some(target) = target {
-        let words = format!("target {}", PERCENT.one(target));
-        layers.extend(Layer::upright(100.0 * target, [rows.len() as f64 - 0.5, -0.5], &words, Side::Above));
-    }
-    for (band, name) in BAND_NAMES.iter().enumerate().rev() {
-        let its = rows.iter().enumerate().filter(|(_, rated)| rated.band() == band);
-        let estimates: Vec<_> =
-            its.map(|(row, rated)| percent_in_row(rated.overturning, row as f64)).collect();
-        if let Some(rated) = rows.iter().find(|rated| rated.band() == band) {
-            layers.push(Layer::estimates(name, rated.ink(), estimates));
-        }
-    }
-    let words = rows.iter().enumerate().filter_map(|(row, rated)| words_of(rated.overturning, row));
-    layers.push(Layer::words(super::figure::Ink::Text, words));
-    Panel::new(title, x, Axis::names(rows.iter().map(|rated| rated.title())), layers)
+    Figure::new("list", "How likely each object is to overturn", 1, 0.0, panels).explained(caption)
 }
 
 /// The page of several objects, of one file or of several.
 pub fn page(evaluations: &[Evaluation]) -> Page {
     let all = sorted(evaluations);
-    let Some((of_worst, worst)) = all.first() else { return Page::default() };
-    let when = &of_worst.when;
-    let answered = all.iter().filter(|(_, rated)| rated.is_answered()).count();
-    let upstairs = all.iter().filter(|(_, rated)| rated.is_answered() && rated.floor.is_some()).count();
+    let Some(Listed { evaluation, rated: worst }) = all.first() else { return Page::default() };
+    let answered: Vec<&Rated> =
+        all.iter().map(|listed| listed.rated).filter(|rated| rated.is_answered()).collect();
+    let upstairs = answered.iter().filter(|rated| rated.object.floor().is_some()).count();
     let place = match upstairs {
         0 => "on the ground".to_string(),
-        _ if upstairs == answered => "on floors".to_string(),
-        _ => format!("{} on the ground, {} on floors", answered - upstairs, upstairs),
+        _ if upstairs == answered.len() => "on floors".to_string(),
+        _ => format!("{} on the ground, {} on floors", answered.len() - upstairs, upstairs),
     };
-    let mut hazards: Vec<&str> = evaluations.iter().map(|of| of.hazard.as_str()).collect();
+    let mut hazards: Vec<&str> = evaluations.iter().map(|evaluation| evaluation.hazard.as_str()).collect();
     hazards.dedup();
-    let parts = |part: Part| {
-        let largest = all.iter().flat_map(|(_, rated)| &rated.sds).filter(|(of, _)| *of == part);
-        largest.map(|(_, sd)| *sd).reduce(f64::max).map(|sd| (part, sd))
-    };
-    let sds: Vec<(Part, f64)> = Part::ALL.iter().filter_map(|part| parts(*part)).collect();
+    let mut largest_sds: Vec<(Part, f64)> = Vec::new();
+    for part in Part::ALL {
+        let sds = all.iter().flat_map(|listed| listed.rated.doubts.part_sds());
+        let sds = sds.filter(|(other, _)| other == part).map(|(_, sd)| sd);
+        largest_sds.extend(sds.reduce(f64::max).map(|sd| (*part, sd)));
+    }
     let several = evaluations.len() > 1;
-    let file = if several { format!(" ({})", literal(&of_worst.file)) } else { String::new() };
-    let mut models = facts(of_worst, &Rated { friction: None, floor: None, ..(*worst).clone() });
-    models.retain(|fact| !fact.starts_with("The 95 %") && !fact.starts_with("Hazard"));
+    let file = if several { format!(" ({})", literal(&evaluation.file)) } else { String::new() };
     let friction = "With less friction than shown, an object slides instead of rocking.".to_string();
     let building = (upstairs > 0).then(|| "Buildings are taken as linear.".to_string());
-    let facts = [Some(friction), building, limits_in_words(&sds)].into_iter().flatten();
+    let facts = [Some(friction), building, limits_in_words(&largest_sds), model_in_words(&worst.object)];
+    let silent = words_of_silent(all.len() - answered.len(), all.len());
     Page {
         title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
         place: format!(
             "{} free-standing, {place}; hazard: {}",
-            number::count(answered),
+            number::count(answered.len()),
             literal(&hazards.join("; "))
         ),
-        sentence: format!("{}{file} {}.", worst.title(), worst.sentence(when)),
-        tiles: tiles(&all, when),
-        facts: facts.chain(models).collect(),
+        sentence: format!(
+            "{}{file} {}. {}",
+            worst.object.marked_name(),
+            worst.sentence(&evaluation.when),
+            silent.unwrap_or_default()
+        ),
+        tiles: tiles(evaluations, worst, &evaluation.when),
+        facts: facts.into_iter().flatten().collect(),
         table: Some(table(&all, several)),
-        notes: doubts(&all),
+        notes: doubts(&answered),
         figures: vec![figure(evaluations)],
         ..Page::default()
     }
 }
 
-/// The expected number of objects that overturn, of how many, and the probability that one or more do:
-/// between that of the worst, where all fall together, and that of independent ones. Of an object of which only
-/// a range is known both ends count.
-pub struct Expected {
-    pub least: f64,
-    pub most: f64,
-    pub of: f64,
-    pub at_least_one: [f64; 2],
-}
-
-pub fn expected<'a>(all: impl Iterator<Item = &'a Rated>) -> Expected {
-    let mut sum = Expected { least: 0.0, most: 0.0, of: 0.0, at_least_one: [0.0; 2] };
-    let mut independent = 0.0;
-    for rated in all {
-        let (count, Limited { value, low, high }) = (rated.count.unwrap_or(1.0), rated.overturning);
-        let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else { continue };
-        sum.of += count;
-        sum.least += count * low;
-        sum.most += count * high;
-        sum.at_least_one[0] = sum.at_least_one[0].max(low);
-        independent -= count * (-high).ln_1p();
+fn tiles(evaluations: &[Evaluation], worst: &Rated, when: &str) -> Vec<Tile> {
+    let (p, name) = (worst.row.p_overturning, worst.object.marked_name());
+    let limits = PERCENT.limits(p, "95 % limits ");
+    let mut tiles = vec![Tile::new(PERCENT.value(p), format!("{name} overturns {when} {limits}"))];
+    // The same object may stand in several files, under several hazards: their sum would be of nothing.
+    for evaluation in evaluations.iter().take(FILES) {
+        let expected = Expected::new(&evaluation.rows);
+        let file =
+            if evaluations.len() > 1 { format!(" ({})", literal(&evaluation.file)) } else { String::new() };
+        let words = format!("objects expected to overturn {when}, of {}{file}", number::plain(expected.all));
+        tiles.push(Tile::new(expected.number(), words));
     }
-    sum.at_least_one[1] = -(-independent).exp_m1();
-    sum
-}
-
-impl Expected {
-    /// The expected number, or its range.
-    pub fn number(&self) -> String {
-        let (low, high) = (number::significant(self.least, 2), number::significant(self.most, 2));
-        if low == high { low } else { format!("{low} to {high}") }
-    }
-}
-
-fn tiles(all: &[(&Evaluation, &Rated)], years: &str) -> Vec<Tile> {
-    let tile = |number: String, words: String| Tile { number, words };
-    let (_, worst) = all[0];
-    let expected = expected(all.iter().map(|(_, rated)| *rated));
-    let [together, independent] = expected.at_least_one;
-    let limits = PERCENT.limits(worst.overturning, "95 % limits ");
-    let above = all.iter().filter(|(_, rated)| rated.band() > 0).count();
-    vec![
-        tile(PERCENT.value(worst.overturning), format!("{} overturns {years} {limits}", worst.title())),
-        tile(
-            expected.number(),
-            format!("objects expected to overturn {years}, of {}", number::plain(expected.of)),
-        ),
-        tile(
+    if let [one] = evaluations {
+        let Expected { together, independent, .. } = Expected::new(&one.rows);
+        tiles.push(Tile::new(
             format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),
-            "probability that at least one does: if all fall together, to if each falls by itself"
-                .to_string(),
-        ),
-        tile(
-            number::count(above),
-            format!("{} more likely than 2 % to overturn", if above == 1 { "is" } else { "are" }),
-        ),
-    ]
+            "probability that at least one does: if all fall together, to if each falls by itself",
+        ));
+        let above = one.rows.iter().filter(|rated| rated.band() > 0).count();
+        let are = if above == 1 { "is" } else { "are" };
+        tiles.push(Tile::new(number::count(above), format!("{are} more likely than 2 % to overturn")));
+    }
+    tiles
 }
 
-fn table(all: &[(&Evaluation, &Rated)], several: bool) -> Table {
-    let years = &all[0].0.when;
-    let has = |what: fn(&Rated) -> bool| all.iter().any(|(_, rated)| what(rated));
-    let (floors, counts) = (has(|rated| rated.floor.is_some()), has(|rated| rated.count.is_some()));
-    let too_far = format!("rocks too far {years}, %");
-    let mut heads =
-        vec!["object", "overturns, %", "95 % limits", "once in years", &too_far, "friction needed"];
-    let overturns = format!("overturns {years}, %");
-    heads[1] = &overturns;
+fn table(all: &[Listed], several: bool) -> Table {
+    let when = &all[0].evaluation.when;
+    let has_floors = all.iter().any(|listed| listed.rated.object.floor().is_some());
+    let has_counts = all.iter().any(|listed| listed.rated.object.count.is_some());
+    let (overturns, too_far) = (format!("overturns {when}, %"), format!("rocks too far {when}, %"));
+    let mut heads = vec!["object", &overturns, "95 % limits", "once in years", &too_far, "friction needed"];
     heads.extend(["size"]);
-    heads.extend(counts.then_some("number"));
-    heads.extend(floors.then_some("where"));
+    heads.extend(has_counts.then_some("number"));
+    heads.extend(has_floors.then_some("where"));
     heads.extend(several.then_some("file"));
-    let row = |(of, rated): &(&Evaluation, &Rated)| {
-        let number = |count: Option<f64>| count.map_or(String::new(), number::plain);
-        let mut cells = vec![rated.name.as_deref().map_or("unnamed".to_string(), literal)];
-        match rated.is_answered() {
-            true => cells.extend([
-                OF_HUNDRED.value(rated.overturning),
-                OF_HUNDRED.limits(rated.overturning, "").replace(['(', ')'], ""),
-                rated.once_in_years.map_or(String::new(), number::period),
-                OF_HUNDRED.value(rated.failure),
-                rated.friction.map_or(String::new(), |friction| number::fixed(friction, 2)),
-            ]),
-            false => {
-                let reason = literal(rated.doubts.as_deref().unwrap_or_default());
-                cells.extend(["no answer".to_string(), reason, String::new(), String::new(), String::new()]);
-            }
+    let mut rows = Vec::new();
+    for Listed { evaluation, rated } in all {
+        let (object, row) = (&rated.object, &rated.row);
+        let mut cells = vec![object.name().map_or("unnamed".to_string(), literal)];
+        if rated.is_answered() {
+            let friction = object.friction.filter(|_| !object.is_friction_known);
+            cells.extend([
+                OF_HUNDRED.value(row.p_overturning),
+                OF_HUNDRED.limits(row.p_overturning, "").replace(['(', ')'], ""),
+                row.return_period_years.map_or(String::new(), number::period),
+                OF_HUNDRED.value(row.p_failure),
+                friction.map_or(String::new(), |friction| number::fixed(friction, 2)),
+            ]);
+        } else {
+            let reason = literal(rated.doubts.warnings.as_deref().unwrap_or_default());
+            cells.extend(["no answer".to_string(), reason, String::new(), String::new(), String::new()]);
         }
-        cells.push(rated.size.replace(' ', "\u{a0}"));
-        cells.extend(counts.then(|| number(rated.count)));
-        cells.extend(floors.then(|| rated.floor.clone().unwrap_or("on the ground".to_string())));
-        cells.extend(several.then(|| literal(&of.file)));
-        cells
-    };
-    let mut columns = columns(&heads);
-    for column in &mut columns {
+        cells.push(object.set_size().replace(' ', "\u{a0}"));
+        cells.extend(has_counts.then(|| object.count.map_or(String::new(), number::plain)));
+        cells.extend(has_floors.then(|| object.floor().unwrap_or("on the ground".to_string())));
+        cells.extend(several.then(|| literal(&evaluation.file)));
+        rows.push(cells);
+    }
+    let mut table = Table::new(&heads, rows);
+    for column in &mut table.columns {
         column.is_number &= !["95 % limits", "size", "where", "file"].contains(&column.head.as_str());
     }
-    Table { columns, rows: all.iter().map(row).collect(), ..Table::default() }
+    table
 }
 
 /// What speaks against answers: a line for those of the same words.
-fn doubts(all: &[(&Evaluation, &Rated)]) -> Vec<String> {
-    let warned = all.iter().map(|(_, rated)| *rated).filter(|rated| rated.is_answered());
+fn doubts(answered: &[&Rated]) -> Vec<String> {
+    const NAMED: usize = 4;
     let mut lines: Vec<(&str, Vec<String>)> = Vec::new();
-    for rated in warned {
-        let Some(words) = rated.doubts.as_deref() else { continue };
+    for rated in answered {
+        let Some(words) = rated.doubts.warnings.as_deref() else { continue };
         match lines.iter_mut().find(|(other, _)| *other == words) {
-            Some((_, names)) => names.push(rated.title()),
-            None => lines.push((words, vec![rated.title()])),
+            Some((_, names)) => names.push(rated.object.marked_name()),
+            None => lines.push((words, vec![rated.object.marked_name()])),
         }
     }
-    let line = |(words, names): (&str, Vec<String>)| {
-        let rest = names.len().saturating_sub(4);
-        let names = names.into_iter().take(4).collect::<Vec<_>>().join(", ");
-        let rest = if rest > 0 { format!(" and {rest} more") } else { String::new() };
-        format!("{names}{rest}: {}", literal(words))
-    };
-    lines.into_iter().map(line).collect()
+    let lines = lines.into_iter();
+    lines.map(|(words, names)| format!("{}: {}", number::listed(&names, NAMED), literal(words))).collect()
 }

@@ -1,204 +1,186 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
-use super::figure::{Axis, Dash, Estimate, Figure, Frame, Ink, Layer, Panel, Side, Words};
-use super::page::{Column, Page, Section, Table, Tile};
-use super::portrait::{HazardCurve, Outline, Portrait};
-use super::rated::{Evaluation, Rated, percent_in_row};
-use crate::fragility::{LimitState, Z_95};
-use crate::hazard::{Fragility, FragilityPoint, intensity_in_words};
+use super::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard};
+use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
+use super::fragility::fragility_panel;
+use super::page::{Page, Section, Table, Tile};
+use super::probabilities::{self, Row};
+use super::text::{literal, words};
+use crate::fragility::Z_95;
+use crate::hazard::intensity_in_words;
 use crate::number::{self, Limited, PERCENT, RATE};
 use crate::object::Part;
+use crate::table::answers::ObjectRow;
 
 /// Height of the area of the data of a panel, points.
-const HEIGHT: f64 = 150.0;
+pub const HEIGHT: f64 = 150.0;
+/// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
+/// consider.
+const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
 
-/// The figure of an object in the colours of a page: what there is of its panels.
+/// The figure of an object: what there is of its panels.
 pub fn figure(evaluation: &Evaluation, rated: &Rated) -> Figure {
-    let portrait = &evaluation.portrait;
-    let panels = [
-        portrait.outline.as_ref().map(|outline| sketch(outline, rated)),
-        portrait.fragility.as_ref().map(|curve| fragility(curve, evaluation, portrait.hazard.as_ref())),
-        (portrait.changes.len() > 1).then(|| changes(evaluation, &portrait.changes)),
-        portrait.hazard.as_ref().map(hazard),
-        portrait.hazard.as_ref().filter(|hazard| !hazard.shares.is_empty()).map(shares),
-        (!rated.sds.is_empty()).then(|| unknown(rated)),
-    ];
-    let panels: Vec<Panel> = panels.into_iter().flatten().collect();
-    let panels = if panels.is_empty() { vec![states(evaluation, rated)] } else { panels };
-    let title = format!("{}, {}", rated.title(), rated.size);
-    Figure::new("object", &title, "", 2, HEIGHT, panels)
+    let Portrait { outline, fragility, hazard, changes } = &evaluation.portrait;
+    let mut panels = Vec::new();
+    panels.extend(outline.as_ref().map(|outline| sketch(outline, &rated.object)));
+    if let Some(curve) = fragility {
+        panels.push(fragility_panel(curve, &rated.object, hazard.as_ref()));
+    }
+    if changes.len() > 1 {
+        panels.push(changes_panel(evaluation));
+    }
+    if let Some(hazard) = hazard {
+        panels.push(hazard_panel(hazard));
+        panels.extend(shares(hazard));
+    }
+    panels.extend(unknown(rated));
+    if panels.is_empty() {
+        panels.push(states(evaluation, rated));
+    }
+    Figure::new("object", &rated.object.marked_title(), 2, HEIGHT, panels)
 }
 
 /// The object as it stands, and as it is about to tip.
-fn sketch(outline: &Outline, rated: &Rated) -> Panel {
+pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     let Outline { width, height, centre_height, centre_offset, alpha_rad } = *outline;
-    let base = [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
+    let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height), (0.0, 0.0)];
+    let corners = corners.map(|(x, y)| Mark::new(x, y));
     // It tips over its nearer edge, which is drawn at the right.
-    let centre = [0.5 * width + centre_offset.abs(), centre_height];
-    let tipped = |[x, y]: [f64; 2]| {
-        let ([sin, cos], away) = ([alpha_rad.sin(), alpha_rad.cos()], x - width);
-        [width + away * cos + y * sin, y * cos - away * sin]
+    let edge = Mark::new(width, 0.0);
+    let centre = Mark::new(0.5 * width + centre_offset.abs(), centre_height);
+    let tipped = |mark: Mark| {
+        let (sin, cos, away) = (alpha_rad.sin(), alpha_rad.cos(), mark.x - width);
+        Mark::new(width + away * cos + mark.y * sin, mark.y * cos - away * sin)
     };
-    let closed = |corners: [[f64; 2]; 4]| corners.into_iter().chain([corners[0]]).collect::<Vec<_>>();
-    let turned = base.map(tipped);
+    let turned = corners.map(tipped);
     let room = 0.16 * height.max(width);
-    let right = turned.iter().map(|corner| corner[0]).fold(width, f64::max);
-    let top = turned.iter().map(|corner| corner[1]).fold(height, f64::max);
-    let ground = vec![[-2.0 * room, 0.0], [right + room, 0.0]];
-    let word = |x: f64, y: f64, text: String, side: Side| Words { x, y, text, side };
-    let length = |length: f64| format!("{} m", number::length(length));
+    let right = turned.iter().map(|corner| corner.x).fold(width, f64::max);
+    let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
     let layers = vec![
-        Layer::line("", Ink::Muted, ground),
-        Layer::area("", Ink::Data(0), closed(base)),
-        Layer::line("", Ink::Text, closed(base)),
-        Layer::curve("", Ink::Data(1), Dash::Short, closed(turned), Vec::new()),
-        Layer::curve("", Ink::Data(1), Dash::Short, vec![[width, 0.0], tipped(centre)], Vec::new()),
-        Layer::curve("", Ink::Muted, Dash::Short, vec![[width, 0.0], centre], Vec::new()),
+        Layer::line("", Ink::Muted, [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0))),
+        Layer::new("", Ink::Data(0), Shape::Area, corners),
+        Layer::line("", Ink::Text, corners),
+        Layer::guide(Ink::Data(1), turned),
+        Layer::guide(Ink::Data(1), [edge, tipped(centre)]),
+        Layer::guide(Ink::Muted, [edge, centre]),
         Layer::points("", Ink::Data(1), [tipped(centre)]),
         Layer::points("", Ink::Text, [centre]),
-        Layer::words(
-            Ink::Muted,
-            [
-                word(0.5 * width, 0.0, length(width), Side::Below),
-                word(0.0, 0.5 * height, length(height), Side::Left),
-            ],
-        ),
-        Layer::words(
-            Ink::Data(1),
-            [word(
-                turned[2][0],
-                turned[2][1],
-                format!("tips at {}°", number::significant(alpha_rad.to_degrees(), 3)),
-                Side::Right,
-            )],
-        ),
     ];
+    let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
+    let degrees = number::significant(alpha_rad.to_degrees(), 3);
+    let place = object.floor().map_or("on the ground".to_string(), |floor| format!("at {floor}"));
+    let caption = format!(
+        "To scale, with its centre of mass, standing {place}. It overturns beyond {degrees}° of its weaker side if \
+         no motion brings it back."
+    );
     let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
     let y = Axis::linear("").over(-1.1 * room, top + 0.3 * room);
-    let place = rated.floor.as_ref().map_or("on the ground".to_string(), |floor| format!("at {floor}"));
-    let caption = format!(
-        "To scale, with its centre of mass, standing {place}. It overturns beyond {}° of its weaker side if no \
-         motion brings it back.",
-        number::significant(alpha_rad.to_degrees(), 3)
-    );
-    Panel { frame: Frame::ToScale, ..Panel::new("The object", x, y, layers).explained(caption) }
-}
-
-fn fragility(of: &Fragility, evaluation: &Evaluation, hazard: Option<&HazardCurve>) -> Panel {
-    let (what, unit, symbol) = of.over.words();
-    let label = format!("{what} ({symbol})");
-    let line = |state: LimitState| -> Vec<[f64; 2]> {
-        of.points.iter().map(|point| [point.intensity / unit, 100.0 * point.p.get(state).value]).collect()
-    };
-    let limits =
-        |point: &FragilityPoint| [point.p.overturning.low, point.p.overturning.high].map(|p| 100.0 * p);
-    let overturning = line(LimitState::Overturning);
-    let too_far = format!("rocks beyond {} of *α*, or overturns", PERCENT.one(evaluation.limit_state));
-    let ends = [overturning.first(), overturning.last()].map(|point| point.map_or(1.0, |[x, _]| *x));
-    let band = of.points.iter().map(limits).collect();
-    let mut layers = vec![
-        Layer::line("rocks", Ink::Muted, line(LimitState::Rocking)),
-        Layer::line(&too_far, Ink::Data(0), line(LimitState::Failure)),
-        Layer::curve("overturns, with 95 % limits", Ink::Data(1), Dash::Solid, overturning, band),
+    let words = vec![
+        Words { x: 0.5 * width, y: 0.0, text: width_m, side: Side::Below, ink: Ink::Muted },
+        Words { x: 0.0, y: 0.5 * height, text: height_m, side: Side::Left, ink: Ink::Muted },
+        Words {
+            x: turned[2].x,
+            y: turned[2].y,
+            text: format!("tips at {degrees}°"),
+            side: Side::Right,
+            ink: Ink::Data(1),
+        },
     ];
-    for (intensity, years) in hazard.map_or(&[][..], |hazard| &hazard.usual) {
-        let inside = (ends[0]..=ends[1]).contains(intensity) && hazard.is_some_and(|h| h.label == label);
-        if inside {
-            let words = format!("once in {} years", number::count(*years as usize));
-            layers.extend(Layer::upright(*intensity, [0.0, 100.0], &words, Side::Along));
-        }
-    }
-    let place = if hazard.is_some() { " at the site" } else { "" };
-    let caption = format!(
-        "Probability under a motion of this {what}{place}, averaged over what such motions have besides. One in two: \
-         {}.",
-        intensity_in_words(of.over, of.overturning.theta.value)
-    );
-    let (x, y) = (Axis::log(&label).over(ends[0], ends[1]), Axis::linear("probability, %").over(0.0, 101.0));
-    Panel::new("Fragility", x, y, layers).explained(caption)
+    Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers).explained(caption) }
 }
 
-fn changes(evaluation: &Evaluation, changes: &[(String, Limited)]) -> Panel {
-    let years = &evaluation.when;
-    let rows = changes.iter().enumerate();
-    let estimate = |(row, (_, p)): (usize, &(String, Limited))| percent_in_row(*p, row as f64);
-    let (first, others): (Vec<Estimate>, Vec<Estimate>) = rows.map(estimate).partition(|e| e.y == 0.0);
-    let mut layers = Vec::new();
-    if let Some(target) = evaluation.target {
-        let at = [changes.len() as f64 - 0.5, -0.5];
-        let words = format!("target {}", PERCENT.one(target));
-        layers.extend(Layer::upright(100.0 * target, at, &words, Side::Above));
+fn changes_panel(evaluation: &Evaluation) -> Panel {
+    let (when, changes) = (&evaluation.when, &evaluation.portrait.changes);
+    let mut rows = Vec::new();
+    for (name, p) in changes {
+        let ink = if rows.is_empty() { Ink::Data(1) } else { Ink::Data(0) };
+        rows.push(Row::new(name.clone(), ink, *p));
     }
-    layers.extend([
-        Layer::estimates("", Ink::Data(1), first),
-        Layer::estimates("", Ink::Data(0), others),
-        Layer::words(Ink::Text, changes.iter().enumerate().filter_map(|(row, (_, p))| words_of(*p, row))),
-    ]);
-    let names = Axis::names(changes.iter().map(|(name, _)| name.clone()));
-    let x = Axis::log(&format!("probability of overturning {years}, %"));
+    let x =
+        probabilities::axis(&format!("probability of overturning {when}"), changes.iter().map(|(_, p)| *p));
     let caption = format!(
-        "Probability of overturning {years} with 95 % limits, as it is and with one thing changed. Anchored, it \
+        "Probability of overturning {when} with 95 % limits, as it is and with one thing changed. Anchored, it \
          does not rock: for the forces on anchors see ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
     );
-    Panel::new("What would change it", widened(x, changes.iter().map(|(_, p)| *p)), names, layers)
-        .explained(caption)
+    let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
+    probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
 }
 
-/// An axis in percent with room for words at the right.
-pub fn widened(x: Axis, all: impl Iterator<Item = Limited>) -> Axis {
-    let ends = all.flat_map(|p| [p.value, p.low, p.high]).flatten();
-    let values: Vec<f64> = ends.filter(|p| *p > 0.0).map(|p| 100.0 * p).collect();
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(0.0, f64::max);
-    if low < high { x.over(low / 1.3, high * (high / low).powf(0.3).max(1.6)) } else { x }
+/// An intensity that comes once in so many years.
+pub struct Usual {
+    pub intensity: f64,
+    pub years: f64,
 }
 
-/// The value beside the upper limit of a row.
-pub fn words_of(p: Limited, row: usize) -> Option<Words> {
-    let x = 100.0 * p.high.or(p.value)?;
-    Some(Words { x, y: row as f64, text: PERCENT.value(p), side: Side::Right }).filter(|word| word.x > 0.0)
-}
-
-fn hazard(hazard: &HazardCurve) -> Panel {
-    let [first, last] =
-        [hazard.points.first(), hazard.points.last()].map(|point| point.map_or(1.0, |p| p[0]));
-    let rates = hazard.points.iter().map(|point| point[1]);
-    let lowest = rates.fold(f64::INFINITY, f64::min);
-    let mut layers = Vec::new();
-    for (intensity, years) in &hazard.usual {
-        let words = format!("once in {} years", number::count(*years as usize));
-        layers.extend(Layer::upright(*intensity, [lowest, 1.0 / years], &words, Side::Along));
+impl SiteHazard {
+    /// The name of the intensity and its unit: `PGA (g)`.
+    pub fn label(&self) -> String {
+        let (name, _, symbol) = self.peak.words();
+        format!("{name} ({symbol})")
     }
-    layers.push(Layer::line("", Ink::Text, hazard.points.clone()));
-    layers.push(Layer::points("", Ink::Text, hazard.usual.iter().map(|(im, years)| [*im, 1.0 / years])));
-    let what = hazard.label.split(' ').next().unwrap_or_default();
-    let usual: Vec<String> = hazard
-        .usual
-        .iter()
-        .map(|(im, years)| {
-            let unit = hazard.label.split(['(', ')']).nth(1).unwrap_or_default();
-            format!("{} {unit} once in {} years", number::significant(*im, 2), number::count(*years as usize))
-        })
-        .collect();
-    let caption = format!("How often {what} is exceeded at the site, as it was given: {}.", usual.join(", "));
-    let x = Axis::log(&hazard.label).over(first, last);
-    Panel::new("Hazard", x, Axis::log("exceeded, times a year"), layers).explained(caption)
+
+    /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
+    pub fn usual(&self) -> Vec<Usual> {
+        let mut all = Vec::new();
+        for years in USUAL_YEARS {
+            let is_crossed = |pair: &&[(f64, f64)]| pair[0].1 >= 1.0 / years && pair[1].1 < 1.0 / years;
+            if let Some([(low, often), (high, rarely)]) = self.points.windows(2).find(is_crossed) {
+                let share = (often * years).ln() / (often / rarely).ln();
+                let intensity = low * (high / low).powf(share) / self.peak.words().1;
+                all.push(Usual { intensity, years });
+            }
+        }
+        all
+    }
+
+    fn axis(&self) -> Axis {
+        let (_, unit, _) = self.peak.words();
+        let ends = self.points.first().zip(self.points.last());
+        let axis = Axis::log(&self.label());
+        ends.map_or(axis.clone(), |(first, last)| axis.over(first.0 / unit, last.0 / unit))
+    }
+}
+
+/// How rare an intensity is: `once in 475 years`.
+pub fn once_in(years: f64) -> String {
+    format!("once in {} years", number::count(years as usize))
+}
+
+fn hazard_panel(hazard: &SiteHazard) -> Panel {
+    let (what, unit, symbol) = hazard.peak.words();
+    let lowest = hazard.points.iter().map(|(_, rate)| *rate).fold(f64::INFINITY, f64::min);
+    let mut panel = Panel::new("Hazard", hazard.axis(), Axis::log("exceeded, times a year"), Vec::new());
+    let (mut words, mut dots) = (Vec::new(), Vec::new());
+    for Usual { intensity, years } in hazard.usual() {
+        let (text, y) = (once_in(years), 1.0 / years);
+        words.push(format!("{} {symbol} {text}", number::significant(intensity, 2)));
+        dots.push(Mark::new(intensity, y));
+        panel.add_upright(Words { x: intensity, y, text, side: Side::Along, ink: Ink::Muted }, lowest);
+    }
+    let curve = hazard.points.iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
+    panel.layers.push(Layer::line("", Ink::Text, curve));
+    panel.layers.push(Layer::points("", Ink::Text, dots));
+    let caption = format!("How often {what} is exceeded at the site, as it was given: {}.", words.join(", "));
+    panel.explained(caption)
 }
 
 /// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
 /// share.
-fn shares(hazard: &HazardCurve) -> Panel {
+fn shares(hazard: &SiteHazard) -> Option<Panel> {
+    let (what, unit, _) = hazard.peak.words();
+    let parts = &hazard.parts;
+    let all = parts.rates.iter().sum::<f64>() + parts.beyond;
     let mut outline = Vec::new();
-    for ([low, high], share) in &hazard.shares {
-        let density = 100.0 * share / (high / low).ln();
-        outline.extend([[*low, density], [*high, density]]);
+    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates) {
+        let density = 100.0 * rate / all / (edge[1] / edge[0]).ln();
+        outline.extend([edge[0], edge[1]].map(|intensity| Mark::new(intensity / unit, density)));
     }
-    let [first, last] = [hazard.shares.first(), hazard.shares.last()];
-    let [start, end] = [first.map_or(1.0, |bin| bin.0[0]), last.map_or(1.0, |bin| bin.0[1])];
-    let closed = std::iter::once([start, 0.0]).chain(outline.iter().copied()).chain([[end, 0.0]]).collect();
-    let what = hazard.label.split(' ').next().unwrap_or_default();
-    let beyond = match hazard.beyond {
+    let (first, last) = outline.first().zip(outline.last()).filter(|_| all > 0.0)?;
+    let ground = |mark: &Mark| Mark { y: 0.0, ..*mark };
+    let closed = [vec![ground(first)], outline.clone(), vec![ground(last)]].concat();
+    let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
+    let beyond = match parts.beyond / all {
         share if share >= 0.0005 => format!(" {} of the rate lies beyond the curve.", PERCENT.one(share)),
         _ => String::new(),
     };
@@ -206,42 +188,35 @@ fn shares(hazard: &HazardCurve) -> Panel {
         "Which motions overturn it: the share of the rate of overturning by {what}. Equal areas are equal \
          shares; all of it is 100 %.{beyond}"
     );
-    let layers = vec![Layer::area("", Ink::Data(1), closed), Layer::line("", Ink::Data(1), outline)];
-    let most = hazard.shares.iter().map(|([low, high], share)| 100.0 * share / (high / low).ln());
-    let y = Axis::linear(&format!("% of the rate per unit of ln {what}"))
-        .over(0.0, 1.08 * most.fold(1e-9, f64::max));
-    let x = hazard.points.first().zip(hazard.points.last());
-    let x = x.map_or(Axis::log(&hazard.label), |(a, b)| Axis::log(&hazard.label).over(a[0], b[0]));
-    Panel::new("Where the rate comes from", x, y, layers).explained(caption)
+    let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
+    let layers =
+        vec![Layer::new("", Ink::Data(1), Shape::Area, closed), Layer::line("", Ink::Data(1), outline)];
+    Some(Panel::new("Where the rate comes from", hazard.axis(), y, layers).explained(caption))
 }
 
 /// What is not known, by how far it moves the rate.
-fn unknown(rated: &Rated) -> Panel {
-    let mut parts = rated.sds.clone();
+fn unknown(rated: &Rated) -> Option<Panel> {
+    let mut parts = rated.doubts.part_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let factor = |sd: f64| (Z_95 * sd).exp();
-    let bars = parts.iter().enumerate().map(|(row, (_, sd))| {
-        let [y, x] = [row as f64, factor(*sd)];
-        let outline = [[1.0, y - 0.3], [x, y - 0.3], [x, y + 0.3], [1.0, y + 0.3]];
-        Layer::area("", Ink::Data(0), outline.to_vec())
-    });
-    let words = parts.iter().enumerate().map(|(row, (_, sd))| Words {
-        x: factor(*sd),
-        y: row as f64,
-        text: format!("× {}", number::significant(factor(*sd), 2)),
-        side: Side::Right,
-    });
-    let most = factor(parts[0].1);
-    let layers = bars.chain([Layer::words(Ink::Text, words)]).collect();
-    let names = Axis::names(parts.iter().map(|(part, _)| measured(*part).to_string()));
+    let most = (Z_95 * parts.first()?.1).exp();
     let x = Axis::log("factor on the rate, either way").over(1.0, most * most.powf(0.35).max(1.2));
+    let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
+    let mut panel = Panel::new("What is not known", x, names, Vec::new());
+    for (row, (_, sd)) in parts.iter().enumerate() {
+        let (x, y) = ((Z_95 * sd).exp(), row as f64);
+        let corners = [(1.0, -0.3), (x, -0.3), (x, 0.3), (1.0, 0.3)];
+        let bar = corners.map(|(x, off)| Mark::new(x, y + off));
+        panel.layers.push(Layer::new("", Ink::Data(0), Shape::Area, bar));
+        let text = format!("× {}", number::significant(x, 2));
+        panel.words.push(Words { x, y, text, side: Side::Right, ink: Ink::Text });
+    }
     let caption = "What is not known and what would tell: the factor by which each moves the rate of overturning, \
                    up or down, at its 95 % limits.";
-    Panel::new("What is not known", x, names, layers).explained(caption)
+    Some(panel.explained(caption))
 }
 
 /// What is not known, and what to measure.
-fn measured(part: Part) -> &'static str {
+fn what_to_measure(part: Part) -> &'static str {
     match part {
         Part::Fit => "fragility: records of the site",
         Part::Magnitude => "magnitude: disaggregation",
@@ -255,94 +230,76 @@ fn measured(part: Part) -> &'static str {
 
 /// The limit states, where nothing else is known of the object.
 fn states(evaluation: &Evaluation, rated: &Rated) -> Panel {
-    let too_far = format!("rocks beyond {} of *α*", PERCENT.one(evaluation.limit_state));
+    let row = &rated.row;
     let rows = [
-        ("rocks".to_string(), Limited::value(rated.rocking)),
-        (too_far, rated.failure),
-        ("overturns".to_string(), rated.overturning),
+        Row::new("rocks".to_string(), Ink::Data(1), Limited::value(row.p_rocking)),
+        Row::new(rated.object.too_far().replace("its slenderness", "*α*"), Ink::Data(1), row.p_failure),
+        Row::new("overturns".to_string(), Ink::Data(1), row.p_overturning),
     ];
-    let layers = vec![
-        Layer::estimates(
-            "",
-            Ink::Data(1),
-            rows.iter().enumerate().map(|(row, (_, p))| percent_in_row(*p, row as f64)),
-        ),
-        Layer::words(Ink::Text, rows.iter().enumerate().filter_map(|(row, (_, p))| words_of(*p, row))),
-    ];
-    let x = Axis::log(&format!("probability {}, %", evaluation.when.clone()));
-    let x = widened(x, rows.iter().map(|(_, p)| *p));
-    let caption = "Probability of each limit state with 95 % limits.";
-    Panel::new("How likely", x, Axis::names(rows.into_iter().map(|(name, _)| name)), layers)
-        .explained(caption)
+    let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p);
+    let x = probabilities::axis(&format!("probability {}", evaluation.when), all);
+    probabilities::panel("How likely", x, &rows, &[(Ink::Data(1), "")], None)
+        .explained("Probability of each limit state with 95 % limits.")
 }
 
 /// The page of one object.
 pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
-    let portrait = &evaluation.portrait;
-    let sentence = rated.sentence(&evaluation.when);
-    let place =
-        rated.floor.as_ref().map_or("On the ground".to_string(), |floor| format!("On a floor: {floor}"));
-    let title = match &rated.name {
-        Some(name) => format!("{name}, {}", rated.size),
-        None => format!("{} of {}", rated.kind, rated.size),
+    let place = match rated.object.floor() {
+        Some(floor) => format!("On a floor: {floor}"),
+        None => "On the ground".to_string(),
     };
     Page {
-        title,
-        place: format!("{place}; hazard: {}", super::text::literal(&evaluation.hazard)),
-        sentence: format!("It {sentence}."),
-        tiles: tiles(evaluation, rated, portrait),
-        facts: facts(evaluation, rated),
-        notes: rated.doubts.iter().map(|doubts| super::text::literal(doubts)).collect(),
-        figures: vec![Figure { title: String::new(), ..figure(evaluation, rated) }],
+        title: words(&rated.object.marked_title()),
+        place: format!("{place}; hazard: {}", literal(&evaluation.hazard)),
+        sentence: format!("It {}.", rated.sentence(&evaluation.when)),
+        tiles: tiles(evaluation, rated),
+        facts: facts(rated),
+        notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
+        figures: vec![figure(evaluation, rated)],
         sections: vec![Section {
-            heading: "The numbers".to_string(),
-            tables: vec![numbers(evaluation, rated), table_of_changes(evaluation, portrait)],
-            ..Section::default()
+            tables: vec![numbers(evaluation, rated), table_of_changes(evaluation)],
+            ..Section::new("The numbers")
         }],
         ..Page::default()
     }
 }
 
-fn tiles(evaluation: &Evaluation, rated: &Rated, portrait: &Portrait) -> Vec<Tile> {
-    let years = &evaluation.when;
-    let tile = |number: String, words: String| Tile { number, words };
-    let limits = PERCENT.limits(rated.overturning, "95 % limits ");
+fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
+    let (when, row) = (&evaluation.when, &rated.row);
+    let limits = PERCENT.limits(row.p_overturning, "95 % limits ");
     let mut tiles = vec![
-        tile(PERCENT.value(rated.overturning), format!("overturns {years} {limits}")),
-        tile(
-            PERCENT.value(rated.failure),
-            format!("rocks beyond {} of its slenderness, or overturns", PERCENT.one(evaluation.limit_state)),
-        ),
+        Tile::new(PERCENT.value(row.p_overturning), format!("overturns {when} {limits}")),
+        Tile::new(PERCENT.value(row.p_failure), format!("{}, or overturns", rated.object.too_far())),
     ];
-    if let Some(Fragility { over, overturning, .. }) = &portrait.fragility {
-        let words = format!("{} at which half of the motions overturn it", over.words().0);
-        tiles.push(tile(intensity_in_words(*over, overturning.theta.value), words));
+    if let Some(fragility) = &evaluation.portrait.fragility {
+        let words = format!("{} at which half of the motions overturn it", fragility.over.words().0);
+        let half = fragility.overturning.theta.value;
+        tiles.push(Tile::new(intensity_in_words(fragility.over, half), words));
     }
-    let by_value = |a: &&(String, Limited), b: &&(String, Limited)| {
-        a.1.value.unwrap_or(1.0).total_cmp(&b.1.value.unwrap_or(1.0))
-    };
-    let others = portrait.changes.get(1..).unwrap_or_default();
-    if let Some((name, p)) = others.iter().filter(|(_, p)| p.value < rated.overturning.value).min_by(by_value)
-    {
-        tiles.push(tile(PERCENT.value(*p), format!("with what helps most of the changes compared: {name}")));
-    }
+    let others = evaluation.portrait.changes.iter().skip(1);
+    let better = others.filter(|(_, p)| p.value < row.p_overturning.value);
+    let best = better.min_by(|(_, a), (_, b)| a.value.unwrap_or(1.0).total_cmp(&b.value.unwrap_or(1.0)));
+    tiles.extend(best.map(|(name, p)| {
+        Tile::new(PERCENT.value(*p), format!("with what helps most of the changes compared: {name}"))
+    }));
     tiles
 }
 
 /// What the answer rests on.
-pub fn facts(evaluation: &Evaluation, rated: &Rated) -> Vec<String> {
-    let friction = rated.friction.map(|friction| {
-        format!(
-            "Friction: valid above {}; with less, it slides instead of rocking.",
-            number::fixed(friction, 2)
-        )
+fn facts(rated: &Rated) -> Vec<String> {
+    let object = &rated.object;
+    let friction = object.friction.filter(|_| !object.is_friction_known).map(|friction| {
+        let friction = number::fixed(friction, 2);
+        format!("Friction: valid above {friction}; with less, it slides instead of rocking.")
     });
-    let building = rated.floor.as_ref().map(|_| "The building is taken as linear.".to_string());
-    let model = Some(rated.model.as_str()).filter(|model| !model.is_empty());
-    let model = model.map(|model| format!("Model: {}.", super::text::literal(model)));
-    let limits = limits_in_words(&rated.sds);
-    let hazard = Some(format!("Hazard: {}.", super::text::literal(&evaluation.hazard)));
-    [friction, building, hazard, model, limits].into_iter().flatten().collect()
+    let building = object.floor().map(|_| "The building is taken as linear.".to_string());
+    let limits = limits_in_words(&rated.doubts.part_sds());
+    [friction, building, model_in_words(object), limits].into_iter().flatten().collect()
+}
+
+/// What predicts.
+pub fn model_in_words(object: &ObjectRow) -> Option<String> {
+    object.model.as_ref().map(|model| format!("Model: {}.", literal(model)))
 }
 
 /// What the limits cover.
@@ -360,37 +317,20 @@ pub fn limits_in_words(sds: &[(Part, f64)]) -> Option<String> {
 }
 
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
-    let row = |name: String, p: Limited, rate: Limited| {
-        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(rate)]
-    };
-    let too_far =
-        format!("rocks beyond {} of its slenderness, or overturns", PERCENT.one(evaluation.limit_state));
-    let none = Limited::default();
-    Table {
-        columns: columns(&["", &evaluation.when, "95 % limits", "rate a year"]),
-        rows: vec![
-            row("rocks".to_string(), Limited::value(rated.rocking), none),
-            row(too_far, rated.failure, none),
-            row("overturns".to_string(), rated.overturning, rated.rate),
-        ],
-        ..Table::default()
-    }
+    let row = &rated.row;
+    let states = [
+        ("rocks".to_string(), Limited::value(row.p_rocking), Limited::default()),
+        (format!("{}, or overturns", rated.object.too_far()), row.p_failure, Limited::default()),
+        ("overturns".to_string(), row.p_overturning, row.overturning_per_year),
+    ];
+    let rows =
+        states.map(|(name, p, rate)| vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(rate)]);
+    Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], rows.into())
 }
 
-fn table_of_changes(evaluation: &Evaluation, portrait: &Portrait) -> Table {
-    let row = |(name, p): &(String, Limited)| vec![name.clone(), PERCENT.value(*p), PERCENT.limits(*p, "")];
-    Table {
-        columns: columns(&[
-            "What would change it",
-            &format!("overturns {}", evaluation.when.clone()),
-            "95 % limits",
-        ]),
-        rows: portrait.changes.iter().map(row).collect(),
-        ..Table::default()
-    }
-}
-
-/// The first column is of names, the others of numbers.
-pub fn columns(heads: &[&str]) -> Vec<Column> {
-    heads.iter().enumerate().map(|(at, head)| Column { head: head.to_string(), is_number: at > 0 }).collect()
+fn table_of_changes(evaluation: &Evaluation) -> Table {
+    let rows = evaluation.portrait.changes.iter();
+    let rows = rows.map(|(name, p)| vec![name.clone(), PERCENT.value(*p), PERCENT.limits(*p, "")]);
+    let overturns = format!("overturns {}", evaluation.when);
+    Table::new(&["What would change it", &overturns, "95 % limits"], rows.collect())
 }

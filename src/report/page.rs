@@ -29,8 +29,6 @@ pub struct Page {
     pub moving: Vec<String>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
-    /// When and by what it was made.
-    pub made: String,
     /// Provenance of the page, which shows whether it is up to date.
     pub key: String,
 }
@@ -63,15 +61,40 @@ pub struct Column {
     pub is_number: bool,
 }
 
-/// When and by what a page is made.
-pub fn made_in_words() -> String {
-    let today = chrono::Local::now().format("%-d %B %Y");
-    format!("Made on {today} by rockfrag {}.", env!("CARGO_PKG_VERSION"))
+impl Section {
+    pub fn new(heading: &str) -> Section {
+        Section { heading: heading.to_string(), ..Section::default() }
+    }
+}
+
+impl Tile {
+    pub fn new(number: impl Into<String>, words: impl Into<String>) -> Tile {
+        Tile { number: number.into(), words: words.into() }
+    }
+}
+
+impl Table {
+    /// The first column is of names, the others of numbers.
+    pub fn new(heads: &[&str], rows: Vec<Vec<String>>) -> Table {
+        let columns = heads.iter().enumerate();
+        let columns = columns.map(|(at, head)| Column { head: head.to_string(), is_number: at > 0 });
+        Table { columns: columns.collect(), rows, ..Table::default() }
+    }
 }
 
 impl Page {
+    /// The figure that says most, by itself.
+    pub fn main_figure(&self) -> Figure {
+        self.figures.first().cloned().unwrap_or_default()
+    }
+
     pub fn html(&self) -> String {
-        let figures: Vec<String> = self.figures.iter().map(write_figure).collect();
+        let mut figures = Vec::new();
+        for figure in &self.figures {
+            // The title of the page is not said again.
+            let title = if words(&figure.title) == self.title { "" } else { &figure.title };
+            figures.push(write_figure(figure, title));
+        }
         let (first, others) = figures.split_at(figures.len().min(1));
         let is_beside = self.figures.first().is_some_and(|figure| figure.panels.len() == 1);
         let (beside, moving) = match &self.moving[..] {
@@ -83,10 +106,10 @@ impl Page {
             false if !beside.is_empty() => "response",
             false => "",
         };
-        let words =
+        let told =
             format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
-        let words = if words.is_empty() { words } else { format!("<div>\n{words}</div>\n") };
-        let [before, after] = if is_beside { [words, first.concat()] } else { [first.concat(), words] };
+        let told = if told.is_empty() { told } else { format!("<div>\n{told}</div>\n") };
+        let (before, after) = if is_beside { (told, first.concat()) } else { (first.concat(), told) };
         format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
@@ -104,7 +127,7 @@ impl Page {
             moving = blocks(moving),
             figures = others.concat(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
-            made = escape(&self.made),
+            version = env!("CARGO_PKG_VERSION"),
         )
     }
 }
@@ -118,13 +141,11 @@ fn blocks(moving: &[String]) -> String {
 }
 
 fn tiles(tiles: &[Tile]) -> String {
-    let tile = |Tile { number, words }: &Tile| {
-        format!("<div><b>{}</b><span>{}</span></div>\n", html(number), html(words))
-    };
-    match tiles {
-        [] => String::new(),
-        _ => format!("<div class=\"tiles\">\n{}</div>\n", tiles.iter().map(tile).collect::<String>()),
+    let mut text = String::new();
+    for Tile { number, words } in tiles {
+        text += &format!("<div><b>{}</b><span>{}</span></div>\n", html(number), html(words));
     }
+    if text.is_empty() { text } else { format!("<div class=\"tiles\">\n{text}</div>\n") }
 }
 
 fn notes(marked: &[String]) -> String {
@@ -141,13 +162,13 @@ fn paragraphs(marked: &[String]) -> String {
 fn write_section(section: &Section) -> String {
     let (heading, words) = (escape(&section.heading), paragraphs(&section.paragraphs));
     let tables: String = section.tables.iter().map(write_table).collect();
-    let figures: String = section.figures.iter().map(write_figure).collect();
+    let figures: String = section.figures.iter().map(|figure| write_figure(figure, &figure.title)).collect();
     format!("<details><summary>{heading}</summary>\n{words}{tables}{figures}</details>\n")
 }
 
-fn write_figure(figure: &Figure) -> String {
+fn write_figure(figure: &Figure, title: &str) -> String {
     let panels = html_of_panels(figure);
-    let title = match figure.title.as_str() {
+    let title = match title {
         "" => String::new(),
         words => format!("<h2>{}</h2>\n", html(words)),
     };
@@ -160,18 +181,18 @@ fn write_figure(figure: &Figure) -> String {
 }
 
 fn write_table(Table { caption, columns, rows }: &Table) -> String {
-    let class = |column: &Column| if column.is_number { " class=\"number\"" } else { "" };
-    let heads = columns
-        .iter()
-        .map(|column| format!("<th scope=\"col\"{}>{}</th>", class(column), html(&column.head)));
-    let row = |cells: &Vec<String>| {
-        let cells = columns.iter().zip(cells).map(|(column, cell)| {
-            let head = escape(&words(&column.head));
-            format!("<td{} data-head=\"{head}\">{}</td>", class(column), html(cell))
-        });
-        format!("<tr>{}</tr>\n", cells.collect::<String>())
-    };
-    let (heads, body) = (heads.collect::<String>(), rows.iter().map(row).collect::<String>());
+    let (mut heads, mut body) = (String::new(), String::new());
+    for column in columns {
+        heads += &format!("<th scope=\"col\"{}>{}</th>", column.class(), html(&column.head));
+    }
+    for row in rows {
+        body += "<tr>";
+        for (column, cell) in columns.iter().zip(row) {
+            let (class, head) = (column.class(), escape(&words(&column.head)));
+            body += &format!("<td{class} data-head=\"{head}\">{}</td>", html(cell));
+        }
+        body += "</tr>\n";
+    }
     let title = if caption.is_empty() {
         String::new()
     } else {
@@ -179,6 +200,12 @@ fn write_table(Table { caption, columns, rows }: &Table) -> String {
     };
     let table = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
     title + &scrolled(caption, &table)
+}
+
+impl Column {
+    fn class(&self) -> &'static str {
+        if self.is_number { " class=\"number\"" } else { "" }
+    }
 }
 
 /// Lets what is wider than a small screen be scrolled, by keys too.

@@ -8,6 +8,24 @@ use super::text::{Level, escape, runs};
 /// Height of the letters of titles and legends; and of ticks and words beside data.
 pub const LETTERS: f64 = 8.0;
 pub const SMALL: f64 = 7.2;
+
+/// A place in a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    pub x: f64,
+    pub y: f64,
+}
+
+impl Point {
+    pub fn new(x: f64, y: f64) -> Point {
+        Point { x, y }
+    }
+
+    fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite()
+    }
+}
+
 impl Ink {
     /// The colours in a file and the names of those on the page. Data: Okabe & Ito's palette without its
     /// yellow, too faint on white; then the bands of a probability, from rare to frequent.
@@ -37,7 +55,7 @@ impl Ink {
     }
 
     /// The drawing in the colours of the page.
-    pub fn of_page(drawing: String) -> String {
+    pub fn in_page(drawing: String) -> String {
         Ink::COLOURS
             .iter()
             .fold(drawing, |drawing, (hex, name)| drawing.replace(hex, &format!("var({name})")))
@@ -52,29 +70,29 @@ pub struct Pen {
 
 impl Pen {
     /// Writes a text beside its place.
-    pub fn beside(&mut self, [x, y]: [f64; 2], ink: Ink, Words { text, side, .. }: &Words) {
+    pub fn beside(&mut self, at: Point, words: &Words) {
         let unit = self.unit;
-        let (off, style) = match side {
-            Side::Right => ([5.0, 0.35 * SMALL], String::new()),
-            Side::Left => ([-5.0, 0.35 * SMALL], " text-anchor=\"end\"".to_string()),
-            Side::Above => ([0.0, -5.0], " text-anchor=\"middle\"".to_string()),
-            Side::Below => ([0.0, 5.0 + SMALL], " text-anchor=\"middle\"".to_string()),
+        let (right, down, style) = match words.side {
+            Side::Right => (5.0, 0.35 * SMALL, String::new()),
+            Side::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
+            Side::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
+            Side::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),
             Side::Along => {
-                let at = [x - 3.0 * unit, y].map(round);
-                ([-3.0, 0.0], format!(" text-anchor=\"end\" transform=\"rotate(-90 {} {})\"", at[0], at[1]))
+                let (x, y) = (round(at.x - 3.0 * unit), round(at.y));
+                (-3.0, 0.0, format!(" text-anchor=\"end\" transform=\"rotate(-90 {x} {y})\""))
             }
         };
-        let style = format!("{style} class=\"word\"");
-        self.label([x + off[0] * unit, y + off[1] * unit], SMALL, &style, ink, text);
+        let place = Point::new(at.x + right * unit, at.y + down * unit);
+        self.label(place, SMALL, &format!("{style} class=\"word\""), words.ink, &words.text);
     }
 
     /// Writes marked text, its size as in a file; `style` are further attributes.
-    pub fn label(&mut self, [x, y]: [f64; 2], size: f64, style: &str, ink: Ink, marked: &str) {
+    pub fn label(&mut self, at: Point, size: f64, style: &str, ink: Ink, marked: &str) {
         if marked.is_empty() {
             return;
         }
         let size = size * self.unit;
-        let (x, y, letters, colour) = (round(x), round(y), round(size), ink.colour());
+        let (x, y, letters, colour) = (round(at.x), round(at.y), round(size), ink.colour());
         let _ =
             write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
         let mut drop = 0.0;
@@ -96,54 +114,48 @@ impl Pen {
     }
 
     /// Draws small discs: strokes of no length with round ends, short to write.
-    pub fn dots(&mut self, places: &[[f64; 2]], radius: f64, colour: &str, opacity: f64) {
-        let finite = places.iter().filter(|place| place.iter().all(|v| v.is_finite()));
-        let d: String = finite.map(|[x, y]| format!("M{} {}h0", round(*x), round(*y))).collect();
-        let size = round(2.0 * radius * self.unit);
-        let _ = writeln!(
-            self.text,
-            "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{size}\" \
-             stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"/>"
-        );
+    pub fn dots(&mut self, places: &[Point], radius: f64, colour: &str, opacity: f64) {
+        let finite = places.iter().filter(|place| place.is_finite());
+        let d: String = finite.map(|place| format!("M{} {}h0", round(place.x), round(place.y))).collect();
+        let style = format!(" stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"");
+        self.stroke(&d, colour, 2.0 * radius, &style);
     }
 
     /// The limits of a value: a broad, pale line.
-    pub fn interval(&mut self, ends: [[f64; 2]; 2], colour: &str) {
-        let (d, size) = (course(&ends), round(2.4 * self.unit));
-        let _ = writeln!(
-            self.text,
-            "<path d=\"{d}\" stroke=\"{colour}\" stroke-width=\"{size}\" stroke-opacity=\"0.38\"/>"
-        );
+    pub fn interval(&mut self, from: Point, to: Point, colour: &str) {
+        self.stroke(&course(&[from, to]), colour, 2.4, " stroke-opacity=\"0.38\"");
     }
 
-    pub fn fill(&mut self, outline: &[[f64; 2]], colour: &str, opacity: f64) {
+    pub fn fill(&mut self, outline: &[Point], colour: &str, opacity: f64) {
         let d = course(outline);
         let _ = writeln!(self.text, "<path d=\"{d}Z\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>");
     }
 
-    pub fn path(&mut self, places: &[[f64; 2]], colour: &str, width: f64, dash: Dash) {
+    pub fn path(&mut self, places: &[Point], colour: &str, width: f64, dash: Dash) {
         let dash = match dash {
             Dash::Solid => "",
             Dash::Long => " stroke-dasharray=\"5 2\"",
             Dash::Short => " stroke-dasharray=\"2 2\"",
             Dash::Mixed => " stroke-dasharray=\"5 1.6 1.2 1.6\"",
         };
-        let (d, width) = (course(places), round(width * self.unit));
-        let _ = writeln!(
-            self.text,
-            "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" \
-             stroke-linejoin=\"round\"{dash}/>"
-        );
+        self.stroke(&course(places), colour, width, &format!(" stroke-linejoin=\"round\"{dash}"));
+    }
+
+    /// Draws a course of lines; `style` are further attributes.
+    pub fn stroke(&mut self, d: &str, colour: &str, width: f64, style: &str) {
+        let width = round(width * self.unit);
+        let line = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"");
+        let _ = writeln!(self.text, "<path d=\"{d}\" {line}{style}/>");
     }
 }
 
 /// Writes the steps of a line, anew after each place that is not finite.
-pub fn course(places: &[[f64; 2]]) -> String {
+pub fn course(places: &[Point]) -> String {
     let mut d = String::new();
     let mut step = 'M';
-    for [x, y] in places {
-        if x.is_finite() && y.is_finite() {
-            let _ = write!(d, "{step}{} {}", round(*x), round(*y));
+    for place in places {
+        if place.is_finite() {
+            let _ = write!(d, "{step}{} {}", round(place.x), round(place.y));
             step = 'L';
         } else {
             step = 'M';

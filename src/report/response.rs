@@ -2,13 +2,14 @@
 
 use std::fmt::Write;
 
-use super::figure::{Axis, Dash, Figure, Ink, Layer, Panel, Side};
+use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Span, Words};
 use super::figures::envelope;
 use super::page::Page;
-use super::text::{escape, html, literal};
+use super::text::{escape, file_words, html, literal, words};
 use crate::number;
 use crate::rocking::SolverEvent;
 use crate::units::G_M_S2;
+use crate::warning::UNNAMED;
 
 /// A structure under a motion, over time.
 #[derive(Debug, Clone, Default)]
@@ -45,8 +46,25 @@ const PICTURES_A_SECOND: f64 = 25.0;
 const MOST_PICTURES: f64 = 1200.0;
 
 impl TracedResponse {
-    fn times(&self, of: SolverEvent) -> Vec<f64> {
-        self.points.iter().filter(|point| point.event == Some(of)).map(|point| point.time_s).collect()
+    /// The structure; without a name, the block that rocks like it.
+    fn structure(&self) -> String {
+        match self.structure.as_str() {
+            UNNAMED => format!("a block of {}", self.block()),
+            name => literal(name),
+        }
+    }
+
+    /// The sides of the block that rocks like it: `0.50 × 1.90 m`.
+    fn block(&self) -> String {
+        format!("{} × {} m", number::length(self.width_m), number::length(self.height_m))
+    }
+
+    fn title(&self) -> String {
+        format!("Response of {} to motion {}", self.structure(), literal(&self.motion))
+    }
+
+    fn times(&self, event: SolverEvent) -> Vec<f64> {
+        self.points.iter().filter(|point| point.event == Some(event)).map(|point| point.time_s).collect()
     }
 
     fn overturned_at(&self) -> Option<f64> {
@@ -57,7 +75,7 @@ impl TracedResponse {
     pub fn sentence(&self) -> String {
         let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
         let most = self.points.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
-        let (structure, motion) = (literal(&self.structure), literal(&self.motion));
+        let (structure, motion) = (self.structure(), literal(&self.motion));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
                 format!(
@@ -77,22 +95,24 @@ impl TracedResponse {
 
     /// The block in words.
     fn size(&self) -> String {
-        let [width, height] = [self.width_m, self.height_m].map(number::length);
-        let [start, end] = self.span().map(|time_s| number::fixed(time_s, 1));
-        format!(
-            "A block of {width} × {height} m rocks like it. It moves in real time, from {start} to {end} s."
-        )
+        let Span { low, high } = self.span();
+        let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
+        let like = match self.structure.as_str() {
+            UNNAMED => String::new(),
+            _ => format!("A block of {} rocks like it. ", self.block()),
+        };
+        format!("{like}It moves in real time, from {start} to {end} s.")
     }
 
     /// From when to when something happens, s.
-    fn span(&self) -> [f64; 2] {
+    fn span(&self) -> Span {
         let mut events = self.points.iter().filter(|point| point.event.is_some()).map(|point| point.time_s);
         let end = self.points.last().map_or(0.0, |point| point.time_s);
-        let Some(first) = events.next() else { return [0.0, end.min(10.0)] };
+        let Some(first) = events.next() else { return Span { low: 0.0, high: end.min(10.0) } };
         let moving = self.points.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
         let last =
             events.next_back().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
-        [(first - AROUND_S).max(0.0), (last + AROUND_S).min(end)]
+        Span { low: (first - AROUND_S).max(0.0), high: (last + AROUND_S).min(end) }
     }
 }
 
@@ -100,65 +120,65 @@ impl TracedResponse {
 pub fn figure(response: &TracedResponse) -> Figure {
     let samples: Vec<&TracedPoint> = response.points.iter().filter(|point| point.event.is_none()).collect();
     let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
-    let rotation: Vec<f64> = samples.iter().map(|point| point.theta_over_alpha.clamp(-MOST, MOST)).collect();
-    let velocities: Vec<f64> = samples.iter().map(|point| point.ground_m_s).collect();
-    let accelerations: Vec<f64> = samples.iter().map(|point| point.ground_m_s2 / G_M_S2).collect();
     let end = samples.last().map_or(1.0, |point| point.time_s);
-    let line = |values: &[f64], ink: Ink| Layer::line("", ink, envelope(values, dt_s, VALUES));
-    let at_zero =
-        |of: SolverEvent| response.times(of).into_iter().map(|time| [time, 0.0]).collect::<Vec<_>>();
-    let limit =
-        |sign: f64| Layer::curve("", Ink::Muted, Dash::Short, vec![[0.0, sign], [end, sign]], Vec::new());
-    let mut layers = vec![
-        limit(-1.0),
-        limit(1.0),
-        line(&rotation, Ink::Data(1)),
-        Layer::points("uplift", Ink::Data(2), at_zero(SolverEvent::Uplift)),
-        Layer::points("impact", Ink::Data(0), at_zero(SolverEvent::Impact)),
-    ];
-    let most = rotation.iter().map(|value| value.abs()).fold(1.1, f64::max) * 1.08;
-    if let Some(at) = response.overturned_at() {
-        layers.extend(Layer::upright(at, [-most, most], "overturned", Side::Along));
+    let line = |ink: Ink, value: fn(&TracedPoint) -> f64| {
+        let values: Vec<f64> = samples.iter().map(|point| value(point)).collect();
+        Layer::line("", ink, envelope(&values, dt_s, VALUES))
+    };
+    let rotation = line(Ink::Data(1), |point| point.theta_over_alpha.clamp(-MOST, MOST));
+    let most = rotation.marks.iter().map(|mark| mark.y.abs()).fold(1.1, f64::max) * 1.08;
+    let mut layers = Vec::new();
+    for limit in [-1.0, 1.0] {
+        layers.push(Layer::guide(Ink::Muted, [0.0, end].map(|time_s| Mark::new(time_s, limit))));
     }
-    let time = |label: &str| Axis::linear(label).over(0.0, end);
+    layers.push(rotation);
+    for (name, ink, event) in
+        [("uplift", Ink::Data(2), SolverEvent::Uplift), ("impact", Ink::Data(0), SolverEvent::Impact)]
+    {
+        let marks = response.times(event).into_iter().map(|time_s| Mark::new(time_s, 0.0));
+        layers.push(Layer::points(name, ink, marks));
+    }
     let y = Axis::linear("*θ*/*α*: beyond 1 it tips unless it is brought back").over(-most, most);
-    let panels = vec![
-        Panel::new("Rotation", time(""), y, layers),
-        Panel::new("Ground acceleration", time(""), Axis::linear("g"), vec![line(&accelerations, Ink::Text)]),
+    let [above, below] = ["", "time, s"].map(|label| Axis::linear(label).over(0.0, end));
+    let mut panels = vec![
+        Panel::new("Rotation", above.clone(), y, layers),
+        Panel::new(
+            "Ground acceleration",
+            above,
+            Axis::linear("g"),
+            vec![line(Ink::Text, |point| point.ground_m_s2 / G_M_S2)],
+        ),
         Panel::new(
             "Ground velocity",
-            time("time, s"),
+            below,
             Axis::linear("m/s"),
-            vec![line(&velocities, Ink::Data(0))],
+            vec![line(Ink::Data(0), |point| point.ground_m_s)],
         ),
     ];
-    let words = |text: &str| -> String {
-        let parts =
-            text.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|part| !part.is_empty());
-        parts.collect::<Vec<_>>().join("-").to_lowercase()
-    };
-    let name = format!("response-{}-{}", words(&response.structure), words(&response.motion));
-    let title = format!("{} under motion {}", literal(&response.structure), literal(&response.motion));
-    let caption = "Dots: uplift and impacts. Dashed: the rotation *α* at which it tips.";
-    Figure::new(&name, &title, caption, 1, HEIGHT, panels)
+    if let Some(x) = response.overturned_at() {
+        let text = "overturned".to_string();
+        panels[0].add_upright(Words { x, y: most, text, side: Side::Along, ink: Ink::Muted }, -most);
+    }
+    let [structure, motion] = [&response.structure, &response.motion].map(|name| file_words(name));
+    Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels)
+        .explained("Dots: uplift and impacts. Dashed: the rotation *α* at which it tips.")
 }
 
 /// The page of responses: what moves, and what came of each.
 pub fn page(all: &[TracedResponse]) -> Page {
     let title = match all {
-        [one] => format!("Response of {} to motion {}", one.structure, one.motion),
+        [one] => words(&one.title()),
         several => format!("{} over time", number::counted(several.len(), "response")),
     };
-    let sentences: Vec<String> = all.iter().map(TracedResponse::sentence).collect();
-    let first = &sentences[..sentences.len().min(1)];
     Page {
         title,
         place: all.first().map_or(String::new(), TracedResponse::size),
-        sentence: first.concat(),
+        sentence: all.first().map_or(String::new(), TracedResponse::sentence),
         moving: match all {
             [one] => vec![format!("<div>\n{}</div>\n", moving(one, 0))],
             several => several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
         },
+        figures: all.iter().map(figure).collect(),
         ..Page::default()
     }
 }
@@ -172,7 +192,8 @@ fn with_words(response: &TracedResponse, id: usize) -> String {
     )
 }
 
-/// A keyframe: the time as a fraction of all, the rotation in degrees, and the corner about which.
+/// One moment of what moves: the time as a fraction of all, the rotation in degrees, and the corner about which.
+#[derive(Clone, Copy)]
 struct Keyframe {
     at: f64,
     degrees: f64,
@@ -182,20 +203,22 @@ struct Keyframe {
 /// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its
 /// own on the page.
 pub fn moving(response: &TracedResponse, id: usize) -> String {
-    let [start, end] = response.span();
-    let seconds = end - start;
-    let frames = keyframes(response, start, end);
-    let joined = |value: &dyn Fn(&Keyframe) -> String| frames.iter().map(value).collect::<Vec<_>>().join(";");
-    let times = joined(&|frame| short(frame.at, 4));
-    let [half, high] = drawn_size(response);
-    let turns = joined(&|frame| format!("{} {} 0", short(frame.degrees, 2), short(frame.corner * half, 1)));
+    let span = response.span();
+    let seconds = span.high - span.low;
+    let (half, high) = drawn_size(response);
+    let (mut times, mut turns) = (Vec::new(), Vec::new());
+    for Keyframe { at, degrees, corner } in keyframes(response, span) {
+        times.push(short(at, 4));
+        turns.push(format!("{} {} 0", short(degrees, 2), short(corner * half, 1)));
+    }
+    let (times, turns) = (times.join(";"), turns.join(";"));
     let attributes = format!(
         "begin=\"play{id}.click\" dur=\"{}s\" keyTimes=\"{times}\" fill=\"freeze\"",
         short(seconds, 2)
     );
     let (width, height, ground) = (360.0, high + 46.0, high + 18.0);
     let mut text = String::new();
-    let name = escape(&format!("{} under motion {}, moving", response.structure, response.motion));
+    let name = escape(&format!("{}, moving", words(&response.title())));
     let _ = write!(
         text,
         "<svg class=\"moving\" viewBox=\"0 0 {width} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
@@ -230,15 +253,15 @@ pub fn moving(response: &TracedResponse, id: usize) -> String {
 }
 
 /// Half the width and the height of the drawn block, of which the diagonal is always the same.
-fn drawn_size(response: &TracedResponse) -> [f64; 2] {
+fn drawn_size(response: &TracedResponse) -> (f64, f64) {
     const DIAGONAL: f64 = 190.0;
     let scale = DIAGONAL / response.width_m.hypot(response.height_m);
-    [0.5 * scale * response.width_m, scale * response.height_m]
+    (0.5 * scale * response.width_m, scale * response.height_m)
 }
 
 /// The rotation at equal times, and at each sample where it changes its corner; a block turns about the
 /// corner on the side to which it leans.
-fn keyframes(response: &TracedResponse, start: f64, end: f64) -> Vec<Keyframe> {
+fn keyframes(response: &TracedResponse, Span { low: start, high: end }: Span) -> Vec<Keyframe> {
     let seconds = (end - start).max(1e-9);
     let step = (1.0 / PICTURES_A_SECOND).max(seconds / MOST_PICTURES);
     let alpha = response.alpha_rad.to_degrees();
@@ -258,11 +281,9 @@ fn keyframes(response: &TracedResponse, start: f64, end: f64) -> Vec<Keyframe> {
             next = point.time_s + step;
         }
     }
-    if let (Some(first), Some(last)) =
-        (frames.first().map(|f| (f.degrees, f.corner)), frames.last().map(|f| (f.degrees, f.corner)))
-    {
-        frames.insert(0, Keyframe { at: 0.0, degrees: first.0, corner: first.1 });
-        frames.push(Keyframe { at: 1.0, degrees: last.0, corner: last.1 });
+    if let Some((first, last)) = frames.first().copied().zip(frames.last().copied()) {
+        frames.insert(0, Keyframe { at: 0.0, ..first });
+        frames.push(Keyframe { at: 1.0, ..last });
     }
     frames
 }

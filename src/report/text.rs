@@ -45,28 +45,40 @@ pub fn runs(marked: &str) -> Vec<Run> {
 
 /// Marks a text so that it reads as it stands: a name of the user's is no markup.
 pub fn literal(name: &str) -> String {
-    let marks = ['\\', '*', '_', '^', '}'];
-    let letter = |letter: char| [marks.contains(&letter).then_some('\\'), Some(letter)];
-    name.chars().flat_map(letter).flatten().collect()
+    let mut text = String::new();
+    for letter in name.chars() {
+        if ['\\', '*', '_', '^', '}'].contains(&letter) {
+            text.push('\\');
+        }
+        text.push(letter);
+    }
+    text
 }
 
 /// Writes marked text as HTML, without a break between a number and its percent sign.
 pub fn html(marked: &str) -> String {
-    let tagged = |run: Run| {
+    let mut text = String::new();
+    for run in runs(marked) {
         let words = escape(&run.words).replace(" %", "\u{a0}%");
         let words = if run.italic { format!("<i>{words}</i>") } else { words };
-        match run.level {
+        text += &match run.level {
             Level::Line => words,
             Level::Sub => format!("<sub>{words}</sub>"),
             Level::Super => format!("<sup>{words}</sup>"),
-        }
-    };
-    runs(marked).into_iter().map(tagged).collect()
+        };
+    }
+    text
 }
 
 /// Drops the marks.
 pub fn words(marked: &str) -> String {
     runs(marked).into_iter().map(|run| run.words).collect()
+}
+
+/// The letters and digits of a marked text as the name of a file: `rack-2-csgm`.
+pub fn file_words(marked: &str) -> String {
+    let parts = marked.split(|letter: char| !letter.is_ascii_alphanumeric());
+    parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-").to_lowercase()
 }
 
 /// Escapes text for HTML, SVG and their attributes; drops what XML cannot hold.

@@ -24,14 +24,14 @@ use crate::warning::Warnings;
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag export --width 0.5 --height 1.9 --to openquake --out cabinet.xml\n\
-    rockfrag export --structures objects.csv --to pelicun --im pga --fits fits --suite csgm")]
+    rockfrag export --structures objects.csv --to pelicun --over pga --fits fits --suite csgm")]
 pub struct Export {
     /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]
     to: Program,
-    /// Intensity: pga or pgv
+    /// Fragility over pga or pgv
     #[arg(long, value_name = "PEAK", default_value = "pga")]
-    im: Peak,
+    over: Peak,
     /// File to write: .xml, for pelicun .csv [default: fragility.xml or fragility.csv]
     #[arg(long, value_name = "FILE")]
     out: Option<FragilityOutput>,
@@ -114,9 +114,9 @@ impl Stage for Export {
                 context.write_file(&files[1], parameters(&functions)?.as_bytes())?;
             }
         }
-        let (file, number, im) = (files[files.len() - 1].display(), functions.len(), self.im);
+        let (file, number, over) = (files[files.len() - 1].display(), functions.len(), self.over);
         let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-        Ok(format!("{file}: {number} structure(s) over {im}, up to {most} levels each\n"))
+        Ok(format!("{file}: {number} structure(s) over {over}, up to {most} levels each\n"))
     }
 }
 
@@ -145,13 +145,12 @@ impl Export {
     /// or nothing was ever recorded.
     fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
         let model = &subject.directions[0].model;
-        let general = SitesInGeneral { over: self.im, mw: None, vs30_m_s: None, ratio_s: None };
+        let general = SitesInGeneral { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
         let given_peak = general.given_peak(&subject.directions);
-        let reaching =
-            |intensity: f64| given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0)).into_array();
+        let reaching = |intensity: f64| given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0));
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let uplift = given_peak.uplift().least;
-        let most = strongest(self.im).max(2.0 * uplift);
+        let most = strongest(self.over).max(2.0 * uplift);
         let end = whole_curve_end(uplift, tolerance, reaching).min(most);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
@@ -159,17 +158,18 @@ impl Export {
         // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has
         // been.
         let mut most = LimitStates::all(0.0_f64);
-        let held = |&level: &f64| {
-            most = most.zip(reaching(level).into(), f64::max);
-            most
-        };
+        let mut probabilities = Vec::new();
+        for &level in &levels {
+            most = most.zip(reaching(level), f64::max);
+            probabilities.push(most);
+        }
         let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
         Function {
-            id: format!("{id}_{}", self.im),
+            id: format!("{id}_{}", self.over),
             description: format!("{}{directions}, by {}", object.name, words_of(model)),
-            peak: self.im,
-            probabilities: levels.iter().map(held).collect(),
-            range_of_data: [uplift, end],
+            peak: self.over,
+            probabilities,
+            end_of_data: end,
             levels,
         }
     }

@@ -11,9 +11,10 @@ use serde::Serialize;
 
 use super::shared::responses::{self, Candidates};
 use crate::motion::Dimension;
+use crate::number::listed;
 use crate::paper;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{listed, number};
+use crate::pipeline::options::number;
 use crate::pipeline::paths::{Input, Output, Read};
 use crate::pipeline::{InRun, Stage, UsageError};
 use crate::rocking::Structure;

@@ -123,6 +123,8 @@ fn a_list_keeps_its_bad_rows_and_fails_only_if_all_are_bad() {
         let (_, warned) = succeed(folder.path(), &format!("evaluate --structures list.csv {question}"));
         assert_eq!(warned, "", "the table says it");
     }
+    let (text, _) = succeed(folder.path(), "evaluate --structures list.csv --pga 0.01");
+    assert!(text.lines().next().unwrap().contains("2 of 4"), "those without an answer are told: {text}");
     fail(folder.path(), "evaluate --structures bad.csv --hazard hazard.csv", 1, &["bad.csv", "wrong"]);
 }
 
@@ -145,7 +147,6 @@ fn slips_are_refused_or_warned() {
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
         (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
         (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["over", "pgv"]),
-        (&format!("{BLOCK} --over pga --out answer.html"), 2, vec!["svg"]),
     ] {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
     }
@@ -191,7 +192,7 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
     assert!(succeed(folder.path(), other).1.contains(Warning::OtherStructure.text()));
     let limit_state = format!("evaluate --fits out {cabinet} --hazard hazard.csv --limit-state 0.3");
     fail(folder.path(), &limit_state, 1, &["0.3", "fit-pex"]);
-    succeed(folder.path(), &format!("export --to pelicun --im pgv --fits out {cabinet} --out curve.csv"));
+    succeed(folder.path(), &format!("export --to pelicun --over pgv --fits out {cabinet} --out curve.csv"));
     assert!(folder.path().join("curve.json").exists() && folder.path().join("curve.csv").exists());
     succeed(folder.path(), "validate --fits out --in out/responses.parquet");
 }
@@ -299,8 +300,17 @@ fn a_block_without_motion_or_hazard_has_a_fragility() {
         serde_json::from_slice(&std::fs::read(folder.path().join("curve.json")).unwrap()).unwrap();
     let names: Vec<&str> = curve.iter().map(|point| point["structure"].as_str().unwrap()).collect();
     assert_eq!([names[0], names[names.len() - 1]], ["thin", "squat"]);
-    assert!(curve.iter().all(|point| number(point, "p_overturns") <= number(point, "p_fails") + 1e-9));
-    // At a site, and as a figure.
+    assert!(curve.iter().all(|point| number(point, "p_overturning") <= number(point, "p_failure") + 1e-9));
+    // At a site as a figure; of several objects as a page, by the call and by the file of the curves.
     succeed(folder.path(), &format!("evaluate {BLOCK} --hazard hazard.csv --over pga --out fragility.svg"));
     assert!(std::fs::read_to_string(folder.path().join("fragility.svg")).unwrap().contains("Fragility"));
+    succeed(folder.path(), "evaluate --structures list.csv --out curves.parquet");
+    succeed(folder.path(), "report --in curves.parquet --out read.html");
+    succeed(folder.path(), "evaluate --structures list.csv --out page.html");
+    let cells = |page: &str| -> Vec<String> {
+        let page = std::fs::read_to_string(folder.path().join(page)).unwrap();
+        let rows = page.split("<tr>").filter(|row| row.starts_with("<td") && row.contains("&gt; 4.5"));
+        rows.map(|row| row.split("</td>").take(5).collect()).collect()
+    };
+    assert!(cells("read.html").len() == 2 && cells("read.html") == cells("page.html"));
 }

@@ -4,21 +4,20 @@ use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{
     Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
 };
-use rockfrag::hazard::{Budget, Fragility, FragilityPoint, Lognormal};
-use rockfrag::motion::{IntensityMeasures, Peaks};
+use rockfrag::hazard::{Fragility, FragilityPoint, RateByIntensity};
+use rockfrag::motion::IntensityMeasures;
 use rockfrag::number::{self, Limited};
-use rockfrag::object::Part;
+use rockfrag::report::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard};
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
-use rockfrag::report::object;
-use rockfrag::report::portrait::{HazardCurve, Outline, Portrait};
-use rockfrag::report::rated::{Evaluation, Rated};
+use rockfrag::report::fragility;
 use rockfrag::report::response::{self, TracedPoint, TracedResponse};
-use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Marks, Page, Panel, Section, Table, png, svg};
-use rockfrag::report::{compare, list};
+use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Mark, Page, Panel, Section, Span, Table, png, svg};
+use rockfrag::report::{compare, list, object};
 use rockfrag::rocking::{Outcome, SolverEvent, Structure};
 use rockfrag::statistics::Estimate;
 use rockfrag::studies::{ReliabilityBin, observed_share};
+use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use rockfrag::table::motions::Motion;
 use serde_json::json;
 
@@ -73,42 +72,31 @@ fn limited(value: f64) -> Limited {
 /// An evaluation of so many objects, one on a floor, with all that a page of one shows.
 fn evaluation(count: usize, rate: f64) -> Evaluation {
     let rated = |row: usize| Rated {
-        name: Some(format!("fra*me*{row} {}", "rack ".repeat(20))),
-        floor: (row == 1).then(|| "level 0.6 of a 0.5 s building".to_string()),
-        rate: limited(rate),
-        overturning: limited(50.0 * rate / (1 + row) as f64),
-        sds: vec![(Part::Eta, 0.4), (Part::Velocity, 0.3)],
+        object: ObjectRow {
+            structure: format!("fra*me*{row} {}", "rack ".repeat(20)),
+            floor_level: (row == 1).then_some(0.6),
+            floor_period_s: Some(0.5),
+            ..ObjectRow::default()
+        },
+        row: RatesRow {
+            overturning_per_year: limited(rate),
+            p_overturning: limited(50.0 * rate / (1 + row) as f64),
+            ..RatesRow::default()
+        },
+        doubts: DoubtsRow { error_eta: Some(0.4), error_velocity: Some(0.3), ..DoubtsRow::default() },
         ..Rated::default()
-    };
-    let point = |k: usize| FragilityPoint {
-        intensity: 0.981 * (1 + k) as f64,
-        p: LimitStates::from([1.0, 0.5, 0.4].map(|p| Estimate::around(p, 0.1))),
-    };
-    let fragility = Fragility {
-        over: Peak::Pga,
-        points: (0..count).map(point).collect(),
-        failure: Lognormal::default(),
-        overturning: Lognormal::default(),
-        errors: Budget::default(),
-        motion: Peaks { pga_m_s2: 1.0, pgv_m_s: 0.1 },
     };
     let outline =
         Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
+    let parts = RateByIntensity { edges: vec![1.0, 5.0, 10.0], rates: vec![4e-4, 5e-4], beyond: 1e-4 };
     Evaluation {
-        years: Some(50.0),
         when: "in 50 years".to_string(),
         target: Some(0.01),
         rows: (0..count).map(rated).collect(),
         portrait: Portrait {
             outline: Some(outline),
-            fragility: Some(fragility),
-            hazard: Some(HazardCurve {
-                label: "PGA (g)".to_string(),
-                points: vec![[0.01, 0.1], [1.0, 1e-4]],
-                usual: vec![(0.2, 475.0)],
-                shares: vec![([0.1, 0.5], 0.4), ([0.5, 1.0], 0.5)],
-                beyond: 0.1,
-            }),
+            fragility: Some(curve(count)),
+            hazard: Some(SiteHazard { peak: Peak::Pga, points: vec![(0.1, 0.1), (10.0, 1e-4)], parts }),
             changes: vec![
                 ("as it is".to_string(), limited(0.02)),
                 ("base of 0.60 m".to_string(), limited(0.01)),
@@ -116,6 +104,14 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         },
         ..Evaluation::default()
     }
+}
+
+fn curve(count: usize) -> Fragility {
+    let point = |k: usize| FragilityPoint {
+        intensity: 0.981 * (1 + k) as f64,
+        p: LimitStates::from([1.0, 0.5, 0.4].map(|p| Estimate::around(p, 0.1))),
+    };
+    Fragility::from_points(Peak::Pga, (0..count).map(point).collect())
 }
 
 /// A block that rocks to one side, strikes, and overturns to the other.
@@ -192,6 +188,9 @@ fn figures(count: usize) -> Vec<Figure> {
     let set = json!({ "structure": "a", "target": "p_ro", "form": "single", "measures": "im4", "terms": 1,
         "n": 4, "rank": 1, "loss": -0.1, "loss_error": 0.05, "status": "ok" });
     let sets: Vec<_> = serde_json::from_value(json!(vec![set; count])).unwrap();
+    let row = FragilityRow { curve: Some(curve(count)), ..FragilityRow::default() };
+    let fragile = Answer { object: one.rows[0].object.clone(), row, ..Answer::default() };
+    let fragile = vec![fragile; count.min(9)];
     vec![
         motion(motions),
         demand(&groups),
@@ -206,6 +205,7 @@ fn figures(count: usize) -> Vec<Figure> {
         object::figure(&one, &one.rows[0]),
         list::figure(&[before.clone()][..count.min(1)]),
         compare::figure(&compare::pairs(&before, &after), "in 50 years", Some(0.01)),
+        fragility::figure(&fragile, None),
         response::figure(&traced(count)),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
@@ -232,8 +232,8 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
         let number = |text: &str| text.parse().unwrap_or(f64::NAN);
         let read =
             rows.records().map(|row| [3, 5, 6, 7, 8].map(|column| number(&row.as_ref().unwrap()[column])));
-        let layers = figure.panels.iter().flat_map(|panel| &panel.layers);
-        let drawn: Vec<[f64; 5]> = layers.flat_map(|layer| layer.marks.numbers()).collect();
+        let marks = figure.panels.iter().flat_map(|panel| &panel.layers).flat_map(|layer| &layer.marks);
+        let drawn: Vec<[f64; 5]> = marks.map(|mark| [mark.x, mark.y, mark.low, mark.high, mark.n]).collect();
         assert!(format!("{:?}", read.collect::<Vec<_>>()) == format!("{drawn:?}"), "{}", figure.name);
     }
 }
@@ -242,8 +242,12 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
 #[test]
 fn values_stand_where_the_axes_say() {
     let (x, y) = (Axis::linear("x").over(0.0, 10.0), Axis::log("y").over(1.0, 100.0));
-    let panel =
-        Panel { x, y, layers: vec![Layer::points("", Ink::Data(0), [[5.0, 10.0]])], ..Default::default() };
+    let panel = Panel {
+        x,
+        y,
+        layers: vec![Layer::points("", Ink::Data(0), [Mark::new(5.0, 10.0)])],
+        ..Default::default()
+    };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
     assert!(svg(&figure, "").contains("M234.1 50h0"), "half of 510.2 - 30 - 12 points, and of 100");
 }
@@ -252,23 +256,22 @@ fn values_stand_where_the_axes_say() {
 fn cases_on_the_planes_are_seen_on_two_lines() {
     let (groups, tables) = tables(100);
     let figure = planes(&tables, &[&groups[0]]);
-    let layers: Vec<Vec<[f64; 5]>> =
-        figure.panels[0].layers.iter().map(|layer| layer.marks.numbers()).collect();
+    let layers = &figure.panels[0].layers;
     for (points, line) in layers[..2].iter().zip(&layers[2..]) {
-        let [[x0, y0, ..], [x1, y1, ..]] = [line[0], line[1]];
-        let off = |[x, y, ..]: &[f64; 5]| (y - y0 - (y1 - y0) * (x - x0) / (x1 - x0)).abs();
-        assert!(points.len() > 20 && points.iter().all(|point| off(point) < 1e-9));
+        let (from, to) = (line.marks[0], line.marks[1]);
+        let slope = (to.y - from.y) / (to.x - from.x);
+        let off = |mark: &Mark| (mark.y - from.y - slope * (mark.x - from.x)).abs();
+        assert!(points.marks.len() > 20 && points.marks.iter().all(|mark| off(mark) < 1e-9));
     }
 }
 
 #[test]
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
-    let shares = observed_shares(&cases, equal_ratios([1.0, 100.0], 4));
-    let [first, last] = [observed_share(2, 3), observed_share(1, 2)];
-    let expected =
-        [[5.5 / 3.0, 2.0 / 3.0, first.low, first.high, 3.0], [95.0, 0.5, last.low, last.high, 2.0]];
-    assert_eq!(Marks::Estimates(shares).numbers(), expected);
+    let shares = observed_shares(&cases, equal_ratios(Span { low: 1.0, high: 100.0 }, 4));
+    let first = Mark { n: 3.0, ..Mark::estimate(5.5 / 3.0, observed_share(2, 3)) };
+    let last = Mark { n: 2.0, ..Mark::estimate(95.0, observed_share(1, 2)) };
+    assert_eq!(shares, [first, last]);
 }
 
 #[test]
@@ -373,7 +376,7 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
 #[test]
 fn values_beyond_all_axes_are_left_out() {
     let hostile = [f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e-308, 0.0, f64::NAN];
-    let points: Vec<[f64; 2]> = hostile.iter().flat_map(|x| hostile.map(|y| [*x, y])).collect();
+    let points: Vec<Mark> = hostile.iter().flat_map(|x| hostile.map(|y| Mark::new(*x, y))).collect();
     for axis in [Axis::linear("x"), Axis::log("x"), Axis::log("x").over(1e-308, 1e300)] {
         let layers =
             vec![Layer::line("", Ink::Data(0), points.clone()), Layer::points("", Ink::Text, points.clone())];
@@ -385,12 +388,21 @@ fn values_beyond_all_axes_are_left_out() {
     }
 }
 
+/// The same object may stand in both files.
+#[test]
+fn the_expected_number_is_that_of_each_file() {
+    let [one, other] = ["a", "b"].map(|file| Evaluation { file: file.to_string(), ..evaluation(4, 1e-3) });
+    let expected = |page: Page| page.tiles[1..3].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
+    let alone = expected(list::page(std::slice::from_ref(&one))).remove(0);
+    assert_eq!(expected(list::page(&[one, other])), [alone.clone(), alone]);
+}
+
 #[test]
 fn names_of_responses_are_no_markup() {
     let page = response::page(&[traced(100)]).html();
     assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
     let words = svg(&response::figure(&traced(100)), "");
-    assert!(words.contains("<title>fra*me*2 under motion m&lt;1&gt;</title>"));
+    assert!(words.contains("<title>Response of fra*me*2 to motion m&lt;1&gt;</title>"));
 }
 
 #[test]

@@ -246,13 +246,13 @@ class Fragility(_plots.Shown):
     #: The peak: pga, in g, or pgv, in m/s; and its values.
     over: str
     intensity: Floats
-    p_rocks: Floats
-    p_fails: Floats
-    p_fails_low: Floats
-    p_fails_high: Floats
-    p_overturns: Floats
-    p_overturns_low: Floats
-    p_overturns_high: Floats
+    p_rocking: Floats
+    p_failure: Floats
+    p_failure_low: Floats
+    p_failure_high: Floats
+    p_overturning: Floats
+    p_overturning_low: Floats
+    p_overturning_high: Floats
     #: Of the object, among them ``overturning_theta``, ``overturning_beta`` and their limits.
     row: dict[str, Any]
     warnings: list[str]
@@ -263,8 +263,8 @@ class Fragility(_plots.Shown):
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the probabilities with their limits by matplotlib; gives the axes."""
-        overturns = (self.p_overturns, self.p_overturns_low, self.p_overturns_high)
-        fails = (self.p_fails, self.p_fails_low, self.p_fails_high)
+        overturns = (self.p_overturning, self.p_overturning_low, self.p_overturning_high)
+        fails = (self.p_failure, self.p_failure_low, self.p_failure_high)
         named: Any = [("overturns", *overturns), ("overturns, or rocks too far", *fails)]
         return _plots.curves(self.intensity, self.label, named, axes)
 

@@ -3,8 +3,8 @@
 use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
-use crate::report::Estimate;
 use crate::report::text::literal;
+use crate::report::{Mark, Span};
 use crate::studies::observed_share;
 use crate::table::capacities::ScaledMeasure;
 
@@ -12,9 +12,8 @@ use crate::table::capacities::ScaledMeasure;
 #[derive(Default)]
 pub struct Fits {
     pub demand: Vec<DemandFit>,
-    /// Of overturning.
+    /// Fits of overturning.
     pub curves: Vec<CurveFit>,
-    /// Of overturning.
     pub calibrations: Vec<Calibration>,
     /// Demand whose exceedance was fitted.
     pub limit_state: f64,
@@ -28,8 +27,8 @@ impl Fits {
 
     /// The curve of overturning of some cases over these measures.
     pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
-        let mut its = self.curves.iter().filter(|fit| fit.group() == cases.group());
-        its.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
+        let fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
+        fits.into_iter().find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
     }
 }
 
@@ -40,7 +39,7 @@ pub fn title(structure: &str, suite: Option<&str>) -> String {
     synthetic.map_or(structure.clone(), |suite| format!("{structure}, {suite}"))
 }
 
-/// The same of some cases.
+/// Names the structure and suite of some cases; marked text.
 pub fn name(cases: &Cases) -> String {
     title(&cases.structure.name, cases.suite.as_deref())
 }
@@ -62,7 +61,7 @@ pub fn label(measure: Measure) -> &'static str {
 }
 
 /// Label of a measure by which motions are scaled.
-pub fn label_of_scaled(measure: ScaledMeasure) -> &'static str {
+pub fn scaled_label(measure: ScaledMeasure) -> &'static str {
     match measure {
         ScaledMeasure::Scale => "factor on the motion",
         ScaledMeasure::Pga => "PGA (g)",
@@ -112,19 +111,14 @@ pub fn demand_fits<'a>(
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
-/// The least and the largest of positive values.
-pub fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, 0.0], |[low, high], value| [low.min(value), high.max(value)])
-}
-
 /// Values in equal ratios from the first to the last.
-pub fn ratios([low, high]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> {
+pub fn ratios(Span { low, high }: Span, steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |k| low * (high / low).powf(k as f64 / steps as f64))
 }
 
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %
 /// limits, number of cases. Empty bins are left out.
-pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Estimate> {
+pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Mark> {
     let mut bins: Vec<(f64, usize, usize)> = Vec::new();
     for &(value, event) in cases {
         let place = bin(value);
@@ -132,15 +126,17 @@ pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec
         let (sum, n, events) = &mut bins[place];
         (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
     }
-    let share = |&(sum, n, events): &(f64, usize, usize)| {
-        let share = observed_share(events, n);
-        Estimate { x: sum / n as f64, y: share.value, low: share.low, high: share.high, n: n as f64 }
-    };
-    bins.iter().filter(|(_, n, _)| *n > 0).map(share).collect()
+    let filled = bins.into_iter().filter(|(_, n, _)| *n > 0);
+    filled
+        .map(|(sum, n, events)| Mark {
+            n: n as f64,
+            ..Mark::estimate(sum / n as f64, observed_share(events, n))
+        })
+        .collect()
 }
 
-/// Bins of equal ratio between two values, for [`observed_shares`].
-pub fn equal_ratios([low, high]: [f64; 2], count: usize) -> impl Fn(f64) -> usize {
+/// Bins of equal ratio within a span, for [`observed_shares`].
+pub fn equal_ratios(Span { low, high }: Span, count: usize) -> impl Fn(f64) -> usize {
     let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
     move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
 }

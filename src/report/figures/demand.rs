@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{DEMAND, Fits, compare, demand_fits, demands, ends, label, name, rocked};
+use super::common::{DEMAND, Fits, compare, demand_fits, demands, label, name, rocked};
 use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_demand};
 use crate::keyword::Keyword;
 use crate::number;
-use crate::report::{Axis, Estimate, Figure, Ink, Layer, Panel};
+use crate::report::text::file_words;
+use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::rocking::Structure;
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
@@ -25,33 +26,37 @@ pub fn demand(groups: &[&Cases]) -> Figure {
         ("PGV (m/s)", |_, case| Some(case.peaks.pgv_m_s)),
         ("*T*_{p} (s)", |structure, case| Some(TAU / (case.measures.im1? * structure.p_rad_s))),
     ];
-    let panels = groups.iter().flat_map(|cases| {
+    let mut panels = Vec::new();
+    for cases in groups {
         let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
-        over.map(|(label, value)| {
-            let value = |case: &Case| value(&cases.structure, case);
-            let safe = demands(cases).filter_map(|(case, edp)| Some([value(case)?, edp]));
+        for (label, value) in over {
+            let structure = &cases.structure;
+            let safe = demands(cases);
+            let safe = safe.filter_map(|(case, edp)| Some(Mark::new(value(structure, case)?, edp)));
             let fallen = rocked(cases).filter(|(_, overturned)| *overturned);
-            let fallen = fallen.filter_map(|(case, _)| Some([value(case)?, top]));
+            let fallen = fallen.filter_map(|(case, _)| Some(Mark::new(value(structure, case)?, top)));
             let layers = vec![
                 Layer::points("safe rocking", Ink::Data(0), safe),
                 Layer::points("overturning, at the top", Ink::Data(1), fallen),
             ];
-            Panel::new(&name(cases), Axis::log(label), Axis::log(DEMAND).over(LEAST, 1.3 * top), layers)
-        })
-    });
+            let y = Axis::log(DEMAND).over(LEAST, 1.3 * top);
+            panels.push(Panel::new(&name(cases), Axis::log(label), y, layers));
+        }
+    }
     let caption = format!(
         "Each point is a motion in which the structure rocks. The right-hand panels omit motions \
          without a pulse period; demands below {LEAST} are not drawn."
     );
-    let caption = compare(&caption, "Figures 3 and 4");
-    Figure::new("demand", "Demand over peak velocity and pulse period", caption, 2, 105.0, panels.collect())
+    Figure::new("demand", "Demand over peak velocity and pulse period", 2, 105.0, panels)
+        .explained(compare(&caption, "Figures 3 and 4"))
 }
 
 /// The regression of the demand on each measure, ln EDP = ln a + b ln IM (Eq. 16), if there is one.
 pub fn power_laws<'a>(fits: &'a Fits, cases: &Cases) -> [Option<&'a DemandFit>; Measure::SCALAR.len()] {
     Measure::SCALAR.map(|measure| {
-        let fit = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == measure);
-        fit.filter(|fit| fit.r2.is_some() && fit.beta.is_some())
+        demand_fits(fits, cases, DemandModel::Univariate)
+            .find(|fit| fit.im_x == measure)
+            .filter(|fit| fit.r2.is_some() && fit.beta.is_some())
     })
 }
 
@@ -61,35 +66,35 @@ fn zeta(fit: &DemandFit) -> Option<f64> {
     Some(fit.beta? / b).filter(|_| b > 0.0)
 }
 
-fn name_of(measure: Measure) -> String {
+fn upper_case(measure: Measure) -> String {
     measure.as_str().to_uppercase()
 }
 
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
-    let panel = |(measure, fit): (Measure, Option<&DemandFit>)| {
-        let point = |(case, edp): (&Case, f64)| Some([measure.value_of(&case.measures)?, edp]);
-        let points: Vec<[f64; 2]> = demands(cases).filter_map(point).collect();
-        let [low, high] = ends(points.iter().map(|point| point[0]));
+    let mut panels = Vec::new();
+    for (measure, fit) in Measure::SCALAR.into_iter().zip(power_laws(fits, cases)) {
+        let points: Vec<Mark> = demands(cases)
+            .filter_map(|(case, edp)| Some(Mark::new(measure.value_of(&case.measures)?, edp)))
+            .collect();
+        let Span { low, high } = Span::from_values(points.iter().map(|point| point.x));
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];
-        let mut title = name_of(measure);
+        let mut title = upper_case(measure);
         if let Some(fit) = fit.filter(|_| low < high) {
-            let line = [low, high].map(|im| [im, ln_median_demand(&fit.coefficients, &[im]).exp()]);
-            layers.push(Layer::line("regression", Ink::Data(1), line.to_vec()));
+            let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
+            layers.push(Layer::line("regression", Ink::Data(1), line));
             let zeta = zeta(fit).map_or("none".to_string(), |zeta| number::significant(zeta, 3));
             let [r2, beta] = [fit.r2, fit.beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
             title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
         }
-        Panel::new(&title, Axis::log(label(measure)), Axis::log(DEMAND), layers)
-    };
-    let panels = Measure::SCALAR.into_iter().zip(power_laws(fits, cases)).map(panel).collect();
+        panels.push(Panel::new(&title, Axis::log(label(measure)), Axis::log(DEMAND), layers));
+    }
     let group = name(cases);
     let caption = "Demand in safe rocking over each measure of Eq. 13, with ln EDP = ln *a* + *b* ln IM. *β* \
                    is the dispersion and *ζ* = *β*/*b*, which a falling regression does not have.";
-    let words = group.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    let file = format!("regressions-{}", words.collect::<Vec<_>>().join("-").to_lowercase());
-    let title = format!("Demand over one measure: {group}");
-    Figure::new(&file, &title, compare(caption, "Figure 7"), 3, 90.0, panels)
+    let file = format!("regressions-{}", file_words(&group));
+    Figure::new(&file, &format!("Demand over one measure: {group}"), 3, 90.0, panels)
+        .explained(compare(caption, "Figure 7"))
 }
 
 /// Figure 8: R2, beta and zeta of the regressions of each group.
@@ -99,23 +104,22 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
         ("Less is better", "*β*", |fit| fit.beta),
         ("Less is better", "*ζ* = *β* / *b*", zeta),
     ];
-    let panels = qualities.iter().filter(|_| !groups.is_empty()).map(|&(title, label, value)| {
-        let values = |cases: &Cases| power_laws(fits, cases).map(|fit| fit.and_then(value));
-        let [least, largest] = ends(groups.iter().flat_map(|cases| values(cases)).flatten());
-        let layer = |(number, cases): (usize, &&Cases)| {
+    let mut panels = Vec::new();
+    for (title, label, value) in qualities.into_iter().filter(|_| !groups.is_empty()) {
+        let values: Vec<_> =
+            groups.iter().map(|cases| power_laws(fits, cases).map(|fit| fit.and_then(value))).collect();
+        let all = Span::from_values(values.iter().flatten().flatten().copied());
+        let mut layers = Vec::new();
+        for (number, (cases, values)) in groups.iter().zip(values).enumerate() {
             let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;
-            let estimate = |(row, x): (usize, Option<f64>)| {
-                Some(Estimate { x: x?, y: row as f64 + apart, low: f64::NAN, high: f64::NAN, n: f64::NAN })
-            };
-            let estimates = values(cases).into_iter().enumerate().filter_map(estimate);
-            Layer::estimates(&name(cases), Ink::Data(number), estimates)
-        };
-        let x = Axis::linear(label).over(0.0, 1.08 * largest.min(MOST_ZETA * least.max(0.2)));
-        let y = Axis::names(Measure::SCALAR.map(name_of));
-        Panel::new(title, x, y, groups.iter().enumerate().map(layer).collect())
-    });
+            let marks = values.into_iter().enumerate();
+            let marks = marks.filter_map(|(row, x)| Some(Mark::new(x?, row as f64 + apart)));
+            layers.push(Layer::new(&name(cases), Ink::Data(number), Shape::Estimates, marks));
+        }
+        let x = Axis::linear(label).over(0.0, 1.08 * all.high.min(MOST_ZETA * all.low.max(0.2)));
+        panels.push(Panel::new(title, x, Axis::names(Measure::SCALAR.map(upper_case)), layers));
+    }
     let caption = "Of the regressions of the demand on one measure. A measure without a dot has no such \
                    number, or one far to the right.";
-    let caption = compare(caption, "Figure 8");
-    Figure::new("quality", "Quality of the measures", caption, 3, 0.0, panels.collect())
+    Figure::new("quality", "Quality of the measures", 3, 0.0, panels).explained(compare(caption, "Figure 8"))
 }

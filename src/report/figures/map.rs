@@ -1,10 +1,10 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use super::common::{Fits, ends, name, ratios, rocked};
+use super::common::{Fits, name, ratios, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::report::text::literal;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Panel};
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
@@ -20,33 +20,34 @@ pub fn maps(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
                    probability of overturning by the model, calibrated with these responses; coloured lines \
                    are those of probability 0.5 of other structures.";
     let panels = suites.iter().filter_map(|groups| Some(panel(fits, groups.split_first()?)));
-    Figure::new("map", "Overturning over PGA and PGV", caption, 2, 150.0, panels.collect())
+    Figure::new("map", "Overturning over PGA and PGV", 2, 150.0, panels.collect()).explained(caption)
 }
 
 fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
-    let points = |label: &str, ink: Ink, event: bool| {
+    let mut layers = Vec::new();
+    for (label, ink, event) in [("rocks", Ink::Data(0), false), ("overturns", Ink::Data(1), true)] {
         let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
-        Layer::points(label, ink, its.map(|(case, _)| [case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s]))
-    };
-    let mut layers = vec![points("rocks", Ink::Data(0), false), points("overturns", Ink::Data(1), true)];
-    let [low, high] = ends(cases.all.iter().map(|case| case.peaks.pga_m_s2));
-    let pga = [low.max(cases.structure.uplift_acceleration_m_s2()), high];
-    let [least, most] = ends(cases.all.iter().map(|case| case.peaks.pgv_m_s));
-    let line = |cases: &Cases, level: f64| line(fits, cases, level, pga, [least, 1.5 * most]);
+        let its = its.map(|(case, _)| Mark::new(case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s));
+        layers.push(Layer::points(label, ink, its));
+    }
+    let all = Span::from_values(cases.all.iter().map(|case| case.peaks.pga_m_s2));
+    let pga = Span { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
+    let pgv = Span::from_values(cases.all.iter().map(|case| case.peaks.pgv_m_s));
+    let pgv = Span { high: 1.5 * pgv.high, ..pgv };
     for (level, dash) in LEVELS {
-        let label = format!("probability {level}");
-        layers.push(Layer::curve(&label, Ink::Text, dash, line(cases, level), Vec::new()));
+        let line = line(fits, cases, level, pga, pgv);
+        layers.push(Layer::new(&format!("probability {level}"), Ink::Text, Shape::Line(dash), line));
     }
     for (number, other) in (2..).zip(others) {
         let label = format!("{}, 0.5", literal(&other.structure.name));
-        layers.push(Layer::line(&label, Ink::Data(number), line(other, 0.5)));
+        layers.push(Layer::line(&label, Ink::Data(number), line(fits, other, 0.5, pga, pgv)));
     }
     Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)
 }
 
-/// The motions under which a structure overturns with this probability, between these PGA and PGV (m/s2 and
+/// The motions under which a structure overturns with this probability, within these PGA and PGV (m/s2 and
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
-fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f64; 2]) -> Vec<[f64; 2]> {
+fn line(fits: &Fits, cases: &Cases, level: f64, pga: Span, pgv: Span) -> Vec<Mark> {
     let structure = &cases.structure;
     let shipped = || Calibration::shipped(Kind::from_suite(cases.suite.as_deref()), structure, None);
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
@@ -56,10 +57,12 @@ fn line(fits: &Fits, cases: &Cases, level: f64, pga: [f64; 2], [least, most]: [f
         let p = calibration.probability(structure, &measures, None, Scenarios::One);
         p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
     };
-    let point = |pga: f64| {
-        let is_crossed = reaches(pga, most.ln()) && !reaches(pga, least.ln());
-        let ln_pgv = is_crossed.then(|| first(least.ln(), most.ln(), |ln_pgv| reaches(pga, ln_pgv)));
-        [pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)]
-    };
-    ratios(pga, STEPS).map(point).collect()
+    let (least, most) = (pgv.low.ln(), pgv.high.ln());
+    let mut marks = Vec::new();
+    for pga in ratios(pga, STEPS) {
+        let is_crossed = reaches(pga, most) && !reaches(pga, least);
+        let ln_pgv = is_crossed.then(|| first(least, most, |ln_pgv| reaches(pga, ln_pgv)));
+        marks.push(Mark::new(pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)));
+    }
+    marks
 }

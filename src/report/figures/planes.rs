@@ -3,46 +3,42 @@
 use nalgebra::Vector3;
 
 use super::common::{Fits, compare, demand_fits, demands, name};
-use crate::fragility::{Case, Cases, DemandFit, DemandModel, PLANE};
+use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
-use crate::report::{Axis, Figure, Ink, Layer, Panel};
+use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel};
 
 /// Figure 9: the demand in safe rocking and both planes edge-on, one panel a group.
 pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let panel = |cases: &&Cases| {
+    let mut panels = Vec::new();
+    for cases in groups {
         let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
-        let [low, high] = planes[..] else { return None };
+        let [low, high] = planes[..] else { continue };
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
-        Some(panel(cases, high.range_low?, coefficients))
-    };
+        panels.extend(high.range_low.map(|transition| panel(cases, transition, coefficients)));
+    }
     let caption = "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in \
                    which the planes meet.";
     let caption =
         compare(caption, "Figure 9") + " There, velocity and period stand in place of the two measures.";
-    let panels = groups.iter().filter_map(panel).collect();
-    Figure::new("planes", "The two planes, seen edge-on", caption, 2, 110.0, panels)
+    Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels).explained(caption)
 }
 
-/// Of planes below the transition and from there on: ln a, b1 and b2 over ln IM4 and ln IM3.
+/// The planes below the transition and from there on are ln a, b1 and b2 over ln IM4 and ln IM3.
 fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     let [right, up] = edge_on(planes);
-    let view = |point: Vector3<f64>| [right.dot(&point), up.dot(&point)];
-    let logarithms = |(case, edp): (&Case, f64)| {
-        let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
-        Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
-    };
+    let view = |point: Vector3<f64>| Mark::new(right.dot(&point), up.dot(&point));
     let (mut layers, mut lines) = (Vec::new(), Vec::new());
     let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
     for ((label, ink, is_below), plane) in sides.into_iter().zip(planes) {
-        let its = demands(cases).filter_map(logarithms);
-        let its: Vec<Vector3<f64>> = its.filter(|case| (case.x < transition.ln()) == is_below).collect();
+        let mut its = logarithms(cases);
+        its.retain(|case| (case.x < transition.ln()) == is_below);
         let [ln_a, b1, b2] = plane.into();
         let on_plane =
-            |case: &Vector3<f64>| view(Vector3::new(case.x, case.y, ln_a + b1 * case.x + b2 * case.y));
-        let mut on_plane: Vec<[f64; 2]> = its.iter().map(on_plane).collect();
-        on_plane.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+            its.iter().map(|case| view(Vector3::new(case.x, case.y, ln_a + b1 * case.x + b2 * case.y)));
+        let mut on_plane: Vec<Mark> = on_plane.collect();
+        on_plane.sort_unstable_by(|a, b| a.x.total_cmp(&b.x));
         let ends = on_plane.first().into_iter().chain(on_plane.last()).copied();
-        lines.push(Layer::line("planes", Ink::Text, ends.collect()));
+        lines.push(Layer::line("planes", Ink::Text, ends));
         layers.push(Layer::points(label, ink, its.into_iter().map(view)));
     }
     layers.extend(lines);
@@ -50,11 +46,19 @@ fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     Panel::new(&name(cases), x, y, layers)
 }
 
+/// ln IM4, ln IM3 and ln EDP of the cases that have them.
+fn logarithms(cases: &Cases) -> Vec<Vector3<f64>> {
+    let all = demands(cases).filter_map(|(case, edp)| {
+        let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
+        Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
+    });
+    all.collect()
+}
+
 /// Returns the directions to the right and upwards in a view along the line in which the planes meet; of
 /// parallel planes, which meet nowhere, along ln IM3.
 fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
-    let unit = |vector: Vector3<f64>| vector.try_normalize(1e-12).unwrap_or(Vector3::y());
     let along = unit(first.cross(&second));
     let right = unit(along.cross(&Vector3::z()));
     let right = if right.x < 0.0 { -right } else { right };
@@ -62,16 +66,20 @@ fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     [right, if up.z < 0.0 { -up } else { up }]
 }
 
+fn unit(vector: Vector3<f64>) -> Vector3<f64> {
+    vector.try_normalize(1e-12).unwrap_or(Vector3::y())
+}
+
 /// Writes a direction as a sum without small terms: `0.85 ln IM4 − 0.52 ln IM3`.
 fn sum(direction: Vector3<f64>) -> String {
-    let term = |(part, name): (&f64, &str)| {
+    let mut terms = Vec::new();
+    for (part, name) in direction.iter().zip(["ln IM4", "ln IM3", "ln EDP"]) {
         let sign = if *part < 0.0 { "\u{2212}" } else { "" };
-        match part.abs() {
+        terms.extend(match part.abs() {
             size if size > 0.995 => Some(format!("{sign}{name}")),
             size if size >= 0.03 => Some(format!("{sign}{} {name}", number::fixed(size, 2))),
             _ => None,
-        }
-    };
-    let terms = direction.iter().zip(["ln IM4", "ln IM3", "ln EDP"]).filter_map(term);
-    terms.collect::<Vec<_>>().join(" + ").replace("+ \u{2212}", "\u{2212} ")
+        });
+    }
+    terms.join(" + ").replace("+ \u{2212}", "\u{2212} ")
 }

@@ -1,13 +1,13 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{Fits, by, compare, demand_fits, demands, ends, equal_ratios, label};
+use super::common::{Fits, by, compare, demand_fits, demands, equal_ratios, label};
 use super::common::{observed_shares, ratios, rocked};
-use crate::fragility::{Case, Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
+use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
 use crate::report::text::literal;
-use crate::report::{Axis, Dash, Estimate, Figure, Ink, Layer, Panel};
-use crate::statistics;
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
+use crate::statistics::Estimate;
 use crate::statistics::scores::sample_quantile;
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
@@ -28,40 +28,38 @@ struct Over<'a> {
 /// What is drawn of a structure.
 struct Drawn<'a> {
     cases: &'a Cases,
-    /// Up to four, told apart by dashes.
-    curves: Vec<Curve>,
-    shares: Vec<Estimate>,
+    /// Up to four with their labels, told apart by dashes.
+    curves: Vec<(String, Vec<Mark>)>,
+    shares: Vec<Mark>,
 }
-
-/// A label, points, and limits at each of them.
-type Curve = (String, Vec<[f64; 2]>, Vec<[f64; 2]>);
 
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
     let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(fits, groups)).collect());
     let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
                    IM4 alone where it has a curve.";
-    let caption = compare(caption, "Figure 10");
-    Figure::new("exceedance", "Exceeding the limit state in safe rocking", caption, 2, 118.0, panels)
+    Figure::new("exceedance", "Exceeding the limit state in safe rocking", 2, 118.0, panels)
+        .explained(compare(caption, "Figure 10"))
 }
 
 /// Figure 11: probability of overturning over single measures.
 pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let over = |measure| suites.iter().map(move |groups| over(fits, groups, measure, None));
-    let panels = panels("*P*_{ro}", over(Measure::Im4).chain(over(Measure::Im5)).collect());
+    let single = [Measure::Im4, Measure::Im5].into_iter();
+    let all = single.flat_map(|measure| suites.iter().map(move |groups| over(fits, groups, measure, None)));
+    let panels = panels("*P*_{ro}", all.collect());
     let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
-    let caption = compare(caption, "Figure 11");
-    Figure::new("overturning", "Overturning over single measures", caption, 2, 118.0, panels)
+    Figure::new("overturning", "Overturning over single measures", 2, 118.0, panels)
+        .explained(compare(caption, "Figure 11"))
 }
 
 /// Figure 12: probability of overturning over hybrid measures (Eq. 23).
 pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let hybrid = |groups: &Vec<_>| over(fits, groups, Measure::Im4, Some(Measure::Im3Inverse));
-    let panels = panels("*P*_{ro}", suites.iter().map(hybrid).collect());
+    let all = suites.iter().map(|groups| over(fits, groups, Measure::Im4, Some(Measure::Im3Inverse)));
+    let panels = panels("*P*_{ro}", all.collect());
     let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
                    observed fractions with 95 % limits.";
-    let caption = compare(caption, "Figure 12");
-    Figure::new("overturning-hybrid", "Overturning over hybrid measures", caption, 2, 118.0, panels)
+    Figure::new("overturning-hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
+        .explained(compare(caption, "Figure 12"))
 }
 
 /// Draws what has a curve: a panel a suite, each structure in one colour in all panels.
@@ -69,47 +67,38 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
     all.retain(|over| over.structures.iter().any(|structure| !structure.curves.is_empty()));
     let names = all.iter().flat_map(|over| &over.structures).map(|drawn| &drawn.cases.structure.name);
     let names = by(names, |name| name);
-    let panel = |Over { measure, structures }: &Over| {
-        let ink = |cases: &Cases| {
-            Ink::Data(names.iter().position(|same| *same[0] == cases.structure.name).unwrap_or(0))
-        };
+    let ink = |cases: &Cases| {
+        Ink::Data(names.iter().position(|same| *same[0] == cases.structure.name).unwrap_or(0))
+    };
+    let mut panels = Vec::new();
+    for Over { measure, structures } in &all {
         let mut layers = Vec::new();
         for Drawn { cases, curves, .. } in structures {
-            for (place, ((_, points, band), dash)) in curves.iter().zip(DASHES).enumerate() {
+            for (place, ((_, marks), dash)) in curves.iter().zip(DASHES).enumerate() {
                 // The legend names the structure by its first curve.
                 let label = if place == 0 { literal(&cases.structure.name) } else { String::new() };
-                layers.push(Layer::curve(&label, ink(cases), dash, points.clone(), band.clone()));
+                layers.push(Layer::new(&label, ink(cases), Shape::Line(dash), marks.clone()));
             }
         }
         // Layers of nothing, for the legend: what the dashes and the dots mean.
         let most = structures.iter().map(|structure| &structure.curves[..]).max_by_key(|curves| curves.len());
         let most = most.filter(|curves| curves.len() > 1).unwrap_or_default();
-        for ((label, ..), dash) in most.iter().zip(DASHES) {
-            layers.push(Layer::curve(label, Ink::Muted, dash, Vec::new(), Vec::new()));
+        for ((label, _), dash) in most.iter().zip(DASHES) {
+            layers.push(Layer::new(label, Ink::Muted, Shape::Line(dash), []));
         }
-        let observed = structures.iter().filter(|structure| !structure.shares.is_empty());
-        for Drawn { cases, shares, .. } in observed {
-            layers.push(Layer::estimates("observed fraction", Ink::Muted, []));
-            layers.push(Layer::estimates("", ink(cases), shares.clone()));
+        for Drawn { cases, shares, .. } in structures.iter().filter(|drawn| !drawn.shares.is_empty()) {
+            layers.push(Layer::new("observed fraction", Ink::Muted, Shape::Estimates, []));
+            layers.push(Layer::new("", ink(cases), Shape::Estimates, shares.clone()));
         }
         let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
-        Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers)
-    };
-    all.iter().map(panel).collect()
+        panels.push(Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers));
+    }
+    panels
 }
 
 /// A curve with its band, broken where it has no value.
-fn curve(
-    label: &str,
-    x: impl Iterator<Item = f64>,
-    p: impl Fn(f64) -> Option<statistics::Estimate>,
-) -> Curve {
-    let point = |x: f64| match p(x) {
-        Some(statistics::Estimate { value, low, high }) => ([x, value], [low, high]),
-        None => ([f64::NAN; 2], [f64::NAN; 2]),
-    };
-    let (points, band) = x.map(point).unzip();
-    (label.to_string(), points, band)
+fn curve(x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Estimate>) -> Vec<Mark> {
+    x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| Mark::estimate(x, p))).collect()
 }
 
 /// The measures of a motion with these IM4 and IM3.
@@ -119,49 +108,68 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
-    let all = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| case.measures);
-    let im3: Vec<f64> = all().filter_map(|measures| measures.im3).collect();
-    let most = all().map(|measures| measures.im4).fold(1.5, f64::max);
-    let limit_state = fits.limit_state;
-    let structure = |&cases: &&'a Cases| {
-        let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
-        let at_share = |share: f64| {
-            let (im3, transition) = (sample_quantile(im3.clone(), share)?, planes.last()?.range_low?);
-            let below = ratios([1.0, transition * (1.0 - 1e-9)], STEPS).chain([f64::NAN]);
-            let p = |im4: f64| {
-                let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
-                plane.p_exceeding(&measures(im4, im3), limit_state, CONFIDENCE)
-            };
-            let label = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
-            Some(curve(&label, below.chain(ratios([transition, most], STEPS)), p))
+    let mut im3 = Vec::new();
+    let mut span = Span { low: 1.0, high: 1.5 };
+    for cases in groups {
+        for (case, _) in demands(cases) {
+            im3.extend(case.measures.im3);
+            span.high = span.high.max(case.measures.im4);
+        }
+    }
+    let structures = groups.iter().map(|cases| Drawn {
+        cases,
+        curves: exceeding_curves(fits, cases, span, &im3),
+        shares: Vec::new(),
+    });
+    Over { measure: label(Measure::Im4), structures: structures.collect() }
+}
+
+fn exceeding_curves(fits: &Fits, cases: &Cases, span: Span, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
+    let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
+    let mut curves = Vec::new();
+    for share in SHARES {
+        let im3 = sample_quantile(im3.to_vec(), share);
+        let transition = planes.last().and_then(|plane| plane.range_low);
+        let Some((im3, transition)) = im3.zip(transition) else { continue };
+        let below = Span { high: transition * (1.0 - 1e-9), ..span };
+        let above = Span { low: transition, ..span };
+        let im4 = ratios(below, STEPS).chain([f64::NAN]).chain(ratios(above, STEPS));
+        let p = |im4: f64| {
+            let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
+            plane.p_exceeding(&measures(im4, im3), fits.limit_state, CONFIDENCE)
         };
-        let alone = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
-        let p = |fit: &DemandFit, im4: f64| fit.p_exceeding(&measures(im4, 1.0), limit_state, CONFIDENCE);
-        let alone = alone.map(|fit| curve("IM4 alone", ratios([1.0, most], STEPS), |im4| p(fit, im4)));
-        let curves = SHARES.into_iter().filter_map(at_share).chain(alone).collect();
-        Drawn { cases, curves, shares: Vec::new() }
-    };
-    Over { measure: label(Measure::Im4), structures: groups.iter().map(structure).collect() }
+        curves.push((format!("IM3 at its {} % quantile", number::plain(100.0 * share)), curve(im4, p)));
+    }
+    let alone = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
+    curves.extend(alone.map(|fit| {
+        let p = |im4: f64| fit.p_exceeding(&measures(im4, 1.0), fits.limit_state, CONFIDENCE);
+        ("IM4 alone".to_string(), curve(ratios(span, STEPS), p))
+    }));
+    curves
 }
 
 /// P_ro over a measure, or over a hybrid one at the median IM3.
 fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
-    let structure = |&cases: &&'a Cases| {
+    let mut structures = Vec::new();
+    for &cases in groups {
+        let mut drawn = Drawn { cases, curves: Vec::new(), shares: Vec::new() };
         let fit = fits.curve(cases, im_x, im_y);
-        let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
-        let Some(fit) = rising else { return Drawn { cases, curves: Vec::new(), shares: Vec::new() } };
-        let share = |(case, event): (&Case, bool)| Some((measure_of(fit, &case.measures)?, event));
-        let observed: Vec<(f64, bool)> = rocked(cases).filter_map(share).collect();
-        let im3 = sample_quantile(cases.all.iter().filter_map(|case| case.measures.im3).collect(), 0.5)
-            .unwrap_or(1.0);
-        let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
-        let ends = ends(observed.iter().map(|(value, _)| *value));
-        let bin = equal_ratios(ends, (observed.len() / CASES).clamp(4, BINS));
-        let shares = observed_shares(&observed, bin);
-        Drawn { cases, curves: vec![curve("", ratios(ends, STEPS), p)], shares }
-    };
+        if let Some(fit) = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0) {
+            let observed: Vec<(f64, bool)> = rocked(cases)
+                .filter_map(|(case, event)| Some((measure_of(fit, &case.measures)?, event)))
+                .collect();
+            let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
+            let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
+            let span = Span::from_values(observed.iter().map(|(value, _)| *value));
+            let bin = equal_ratios(span, (observed.len() / CASES).clamp(4, BINS));
+            let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
+            drawn.shares = observed_shares(&observed, bin);
+            drawn.curves.push((String::new(), curve(ratios(span, STEPS), p)));
+        }
+        structures.push(drawn);
+    }
     let measure = if im_y.is_some() { "hybrid measure" } else { label(im_x) };
-    Over { measure, structures: groups.iter().map(structure).collect() }
+    Over { measure, structures }
 }
 
 /// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.

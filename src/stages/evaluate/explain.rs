@@ -36,23 +36,28 @@ pub fn explained(model: &Model, structure: &Structure, motion: Peaks, budget: &B
     };
     let [pga, pgv] = [motion.pga_m_s2 / G_M_S2, motion.pgv_m_s].map(|peak| significant(peak, 3));
     lines.push(("motion:", format!("PGA {pga} g, PGV {pgv} m/s")));
-    let measure = |measure: &Measure| {
-        let value = measure.raw_value_of(&measures)?;
-        Some(format!("{} {}", measure.as_str().to_uppercase(), significant(value, 3)))
-    };
-    lines.push(("measures:", Measure::SCALAR.iter().filter_map(measure).collect::<Vec<_>>().join(", ")));
-    let part = |part: &Part| Some(format!("{part} {}", significant(budget.part_sd(*part)?, 2)));
-    let parts: Vec<String> = Part::ALL.iter().filter_map(part).collect();
+    let mut words = Vec::new();
+    for measure in Measure::SCALAR {
+        let value = measure.raw_value_of(&measures).map(|value| significant(value, 3));
+        words.extend(value.map(|value| format!("{} {value}", measure.as_str().to_uppercase())));
+    }
+    lines.push(("measures:", words.join(", ")));
+    let mut parts = Vec::new();
+    for part in Part::ALL {
+        parts.extend(budget.part_sd(*part).map(|sd| format!("{part} {}", significant(sd, 2))));
+    }
     if !parts.is_empty() {
         let ([down, up], parts) = (budget.sds().map(|sd| significant(sd, 2)), parts.join(", "));
         lines.push(("errors:", format!("{parts}; all -{down} +{up} (sd of ln rate, or of logit)")));
     }
-    let other = |&kind: &Kind| {
-        let shipped = Model::shipped(kind, structure, limit_state?);
-        let given = shipped.probabilities(structure, &measures, None, Scenarios::One).given_rocking?;
-        Some(format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(kind)))
-    };
-    let others: Vec<String> = Kind::ALL.iter().filter_map(other).collect();
+    let mut others = Vec::new();
+    for kind in Kind::ALL.iter().filter(|_| limit_state.is_some()) {
+        let shipped = Model::shipped(*kind, structure, limit_state.unwrap_or_default());
+        let given = shipped.probabilities(structure, &measures, None, Scenarios::One).given_rocking;
+        others.extend(given.map(|given| {
+            format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(*kind))
+        }));
+    }
     if !others.is_empty() {
         lines.push(("overturning:", others.join(", ")));
     }

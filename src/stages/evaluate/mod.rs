@@ -6,7 +6,7 @@
 //! rates        annual rates at a site
 //! fragility    the intensities that half of the motions need, without a motion or over the hazard of a site
 //! target       the width of a base that meets a target
-//! pages        what pages and figures show of the answers
+//! pages        what pages show of the answers
 //! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
 //! explain      the model and the measures behind an answer
@@ -34,26 +34,23 @@ use super::shared::responses;
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use crate::inputs::{Rename, Renames, hazard};
-use crate::keyword::Keyword;
-use crate::object::{Object, Restitution, Subject};
+use crate::number::listed;
+use crate::object::{Object, Restitution};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{listed, number};
+use crate::pipeline::options::number;
 use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, split_lists};
 use crate::pipeline::{InRun, Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::implausibility::rarity;
-use crate::report::rated::Evaluation;
-use crate::report::{DPI, Page, made_in_words, png, svg, workbook};
+use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
+use crate::table::answers::{Answer, FragilityRow, RatesRow};
 use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::units::G_M_S2;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
-use self::fragility::FragilityRow;
-pub use self::object::{Answer, DoubtsRow, ObjectRow, Predicted};
-pub use self::point::TreeRow;
-pub use self::rates::{RatesRow, expected_number};
-pub use self::words::{model_of_all, size, too_far};
+use self::object::{Predicted, Prediction};
+use self::point::TreeRow;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
@@ -166,7 +163,12 @@ impl Stage for Evaluate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.out.as_deref().map(file_format).transpose()?;
+        if let Some(out) = self.out.as_deref().filter(|out| out.extension().is_none()) {
+            let (out, expected) = (out.display(), AnswersOutput::KIND.formats.join(", ."));
+            return Err(UsageError::because(format!(
+                "out is {out}; expected a name that ends in .{expected}"
+            )));
+        }
         if self.pga.or(self.pgv).is_some() {
             self.motion()?;
         }
@@ -187,8 +189,7 @@ impl Stage for Evaluate {
             renames.expect_used()?;
             let printed = self.printed(&rows, text)?;
             self.write(&rows, printed, context, || {
-                let problem =
-                    "out: a page or figure is of objects at a site or under a motion, not of a table";
+                let problem = "out: a page or figure is of objects, not of a table";
                 Err(UsageError::because(problem))
             })
         } else if self.pga.or(self.pgv).is_some() {
@@ -218,17 +219,14 @@ impl Evaluate {
     fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
         let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
-        let predict = |_: &Object, subject: &Subject| {
-            let (row, budget) = TreeRow::new(motion, subject);
-            (row, budget, motion.peaks(&subject.directions[0].model), Vec::new())
-        };
-        let mut renames = Renames::new(&self.columns);
-        let objects = self.objects(&mut renames, models, context)?;
-        renames.expect_used()?;
-        let bar = context.bar(objects.len());
-        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+        let objects = self.objects(Renames::new(&self.columns), models, context)?;
+        let all = object::answers(&objects, models, self.explain, context, |_, subject| {
+            let (row, errors) = TreeRow::new(motion, subject);
+            let motion = motion.peaks(&subject.directions[0].model);
+            Prediction { row, errors, motion, warnings: Vec::new() }
+        })?;
         let text = point::text(&all, self.out.as_deref());
-        self.finish(&all, text, context, || Ok(pages::under_motion(&all)))
+        self.finish(&all, text, context, || Ok(pages::page(&pages::under_motion(&all))))
     }
 
     /// The fragility over one peak, of motions in general or at the site of a hazard curve.
@@ -237,62 +235,56 @@ impl Evaluate {
         let over = self.over.unwrap_or(Peak::Pga);
         let mut renames = Renames::new(&self.columns);
         let site = if self.hazard.is_empty() { None } else { Some(self.site(&mut renames, context)?) };
-        let is_over = |site: &Site| matches!(&site.hazard, Hazard::Curve(curve) if curve.peak == over);
-        if site.as_ref().is_some_and(|site| !is_over(site)) {
-            let over = over.as_str();
-            return Err(UsageError::because(format!(
-                "over {over}: expected a hazard curve of {over}, of no other peak"
-            )));
+        match site.as_ref().map(|site| &site.hazard) {
+            None => {}
+            Some(Hazard::Curve(curve)) if curve.peak == over => {}
+            Some(_) => {
+                let problem = format!("over {over}: expected a hazard curve of {over}, of no other peak");
+                return Err(UsageError::because(problem));
+            }
         }
-        let objects = self.objects(&mut renames, models, context)?;
-        renames.expect_used()?;
-        if self.out.as_deref().map(file_format).transpose()? == Some(FileFormat::Page) {
-            return Err(UsageError::because("out: a page is of a site or a motion; expected .svg or .png"));
-        }
+        let objects = self.objects(renames, models, context)?;
         let general = SitesInGeneral { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
-        let predict = |_: &Object, subject: &Subject| {
+        let all = object::answers(&objects, models, self.explain, context, |_, subject| {
             let at_site = site.as_ref().and_then(|site| site.fragility(subject));
             let fragility = at_site.unwrap_or_else(|| general.fragility(subject));
             let (errors, motion) = (fragility.errors, fragility.motion);
-            (FragilityRow::new(fragility), errors, motion, Vec::new())
-        };
-        let (first, bar) = (objects[0].clone(), context.bar(objects.len()));
-        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+            Prediction { row: FragilityRow::new(fragility), errors, motion, warnings: Vec::new() }
+        })?;
         let text = fragility::text(&all, self.out.as_deref());
         let printed = self.printed(&[answer_rows(&all, context)?], text)?;
-        let picture = || pages::of_fragility(&all, &first, models);
-        self.write(&[rows::batch(&fragility::curves(&all))?], printed, context, picture)
+        let page = || {
+            let outline = pages::alone(&objects, models)?.and_then(|alone| alone.outline());
+            let hazard = site.as_ref().and_then(|_| context.made().names("hazard"));
+            Ok(fragilities::page(&all, outline, hazard.as_deref()))
+        };
+        self.write(&[rows::batch(&fragility::curves(&all))?], printed, context, page)
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
         models.expect_ground()?;
         let mut renames = Renames::new(&self.columns);
         let site = self.site(&mut renames, context)?;
-        let objects = self.objects(&mut renames, models, context)?;
-        renames.expect_used()?;
-        let predict = |object: &Object, subject: &Subject| {
+        let objects = self.objects(renames, models, context)?;
+        let all = object::answers(&objects, models, self.explain, context, |object, subject| {
             let rates = site.rates(subject);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years).zip(rates.overturning);
             let bases = target.map(|(target, rate)| target::bases(object, models, &site, rate, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
-            (row, rates.errors, rates.motion, rates.warnings)
-        };
-        let alone = if let [one] = &objects[..] { Some(one.clone()) } else { None };
-        let bar = context.bar(objects.len());
-        let all = object::answers(objects, models, self.explain, &bar, predict)?;
+            Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
+        })?;
         if let Some(path) = &self.responses {
             context.warn(expect_counted(&all, &site, path)?);
         }
-        let picture = || {
-            let mut evaluation = pages::over_hazard(&all, context.made());
-            evaluation.target = self.target;
-            if let Some(object) = alone.as_ref().filter(|object| object.sides().is_ok()) {
-                evaluation.portrait = pages::portrait(object, models, &site, self.years)?;
+        let page = || {
+            let mut evaluation = pages::over_hazard(all.clone(), context.made());
+            if let Some(alone) = pages::alone(&objects, models)? {
+                evaluation.portrait = alone.portrait(models, &site, self.years);
             }
-            Ok(evaluation)
+            Ok(pages::page(&evaluation))
         };
         let text = rates::text(&all, &site, self.target, self.out.as_deref());
-        self.finish(&all, text, context, picture)
+        self.finish(&all, text, context, page)
     }
 
     /// Reads the hazard and what rates over it need.
@@ -324,29 +316,32 @@ impl Evaluate {
     /// Returns the given structures, or all fitted ones.
     fn objects(
         &self,
-        renames: &mut Renames,
+        mut renames: Renames,
         models: &Models,
         context: &Context,
     ) -> anyhow::Result<Vec<Object>> {
+        let place = self.place.place();
         if !self.structures.is_given() && self.model.fits.is_some() {
-            let place = self.place.place();
-            let fitted = |structure| Object::with_parameters(structure, Restitution::Fitted).at(&place);
-            return Ok(models.structures()?.into_iter().map(fitted).collect());
+            renames.expect_used()?;
+            let fitted = models.structures()?.into_iter();
+            return Ok(fitted
+                .map(|structure| Object::with_parameters(structure, Restitution::Fitted).at(&place))
+                .collect());
         }
-        let (objects, unused) = self.structures.objects(&self.place.place(), renames)?;
+        let (objects, unused) = self.structures.objects(&place, &mut renames)?;
+        renames.expect_used()?;
         context.warn(unused);
-        match (objects.first().map(|first| (first, first.sides())), &self.structures.structures) {
-            (Some((first, Err(reason))), path) if objects.iter().all(Object::is_implausible) => {
-                let reason = named(first, &reason);
-                match path {
-                    Some(path) => {
-                        anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
-                    }
-                    None => Err(reason),
+        if let Some(reason) = objects.first().and_then(|first| first.sides().err()) {
+            let reason = named(&objects[0], &reason);
+            match &self.structures.structures {
+                _ if !objects.iter().all(Object::is_implausible) => {}
+                Some(path) => {
+                    anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
                 }
+                None => return Err(reason),
             }
-            _ => Ok(objects),
         }
+        Ok(objects)
     }
 
     /// Writes and prints the answers for all objects.
@@ -355,11 +350,11 @@ impl Evaluate {
         all: &[Answer<R>],
         text: String,
         context: &Context,
-        picture: impl Fn() -> anyhow::Result<Evaluation>,
+        page: impl Fn() -> anyhow::Result<Page>,
     ) -> anyhow::Result<String> {
         let rows = [answer_rows(all, context)?];
         let printed = self.printed(&rows, text)?;
-        self.write(&rows, printed, context, picture)
+        self.write(&rows, printed, context, page)
     }
 
     /// Returns a text, or rows of one schema in the form that is asked for.
@@ -367,36 +362,34 @@ impl Evaluate {
         if self.format == Format::Text { Ok(text) } else { shown(rows, self.format) }
     }
 
-    /// Writes rows of one schema, or a picture of them, if they go to a file, and returns what to print.
+    /// Writes rows of one schema, or a page or the main figure of them, by how the name of the file ends; and
+    /// returns what to print.
     fn write(
         &self,
         rows: &[RecordBatch],
         printed: String,
         context: &Context,
-        picture: impl Fn() -> anyhow::Result<Evaluation>,
+        page: impl Fn() -> anyhow::Result<Page>,
     ) -> anyhow::Result<String> {
         for out in self.outputs() {
-            let key = || anyhow::Ok(context.provenance(&out, &printed)?.json());
-            match file_format(&out)? {
-                FileFormat::Text(format) => context.write_file(&out, shown(rows, format)?.as_bytes())?,
-                FileFormat::Workbook => context.write_file(&out, &workbook(rows, &key()?)?)?,
-                FileFormat::Page => {
-                    let page = Page { key: key()?, made: made_in_words(), ..pages::page(&picture()?) };
-                    context.write_file(&out, page.html().as_bytes())?;
-                }
-                FileFormat::Svg => {
-                    context.write_file(&out, svg(&pages::figure(&picture()?), &key()?).as_bytes())?;
-                }
-                FileFormat::Png => {
-                    let drawing = svg(&pages::figure(&picture()?), "");
-                    context.write_file(&out, &png(&drawing, DPI, &key()?)?)?;
-                }
-                FileFormat::Parquet => {
-                    let mut writer = context.create(&out, &rows[0].schema())?;
-                    rows.iter().try_for_each(|rows| writer.append(rows))?;
-                    context.finish(writer, &printed)?;
-                }
+            let ending = out.extension().unwrap_or_default().to_string_lossy();
+            if ending == "parquet" {
+                let mut writer = context.create(&out, &rows[0].schema())?;
+                rows.iter().try_for_each(|rows| writer.append(rows))?;
+                context.finish(writer, &printed)?;
+                continue;
             }
+            let key = context.provenance(&out, &printed)?.json();
+            let drawn = |key: &str| Ok::<_, anyhow::Error>(svg(&page()?.main_figure(), key));
+            let content = match &*ending {
+                "csv" => shown(rows, Format::Csv)?.into_bytes(),
+                "json" => shown(rows, Format::Json)?.into_bytes(),
+                "xlsx" => workbook(rows, &key)?,
+                "html" => Page { key, ..page()? }.html().into_bytes(),
+                "svg" => drawn(&key)?.into_bytes(),
+                _ => png(&drawn("")?, DPI, &key)?,
+            };
+            context.write_file(&out, &content)?;
         }
         Ok(printed)
     }
@@ -404,9 +397,11 @@ impl Evaluate {
 
 /// Gathers the rows of answers, and warns of what their text does not state.
 fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Result<RecordBatch> {
-    let is_stated = |of: &Warning| matches!(of, Warning::HazardEndsEarly | Warning::HazardExtrapolated);
     for answer in all {
-        let others = answer.warnings.iter().filter(|warning| !is_stated(warning));
+        let others = answer
+            .warnings
+            .iter()
+            .filter(|warning| !matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated));
         context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
     }
     rows::side_by_side(&[
@@ -441,33 +436,4 @@ fn expect_counted(all: &[Answer<RatesRow>], site: &Site, responses: &Path) -> an
         responses.display(),
         listed(&names, 8)
     )
-}
-
-/// How answers are written to a file.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum FileFormat {
-    Parquet,
-    Text(Format),
-    Page,
-    Svg,
-    Png,
-    Workbook,
-}
-
-/// How a file is written, by how its name ends.
-fn file_format(out: &Path) -> anyhow::Result<FileFormat> {
-    Ok(match out.extension().and_then(|ending| ending.to_str()) {
-        Some("parquet") => FileFormat::Parquet,
-        Some("csv") => FileFormat::Text(Format::Csv),
-        Some("json") => FileFormat::Text(Format::Json),
-        Some("html") => FileFormat::Page,
-        Some("svg") => FileFormat::Svg,
-        Some("png") => FileFormat::Png,
-        Some("xlsx") => FileFormat::Workbook,
-        _ => {
-            let out = out.display();
-            let expected = "expected a name that ends in .parquet, .csv, .json, .xlsx, .html, .svg or .png";
-            return Err(UsageError::because(format!("out is {out}; {expected}")));
-        }
-    })
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::object::{Answer, ObjectRow, Predicted};
+use super::object::Predicted;
 use super::words::{
-    about_buildings, friction, line, model, model_of_all, mostly_unknown, table, title, too_far, validity,
+    about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity, where_silent,
 };
 use crate::fragility::{Direction, LimitStates, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
@@ -14,6 +14,7 @@ use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::number::{Limited, PERCENT, aligned, fixed, name, plain};
 use crate::object::Subject;
 use crate::statistics::Estimate;
+use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
 
 /// The probabilities of the tree at an intensity; none where they are not known.
@@ -32,7 +33,7 @@ pub struct TreeRow {
 }
 
 impl TreeRow {
-    /// Of an object under a motion, with the errors of the logit of P_ro.
+    /// Predicts for an object under a motion, with the errors of the logit of P_ro.
     pub fn new(motion: &Motion, subject: &Subject) -> (TreeRow, Budget) {
         let MotionProbabilities { states, errors } = motion.probabilities(subject);
         let rocking = states.rocking.value;
@@ -59,6 +60,14 @@ impl TreeRow {
         (row, errors)
     }
 
+    /// What a page shows of it.
+    pub fn without_rates(&self) -> RatesRow {
+        let LimitStates { failure, overturning, .. } = self.states;
+        let p_rocking = self.p_nr.map(|p_nr| 1.0 - p_nr);
+        let (p_failure, p_overturning) = (Limited::value(failure.value), overturning);
+        RatesRow { p_rocking, p_failure, p_overturning, ..RatesRow::default() }
+    }
+
     fn rocks(&self) -> bool {
         self.p_nr != Some(1.0)
     }
@@ -78,17 +87,20 @@ impl Predicted for TreeRow {
 
 /// The answer for all objects, in words.
 pub fn text(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
-    super::words::text(all, of_one, || of_several(all, out))
+    super::words::text(all, tell, || tell_list(all, out))
 }
 
-fn of_one(answer: &Answer<TreeRow>) -> String {
+fn tell(answer: &Answer<TreeRow>) -> String {
     let Answer { object, row: tree, .. } = answer;
     let LimitStates { failure, overturning, .. } = tree.states;
-    let cells =
-        |name: String, p: Limited, limits: &str| vec![name, PERCENT.value(p), PERCENT.limits(p, limits)];
+    let limits = PERCENT.limits(overturning, "95 % limits ");
     let lines = [
-        cells("overturns".to_string(), overturning, "95 % limits "),
-        cells(format!("overturns, or {}", too_far(object)), failure, ""),
+        vec!["overturns".to_string(), PERCENT.value(overturning), limits],
+        vec![
+            format!("overturns, or {}", object.too_far()),
+            PERCENT.value(failure),
+            PERCENT.limits(failure, ""),
+        ],
     ];
     let add = if tree.pga_m_s2.is_some() { "Add --pgv." } else { "Add --pga." };
     let (lines, unknown) = match tree.rocks() {
@@ -96,15 +108,15 @@ fn of_one(answer: &Answer<TreeRow>) -> String {
         false => Default::default(),
     };
     let (uplift, title, peaks, model) =
-        (uplift(object, tree), title(object), words_of_peaks(tree), model(object));
+        (uplift(object, tree), object.title(), words_of_peaks(tree), model(object));
     format!("{lines}{uplift}{unknown}{title} {peaks}, by {model}.\n{}", validity(answer))
 }
 
-fn of_several(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
+fn tell_list(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
     let worst = &all[0];
     let first = match worst.row.overturning() {
-        _ if !all.iter().any(|answer| answer.row.rocks()) => "nothing rocks".to_string(),
-        Limited { value: None | Some(0.0), .. } => "nothing overturns".to_string(),
+        _ if !all.iter().any(|answer| answer.row.rocks()) => "nothing rocks".to_string() + &where_silent(all),
+        Limited { value: None | Some(0.0), .. } => "nothing overturns".to_string() + &where_silent(all),
         p => {
             let (name, p) = (name(&worst.object.structure), PERCENT.both(p, "95 % limits "));
             format!("{name} is the most likely to overturn: {p}")

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use rayon::prelude::*;
 
-use super::object::DoubtsRow;
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
@@ -26,6 +25,7 @@ use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::StructureArgs;
 use crate::table::TableError;
+use crate::table::answers::DoubtsRow;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
 use crate::table::rows;
@@ -60,9 +60,8 @@ pub fn evaluate(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
         ));
     }
-    let of_structures = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
     let columns = batches.first().map(|batch| batch.rows.schema());
-    let column = columns.and_then(|all| of_structures.into_iter().find(|name| all.index_of(name).is_ok()));
+    let column = columns.and_then(|all| STRUCTURE.into_iter().find(|name| all.index_of(name).is_ok()));
     if let Some(column) = column.filter(|_| !given.is_empty()) {
         let path = path.display();
         return Err(UsageError::because(format!(
@@ -70,20 +69,20 @@ pub fn evaluate(
         )));
     }
     let given = given.first().map(|object| models.subject(object)).transpose()?;
-    let key = |of: &Structure| [of.p_rad_s, of.alpha_rad, of.eta].map(f64::to_bits);
     expect_units(&batches)?;
-    let mut of_rows = HashMap::new();
+    let mut known = HashMap::new();
     let mut evaluated = Vec::new();
     for batch in &batches {
-        let structures = if given.is_some() { Vec::new() } else { structures_of_rows(batch)? };
+        let names = vec!["structure".into(); batch.rows.num_rows()];
+        let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
         for structure in &structures {
-            if let Entry::Vacant(entry) = of_rows.entry(key(structure)) {
+            if let Entry::Vacant(entry) = known.entry(bits(structure)) {
                 let object = Object::with_parameters(structure.clone(), Restitution::Number);
                 entry.insert(models.subject(&object.at(place))?);
             }
         }
-        let of_row = |row: usize| given.as_ref().unwrap_or_else(|| &of_rows[&key(&structures[row])]);
-        evaluated.push(with_probabilities(batch, of_row, magnitude, context)?);
+        let subject = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
+        evaluated.push(with_probabilities(batch, subject, magnitude, context)?);
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),
@@ -91,19 +90,26 @@ pub fn evaluate(
     }
 }
 
+/// Columns that say what a row is about.
+const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
+
+fn bits(structure: &Structure) -> [u64; 3] {
+    [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits)
+}
+
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn with_probabilities<'a>(
     batch: &Batch,
-    of_row: impl Fn(usize) -> &'a (Subject, Vec<Warning>) + Sync,
+    subject: impl Fn(usize) -> &'a (Subject, Vec<Warning>) + Sync,
     magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let given = peaks(batch)?;
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
-        let (subject, of_structure) = of_row(row);
+        let (subject, about_model) = subject(row);
         let peaks = at_rim(given[row]);
-        let mut warnings = [of_structure.clone(), subject.warnings(peaks)].concat();
+        let mut warnings = [about_model.clone(), subject.warnings(peaks)].concat();
         warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
         warnings.sort();
         warnings.dedup();
@@ -123,9 +129,9 @@ fn with_probabilities<'a>(
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
     }
     let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<DoubtsRow>(&doubts)?])?;
-    let schema = batch.rows.schema();
-    let is_kept = |at: &usize| own.schema().index_of(schema.field(*at).name()).is_err();
-    let kept: Vec<usize> = (0..schema.fields().len()).filter(is_kept).collect();
+    let fields = batch.rows.schema().fields().clone();
+    let mut kept: Vec<usize> = (0..fields.len()).collect();
+    kept.retain(|at| own.schema().index_of(fields[*at].name()).is_err());
     rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }
 
@@ -138,9 +144,13 @@ fn peaks(batch: &Batch) -> anyhow::Result<Vec<Peaks>> {
 /// A peak of each row, m/s2 or m/s.
 fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let schema = batch.rows.schema();
-    let names = || schema.fields().iter().map(|field| field.name().as_str());
-    let unit = |name| peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| unit);
-    let mut found: Vec<(&str, f64)> = names().filter_map(|name| Some((name, unit(name)?))).collect();
+    let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+    let mut found = Vec::new();
+    for name in &names {
+        found.extend(
+            peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| (*name, unit)),
+        );
+    }
     let (column, expected) = match wanted {
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
         Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
@@ -154,24 +164,24 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
         [] => {
             return Err(UsageError::because(format!(
                 "{path}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
-                names().collect::<Vec<_>>().join(", ")
+                names.join(", ")
             )));
         }
         [(first, _), (second, _), ..] => {
             return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
         }
     };
-    let judged = |(row, value): (usize, Option<f64>)| match value.map(|value| value * unit) {
-        None => Err(batch.value_error(row, column, "no value").into()),
-        Some(value) if value >= 0.0 => Ok(value),
-        Some(_) => Err(batch.value_error(row, column, "expected 0 or more").into()),
-    };
-    batch.numbers(name)?.into_iter().enumerate().map(judged).collect()
-}
-
-/// The structure of each row.
-fn structures_of_rows(batch: &Batch) -> anyhow::Result<Vec<Structure>> {
-    Ok(batch.structures(&vec!["structure".into(); batch.rows.num_rows()])?)
+    let mut values = Vec::new();
+    for (row, value) in batch.numbers(name)?.into_iter().enumerate() {
+        match value.map(|value| value * unit) {
+            None => return Err(batch.value_error(row, column, "no value").into()),
+            Some(value) if value < 0.0 => {
+                return Err(batch.value_error(row, column, "expected 0 or more").into());
+            }
+            Some(value) => values.push(value),
+        }
+    }
+    Ok(values)
 }
 
 /// Refuses a table whose typical motion shows a wrong unit.
@@ -216,13 +226,14 @@ fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> 
         let problem = format!("{rows} under {headings}; expected intensities under pga_g and pgv_m_s");
         return Err(refuse(problem).into());
     }
-    let column = |(at, heading): (usize, &Heading)| -> anyhow::Result<(String, ArrayRef, bool)> {
-        let number = |row: usize| match sheet.cell(row, at) {
+    let mut columns: Vec<(String, ArrayRef, bool)> = Vec::new();
+    for (at, heading) in sheet.headings.iter().enumerate() {
+        let rows = 0..sheet.lines.len();
+        let numbers = rows.clone().map(|row| match sheet.cell(row, at) {
             "" => Ok(None),
             _ => sheet.number(row, at).map(Some),
-        };
-        let rows = 0..sheet.lines.len();
-        let array: ArrayRef = match rows.clone().map(number).collect::<Result<Vec<_>, _>>() {
+        });
+        let array: ArrayRef = match numbers.collect::<Result<Vec<_>, _>>() {
             Ok(values) => Arc::new(Float64Array::from(values)),
             Err(error) if peak(heading).is_some() => return Err(refuse(error.to_string()).into()),
             Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
@@ -235,8 +246,7 @@ fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> 
             "tm" => "tm_s",
             _ => &heading.text,
         };
-        Ok((name.to_string(), array, true))
-    };
-    let columns = sheet.headings.iter().enumerate().map(column).collect::<anyhow::Result<Vec<_>>>()?;
+        columns.push((name.to_string(), array, true));
+    }
     Ok(RecordBatch::try_from_iter_with_nullable(columns)?)
 }

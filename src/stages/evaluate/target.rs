@@ -40,7 +40,7 @@ pub struct Bases {
 /// A base that meets a target, in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Base {
-    /// Of this width, and of the depth that the object has.
+    /// This width, with the depth that the object has.
     Width(f64),
     /// Where the depth is what is too small: with neither side smaller than this.
     BothSides(f64),

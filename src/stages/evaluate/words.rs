@@ -2,55 +2,27 @@
 
 use std::path::Path;
 
-use super::object::{Answer, ObjectRow};
 use crate::number;
 use crate::object::Part;
+use crate::report::answers::words_of_silent;
 use crate::stages::shared::model_args::words_of_kind;
-use crate::warning::{UNNAMED, Warning};
+use crate::table::answers::{Answer, ObjectRow};
+use crate::warning::Warning;
 
 /// The answer for all objects, the worst of which is the first.
 pub fn text<R>(
     all: &[Answer<R>],
-    of_one: impl FnOnce(&Answer<R>) -> String,
-    of_several: impl FnOnce() -> String,
+    tell: impl FnOnce(&Answer<R>) -> String,
+    tell_list: impl FnOnce() -> String,
 ) -> String {
     let text = match all {
         _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
-            all.iter().map(|answer| format!("{}: {}\n", title(&answer.object), brief(answer))).collect()
+            all.iter().map(|answer| format!("{}: {}\n", answer.object.title(), brief(answer))).collect()
         }
-        [answer] => of_one(answer),
-        _ => of_several(),
+        [answer] => tell(answer),
+        _ => tell_list(),
     };
     text + &all.iter().map(|answer| answer.explained.as_str()).collect::<String>()
-}
-
-/// An object that has a name by it, others by what they are.
-pub fn title(object: &ObjectRow) -> String {
-    let size = size(object);
-    match object.structure.as_str() {
-        UNNAMED => format!("{} of {size}", object.kind),
-        name => format!("{}, {size}", number::name(name)),
-    }
-}
-
-/// Width and height, else p and alpha; and the floor that it stands on.
-pub fn size(object: &ObjectRow) -> String {
-    let depth = object.depth_m.map_or(String::new(), |depth| format!(" x {}", number::length(depth)));
-    let size = match (object.width_m, object.height_m, object.p_rad_s, object.alpha_rad) {
-        (Some(width), Some(height), ..) => {
-            format!("{}{depth} x {} m", number::length(width), number::length(height))
-        }
-        (.., Some(p), Some(alpha)) => {
-            let [p, alpha] = [p, alpha].map(|value| number::significant(value, 3));
-            format!("p {p} rad/s, alpha {alpha}")
-        }
-        _ => "-".to_string(),
-    };
-    let floor = object.floor_level.zip(object.floor_period_s).map(|(level, period)| {
-        let [level, period] = [level, period].map(number::plain);
-        format!(" at level {level} of a {period} s building")
-    });
-    size + &floor.unwrap_or_default()
 }
 
 pub fn model(object: &ObjectRow) -> &str {
@@ -71,27 +43,24 @@ pub fn about_buildings<R>(all: &[Answer<R>]) -> Option<String> {
 
 /// What the answer for an object takes as given.
 pub fn validity<R>(answer: &Answer<R>) -> String {
-    let friction = || format!("Valid if friction is above {}; else it slides.", friction(&answer.object));
-    line([(!answer.object.is_friction_known).then(friction), about_buildings(std::slice::from_ref(answer))])
+    let friction = friction(&answer.object);
+    let friction = (!answer.object.is_friction_known)
+        .then(|| format!("Valid if friction is above {friction}; else it slides."));
+    line([friction, about_buildings(std::slice::from_ref(answer))])
 }
 
 pub fn friction(object: &ObjectRow) -> String {
     object.friction.map_or("-".to_string(), |friction| number::fixed(friction, 2))
 }
 
-pub fn too_far(object: &ObjectRow) -> String {
-    let limit_state = object.limit_state.unwrap_or(f64::NAN);
-    format!("rocks beyond {} of its slenderness", number::PERCENT.one(limit_state))
-}
-
 /// The largest part of the error, and what would narrow it: of PGV / PGA this advice.
-pub fn mostly_unknown<R>(answer: &Answer<R>, of_velocity: &str) -> Option<String> {
+pub fn mostly_unknown<R>(answer: &Answer<R>, about_velocity: &str) -> Option<String> {
     let part = answer.doubts.error_largest?;
     let advice = match part {
         Part::Fit if answer.responses > 0 => "",
         Part::Fit => "Calibrate it with records of the site (--fits).",
         Part::Magnitude => "Add --magnitude.",
-        Part::Velocity => of_velocity,
+        Part::Velocity => about_velocity,
         Part::Eta => "Measure it (--eta, --eta-sd).",
         Part::Object => "Measure its centre of mass.",
         Part::Floor => "Measure its period (--period, --period-sd).",
@@ -120,19 +89,27 @@ pub fn table<R>(
     out: Option<&Path>,
     cells: impl Fn(&Answer<R>) -> Vec<String>,
 ) -> String {
-    let responses = is_fitted_each(all).then_some("responses");
-    let heading =
-        ["object", "size"].into_iter().chain(headings.iter().copied()).chain(["warning"]).chain(responses);
-    let row = |answer: &Answer<R>| {
-        let name = [answer.object.structure.clone(), size(&answer.object)].into_iter();
-        let responses = responses.map(|_| number::count(answer.responses as usize));
-        name.chain(cells(answer)).chain([brief(answer)]).chain(responses).collect()
-    };
-    let heading = heading.map(str::to_string).collect();
+    let is_fitted_each = is_fitted_each(all);
+    let mut head = [&["object", "size"], headings, &["warning"]].concat();
+    head.extend(is_fitted_each.then_some("responses"));
+    let mut rows = vec![head.into_iter().map(str::to_string).collect()];
     let most = if out.is_some() || all.len() > PRINTED[1] { PRINTED[0] } else { all.len() };
     let (printed, others) = all.split_at(most.min(all.len()));
-    let rows: Vec<Vec<String>> = std::iter::once(heading).chain(printed.iter().map(row)).collect();
+    for answer in printed {
+        let floor = answer.object.floor().map_or(String::new(), |floor| format!(" at {floor}"));
+        let mut row = vec![answer.object.structure.clone(), answer.object.size() + &floor];
+        row.extend(cells(answer));
+        row.push(brief(answer));
+        row.extend(is_fitted_each.then(|| number::count(answer.responses as usize)));
+        rows.push(row);
+    }
     number::aligned(&rows, |_| false) + &where_others_are(others, out)
+}
+
+/// How many of all have no answer, for a line that says that nothing happens.
+pub fn where_silent<R>(all: &[Answer<R>]) -> String {
+    let silent = all.iter().filter(|answer| answer.object.p_rad_s.is_none()).count();
+    words_of_silent(silent, all.len()).map_or(String::new(), |words| format!(". {words}"))
 }
 
 /// How many objects are not printed, and where they are.

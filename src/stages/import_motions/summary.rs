@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use anyhow::bail;
 
 use crate::motion::MotionMeasures;
+use crate::number::listed;
 use crate::number::{count, counted, fixed};
-use crate::pipeline::options::listed;
 use crate::records::processing::{ImportedMotion, SourceFile};
 use crate::units::G_M_S2;
 

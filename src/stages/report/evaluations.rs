@@ -2,57 +2,79 @@
 
 use std::path::Path;
 
-use crate::report::rated::Evaluation;
+use crate::fragility::{LimitStates, Peak};
+use crate::hazard::{Fragility, FragilityPoint};
+use crate::number::Limited;
+use crate::report::answers::Evaluation;
 use crate::report::response::{TracedPoint, TracedResponse};
-use crate::stages::evaluate::{Answer, DoubtsRow, ObjectRow, RatesRow, pages};
+use crate::stages::evaluate::pages;
+use crate::statistics::Estimate;
 use crate::table::TableError;
+use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::provenance::Provenance;
 use crate::table::responses::TraceRow;
 use crate::table::rows;
+use crate::units::G_M_S2;
 
 /// The most responses that are drawn.
 const MOST_TRACES: usize = 50;
 
 /// The evaluation in a file.
 pub fn read(path: &Path, made: Option<&Provenance>) -> Result<Evaluation, TableError> {
-    let objects = rows::read::<ObjectRow>(path)?;
-    let rates = rows::read::<RatesRow>(path)?;
-    let doubts = rows::read::<DoubtsRow>(path)?;
-    let answers = objects.into_iter().zip(rates).zip(doubts);
+    let (objects, doubts) = (rows::read::<ObjectRow>(path)?, rows::read::<DoubtsRow>(path)?);
+    let answers = objects.into_iter().zip(rows::read::<RatesRow>(path)?).zip(doubts);
     let answers = answers.map(|((object, row), doubts)| Answer { object, row, doubts, ..Answer::default() });
-    let made = made.cloned().unwrap_or_default();
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Evaluation { file, ..pages::over_hazard(&answers.collect::<Vec<_>>(), &made) })
+    Ok(Evaluation { file, ..pages::over_hazard(answers.collect(), &made.cloned().unwrap_or_default()) })
+}
+
+/// The fragility curves of a file, those that need least first.
+pub fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> {
+    let mut all = Vec::new();
+    for curve in rows::read::<CurveRow>(path)?.chunk_by(|a, b| a.structure == b.structure) {
+        let points = curve.iter().map(|row| FragilityPoint {
+            intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or(f64::NAN),
+            p: LimitStates {
+                rocking: estimate(row.p_rocking),
+                failure: estimate(row.p_failure),
+                overturning: estimate(row.p_overturning),
+            },
+        });
+        let over = if curve[0].pga_g.is_some() { Peak::Pga } else { Peak::Pgv };
+        let object = ObjectRow { structure: curve[0].structure.clone(), ..ObjectRow::default() };
+        let curve = Some(Fragility::from_points(over, points.collect()));
+        let row = FragilityRow { over: Some(over), curve, ..FragilityRow::default() };
+        all.push(Answer { object, row, ..Answer::default() });
+    }
+    Ok(all)
+}
+
+fn estimate(p: Limited) -> Estimate {
+    let [value, low, high] = [p.value, p.low, p.high].map(|p| p.unwrap_or(f64::NAN));
+    Estimate { value, low, high }
 }
 
 /// The first responses over time of a file.
 pub fn read_traces(path: &Path) -> Result<Vec<TracedResponse>, TableError> {
-    let mut traces: Vec<TracedResponse> = Vec::new();
-    for row in rows::read::<TraceRow>(path)? {
-        let is_next =
-            traces.last().is_none_or(|last| last.motion != row.motion_id || last.structure != row.structure);
-        if is_next && traces.len() == MOST_TRACES {
-            break;
-        }
-        if is_next {
-            let (motion, structure) = (row.motion_id.clone(), row.structure.clone());
-            traces.push(TracedResponse {
-                motion,
-                structure,
-                alpha_rad: row.alpha_rad,
-                width_m: row.block_width_m,
-                height_m: row.block_height_m,
-                points: Vec::new(),
-            });
-        }
-        let Some(trace) = traces.last_mut() else { break };
-        trace.points.push(TracedPoint {
-            time_s: row.time_s,
-            theta_over_alpha: row.theta_over_alpha,
-            ground_m_s2: row.ground_acceleration_m_s2,
-            ground_m_s: row.ground_velocity_m_s,
-            event: row.solver_event,
-        });
+    let rows = rows::read::<TraceRow>(path)?;
+    let traces = rows.chunk_by(|a, b| a.motion_id == b.motion_id && a.structure == b.structure);
+    let traced = traces.take(MOST_TRACES).map(|trace| TracedResponse {
+        motion: trace[0].motion_id.clone(),
+        structure: trace[0].structure.clone(),
+        alpha_rad: trace[0].alpha_rad,
+        width_m: trace[0].block_width_m,
+        height_m: trace[0].block_height_m,
+        points: trace.iter().map(point).collect(),
+    });
+    Ok(traced.collect())
+}
+
+fn point(row: &TraceRow) -> TracedPoint {
+    TracedPoint {
+        time_s: row.time_s,
+        theta_over_alpha: row.theta_over_alpha,
+        ground_m_s2: row.ground_acceleration_m_s2,
+        ground_m_s: row.ground_velocity_m_s,
+        event: row.solver_event,
     }
-    Ok(traces)
 }

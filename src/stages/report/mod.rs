@@ -17,7 +17,7 @@ use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
 use crate::pipeline::{Stage, UsageError};
-use crate::report::{DPI, Figure, Page, made_in_words, png, svg};
+use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::TableError;
 use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
@@ -92,7 +92,9 @@ impl Stage for Report {
         }
         let tables = Tables::read(&paths)?;
         let mut notes = Vec::new();
-        let figures = figures::all(&tables, &mut notes)?;
+        let head = page::head(&tables)?;
+        let others = figures::all(&tables, &mut notes)?;
+        let figures: Vec<&Figure> = head.figures.iter().chain(&others).collect();
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().chain(&notes).map(|note| format!("{note}\n")).collect();
         let summary = format!("{}: {}\n{left_out}", page.display(), counted(figures.len(), "figure"));
@@ -102,11 +104,11 @@ impl Stage for Report {
         let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();
         write_figures(&page, &files, context)?;
         made.further = hashes(&page, &files);
-        let whole = page::page(&tables, figures, notes)?;
+        let whole = page::page(&tables, head, others, notes)?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
         let title = self.title.clone().unwrap_or(whole.title);
         let key = made.json();
-        let html = Page { title, byline, key, made: made_in_words(), ..whole }.html();
+        let html = Page { title, byline, key, ..whole }.html();
         context.write_file(&page, html.as_bytes())?;
         Ok(summary)
     }

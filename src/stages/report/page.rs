@@ -3,20 +3,19 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::tables::{Item, Kind, Tables};
-use crate::fragility::{Cases, DemandModel, Measure, Parameter, ParameterRow};
+use super::tables::{Kind, Tables};
+use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
+use crate::number::listed;
 use crate::number::{self, Limited, TWO_DIGITS};
-use crate::pipeline::options::listed;
-use crate::report::figures::common::{by, label_of_scaled, name};
+use crate::report::figures::common::{by, name, scaled_label};
 use crate::report::text::{literal, minus};
-use crate::report::{Column, Figure, Page, Section, Table, compare, list, object, response};
+use crate::report::{Column, Figure, Page, Section, Table, compare, fragility, list, object, response};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::{both, coefficient};
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::table::capacities::CapacityFitRow;
-use crate::units::G_M_S2;
 use crate::warning::Warnings;
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
@@ -24,7 +23,7 @@ const MOST_WARNINGS: usize = 3;
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
 /// of a list there are only these.
-const OF_RATES: &[&str] = &["list", "object", "compared", "map", "ida", "validation"];
+const OF_RATES: &[&str] = &["map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
@@ -48,37 +47,32 @@ validate: Validation compares predicted probabilities with the outcomes of motio
 evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
 surface, calibrated where there are responses.";
 
-/// The page of all tables: its head is that of the evaluations, else of the paper, of responses over time or
+/// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
-pub fn page(tables: &Tables, figures: Vec<Figure>, notes: Vec<String>) -> anyhow::Result<Page> {
-    let is_client = !tables.evaluations.is_empty();
-    let head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
-        ([], [], []) => of_responses(tables)?,
+pub fn head(tables: &Tables) -> anyhow::Result<Page> {
+    Ok(match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
+        ([], [], []) if !tables.fragilities.is_empty() => fragility::page(&tables.fragilities, None, None),
+        ([], [], []) => responses_page(tables)?,
         ([], [], traces) => response::page(traces),
-        ([], compared, _) => of_paper(tables, compared),
+        ([], compared, _) => paper_page(tables, compared),
         (evaluations, ..) => match (tables.comparison(), evaluations) {
             (Some([before, after]), _) => compare::page(before, after),
             (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
             (_, several) => list::page(several),
         },
-    };
+    })
+}
+
+/// The page of all tables, below its head.
+pub fn page(tables: &Tables, head: Page, figures: Vec<Figure>, notes: Vec<String>) -> anyhow::Result<Page> {
+    let is_client = !tables.evaluations.is_empty();
     let shown: &[&str] = match (is_client, tables.compared.is_empty()) {
         (true, _) => OF_RATES,
         (_, true) => OF_RESPONSES,
         _ => OF_PAPER,
     };
-    let is_shown =
-        |figure: &Figure| shown.contains(&figure.name.as_str()) || figure.name.starts_with("response-");
-    let (mut seen, more): (Vec<Figure>, Vec<Figure>) = figures.into_iter().partition(is_shown);
-    if let [figure, ..] = &head.figures[..] {
-        // The head has its own, without a title that would say the same again.
-        seen.retain(|other| other.name != figure.name);
-    }
-    if let ([figure], [_]) = (&mut seen[..], &head.moving[..]) {
-        // The page of one response has its title.
-        figure.title.clear();
-    }
-    let more = if is_client { Vec::new() } else { more };
+    let (seen, more): (Vec<Figure>, Vec<Figure>) =
+        figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
     let mut others = joined.lines();
@@ -86,25 +80,24 @@ pub fn page(tables: &Tables, figures: Vec<Figure>, notes: Vec<String>) -> anyhow
     if !is_client {
         all_notes.extend(others.drain(..others.len().min(MOST_WARNINGS)));
     }
+    let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let is_shown = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
-    let method = method.filter(|(stage, _)| is_shown(stage)).map(|(_, words)| words.to_string());
-    let section = |heading: &str| Section { heading: heading.to_string(), ..Section::default() };
-    let own = [
-        Section { figures: more, ..section("More figures") },
-        Section { paragraphs: method.collect(), ..section("Method") },
-        Section { paragraphs: others, tables: tests(tables)?, ..section("Tests and fits") },
-        Section { tables: vec![files(tables)], ..section("Files") },
-    ];
+    let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
+    let more = if is_client { Vec::new() } else { more };
     let mut sections = head.sections.clone();
-    sections.extend(own);
+    sections.extend([
+        Section { figures: more, ..Section::new("More figures") },
+        Section { paragraphs: method.collect(), ..Section::new("Method") },
+        Section { paragraphs: others, tables: tests(tables)?, ..Section::new("Tests and fits") },
+        Section { tables: vec![files(tables)], ..Section::new("Files") },
+    ]);
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     let facts = [head.facts.clone(), facts(tables)].concat();
     let figures = [head.figures.clone(), seen].concat();
     Ok(Page { facts, notes: all_notes, figures, sections, ..head })
 }
 
-fn of_paper(tables: &Tables, compared: &[Comparison]) -> Page {
+fn paper_page(tables: &Tables, compared: &[Comparison]) -> Page {
     Page {
         title: "The paper's fragilities, made again".to_string(),
         place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
@@ -114,7 +107,7 @@ fn of_paper(tables: &Tables, compared: &[Comparison]) -> Page {
     }
 }
 
-fn of_responses(tables: &Tables) -> anyhow::Result<Page> {
+fn responses_page(tables: &Tables) -> anyhow::Result<Page> {
     Ok(Page {
         title: match tables.groups.is_empty() {
             true => "Fits and motions".to_string(),
@@ -128,17 +121,20 @@ fn of_responses(tables: &Tables) -> anyhow::Result<Page> {
 
 /// By which motions, of which structures.
 fn facts(tables: &Tables) -> Vec<String> {
-    let motions = ["synthesize-motions", "import-motions"].map(|stage| tables.answer_of(stage));
-    let mut facts: Vec<String> =
-        motions.into_iter().flatten().map(|answer| format!("Motions: {}.", literal(answer))).collect();
-    let words = |Structure { name, p_rad_s, alpha_rad, eta }: &Structure| {
+    let mut facts = Vec::new();
+    for answer in ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.answer_of(stage))
+    {
+        facts.push(format!("Motions: {}.", literal(answer)));
+    }
+    let structures: Vec<&Structure> = tables.groups.iter().map(|cases| &cases.structure).collect();
+    let mut words: Vec<String> = Vec::new();
+    for same in by(structures, |structure| structure) {
+        let Structure { name, p_rad_s, alpha_rad, eta } = same[0];
         let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
-        format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", literal(name))
-    };
-    let structures = by(&tables.groups, |cases| words(&cases.structure));
-    let structures: Vec<String> = structures.iter().map(|same| words(&same[0].structure)).collect();
-    if !structures.is_empty() {
-        facts.push(format!("Structures: {}.", listed(&structures, MOST_NAMED)));
+        words.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", literal(name)));
+    }
+    if !words.is_empty() {
+        facts.push(format!("Structures: {}.", listed(&words, MOST_NAMED)));
     }
     facts
 }
@@ -146,58 +142,74 @@ fn facts(tables: &Tables) -> Vec<String> {
 /// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
     let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
-    let has_any = |field: &&str| rows.iter().any(|row| !row[*field].is_null());
-    let fields: Vec<&str> = fields.split('|').filter(has_any).collect();
-    let plain = |text: &str| if text.contains('{') { text.to_string() } else { text.replace('_', " ") };
-    let is_number = |value: &Value| match value {
+    let (mut columns, mut cells) = (Vec::new(), vec![Vec::new(); rows.len()]);
+    for field in fields.split('|').filter(|field| rows.iter().any(|row| !row[*field].is_null())) {
+        let is_name = ["structure", "file"].contains(&field);
+        let is_number = !is_name && rows.iter().any(|row| is_number(&row[field]));
+        columns.push(Column { head: spaced(field), is_number });
+        for (cells, row) in cells.iter_mut().zip(&rows) {
+            cells.push(if is_name {
+                literal(row[field].as_str().unwrap_or_default())
+            } else {
+                cell(&row[field])
+            });
+        }
+    }
+    Table { caption: caption.to_string(), columns, rows: cells }
+}
+
+/// A name of the program in words; marked text stays.
+fn spaced(text: &str) -> String {
+    if text.contains('{') { text.to_string() } else { text.replace('_', " ") }
+}
+
+fn is_number(value: &Value) -> bool {
+    match value {
         Value::String(text) => text.starts_with(|sign: char| "0123456789-\u{2212}".contains(sign)),
         other => other.is_number(),
-    };
-    let is_name = |field: &str| ["structure", "file"].contains(&field);
-    let is_measure = |text: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == text);
-    let cell = |field: &str, value: &Value| match value {
+    }
+}
+
+fn cell(value: &Value) -> String {
+    match value {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
-        Value::String(text) if is_name(field) => literal(text),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
-        Value::String(text) if is_measure(text) => text.to_uppercase(),
-        Value::String(text) => plain(text),
+        Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.as_str() == text) => {
+            text.to_uppercase()
+        }
+        Value::String(text) => spaced(text),
         _ => String::new(),
-    };
-    let column = |field: &&str| Column {
-        head: plain(field),
-        is_number: !is_name(field) && rows.iter().any(|row| is_number(&row[*field])),
-    };
-    let cells = |row: &Value| fields.iter().map(|field| cell(field, &row[*field])).collect();
-    let columns = fields.iter().map(column).collect();
-    Table { caption: caption.to_string(), columns, rows: rows.iter().map(cells).collect() }
+    }
 }
 
 /// Table II: published over ours.
 fn planes(compared: &[Comparison]) -> Table {
-    let row = |plane: &Comparison| {
-        let cell = |name: &str| coefficient(compared, plane, name).map(|number| minus(both(number)));
-        json!({
+    let mut rows = Vec::new();
+    for plane in compared.iter().filter(|number| number.quantity.ends_with("_plane")) {
+        let [ln_a, b1, b2, r2] = ["ln_a", "b1", "b2", "r2"]
+            .map(|name| coefficient(compared, plane, name).map(|number| minus(both(number))));
+        rows.push(json!({
             "structure": plane.structure, "motions": plane.suite,
             "plane": if plane.quantity == "low_plane" { "below" } else { "above" },
-            "ln *a*": cell("ln_a"), "*b*_{1}": cell("b1"), "*b*_{2}": cell("b2"), "*R*^{2}": cell("r2"),
-        })
-    };
-    let of_planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
+            "ln *a*": ln_a, "*b*_{1}": b1, "*b*_{2}": b2, "*R*^{2}": r2,
+        }));
+    }
     table(
         "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* \
          is their difference over the standard deviation between seeds.",
-        of_planes.map(row),
+        rows,
         "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}",
     )
 }
 
 fn overturned(groups: &[Cases]) -> String {
-    let of = |cases: &Cases| {
+    let mut sentences = Vec::new();
+    for cases in groups.iter().take(MOST_NAMED) {
         let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
-        format!("{events} of {all} motions overturn {}", name(cases))
-    };
-    groups.iter().take(MOST_NAMED).map(of).collect::<Vec<_>>().join("; ") + "."
+        sentences.push(format!("{events} of {all} motions overturn {}", name(cases)));
+    }
+    sentences.join("; ") + "."
 }
 
 /// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
@@ -205,86 +217,90 @@ fn overturned(groups: &[Cases]) -> String {
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows(Kind::CapacityFits)?;
     let median = match capacities.first() {
-        Some(fit) => format!("median of the lowest overturning {}", label_of_scaled(fit.measure)),
+        Some(fit) => format!("median of the lowest overturning {}", scaled_label(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
-    let row = |cases: &Cases| {
+    let mut rows = Vec::new();
+    for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
-        let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
-        let of_capacity = capacity.map(|fit| [fit.theta, fit.beta]);
-        let of_curve = || {
-            let curve = tables.fits.curve(cases, Measure::Im5, None);
-            let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-            let pgv = G_M_S2 * cases.structure.alpha_rad.tan() / cases.structure.p_rad_s;
-            [(Parameter::Theta, pgv), (Parameter::Beta, 1.0)].map(|(which, unit)| {
-                let row = parameters.iter().find(|row| row.parameter == which);
-                let scaled = |row: &ParameterRow| Limited::from(row.estimate()).map(|value| unit * value);
-                row.map(scaled).unwrap_or_default()
-            })
+        let (theta, beta) = match capacity {
+            Some(fit) => (fit.theta, fit.beta),
+            None => curve_parameters(tables, cases),
         };
-        let [theta, beta] = of_capacity.unwrap_or_else(of_curve).map(|of| TWO_DIGITS.both(of, ""));
-        json!({
+        rows.push(json!({
             "structure": cases.structure.name, "motions": cases.suite, "number": cases.all.len(),
             "rock": cases.all.len() - cases.count(Outcome::NoRocking),
             "overturn": cases.count(Outcome::Overturned),
-            "as often as the surface predicts": often,
-            (median.as_str()): theta, "dispersion": beta,
-        })
-    };
+            "as often as the surface predicts":
+                often.map(|often| format!("{} times", number::significant(often, 2))),
+            (median.as_str()): TWO_DIGITS.both(theta, ""), "dispersion": TWO_DIGITS.both(beta, ""),
+        }));
+    }
     let fields = format!(
         "structure|motions|number|rock|overturn|as often as the surface predicts|{median}|dispersion"
     );
-    Ok(table(
-        "Motions that rock and overturn each structure, with 95 % limits",
-        tables.groups.iter().map(row),
-        &fields,
-    ))
+    Ok(table("Motions that rock and overturn each structure, with 95 % limits", rows, &fields))
+}
+
+/// Median PGV, m/s, and dispersion by the paper's curve over IM5.
+fn curve_parameters(tables: &Tables, cases: &Cases) -> (Limited, Limited) {
+    let curve = tables.fits.curve(cases, Measure::Im5, None);
+    let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
+    let [theta, beta] = [Parameter::Theta, Parameter::Beta].map(|which| {
+        let row = parameters.iter().find(|row| row.parameter == which);
+        row.map_or(Limited::default(), |row| row.estimate().into())
+    });
+    let pgv_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
+    (theta.map(|im5| im5 * pgv_m_s), beta)
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let is_of_plane =
-        |number: &&Comparison| ["low_", "high_"].iter().any(|side| number.quantity.starts_with(side));
-    let published = tables.compared.iter().filter(|number| !is_of_plane(number));
+    let published = tables
+        .compared
+        .iter()
+        .filter(|number| !["low_", "high_"].iter().any(|side| number.quantity.starts_with(side)));
     let planes = tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
-    let validations = table(
+    let mut all = Vec::new();
+    // The page of responses has their outcomes above.
+    if !(tables.evaluations.is_empty() && tables.compared.is_empty()) {
+        all.push(outcomes(tables)?);
+    }
+    // A client's page has no curves and planes of the paper.
+    if tables.evaluations.is_empty() {
+        all.extend([
+            table(
+                "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
+                 over seeds",
+                published,
+                "quantity|structure|suite|published|ours|mean|sd|z",
+            ),
+            table(
+                "Lognormal curves of overturning",
+                &tables.fits.curves,
+                "structure|suite|im_x|im_y|auc|n|n_events|status",
+            ),
+            table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
+        ]);
+    }
+    all.push(table(
         "Validation: events observed and expected",
         validations,
         "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
-    );
-    let of_paper = [
-        table(
-            "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
-             over seeds",
-            published,
-            "quantity|structure|suite|published|ours|mean|sd|z",
-        ),
-        table(
-            "Lognormal curves of overturning",
-            &tables.fits.curves,
-            "structure|suite|im_x|im_y|auc|n|n_events|status",
-        ),
-        table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
-    ];
-    let mut all = match (&tables.evaluations[..], &tables.compared[..]) {
-        ([], []) => Vec::from(of_paper),
-        ([], _) => [vec![outcomes(tables)?], Vec::from(of_paper)].concat(),
-        // A client's page has no curves and planes of the paper.
-        _ => vec![outcomes(tables)?],
-    };
-    all.push(validations);
+    ));
     all.retain(|table| !table.rows.is_empty());
     Ok(all)
 }
 
 fn files(tables: &Tables) -> Table {
-    let row = |item: &Item| {
+    let mut rows = Vec::new();
+    for item in &tables.items {
         let by = match &item.made {
             Some(made) => format!("{} {}", made.stage, made.version),
             None => "another program".to_string(),
         };
-        json!({ "file": item.name(), "holds": item.words(), "made by": by, "rows": item.rows })
-    };
-    table("", tables.items.iter().map(row), "file|holds|made by|rows")
+        rows.push(json!({ "file": item.name(), "holds": item.kind, "made by": by, "rows": item.rows }));
+    }
+    table("", rows, "file|holds|made by|rows")
 }

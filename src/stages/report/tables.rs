@@ -2,17 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
+use arrow_schema::Schema;
+
 use super::evaluations;
 use crate::fragility::{Calibration, Cases, Event};
+use crate::keyword::{Keyword, keywords};
 use crate::paper;
+use crate::report::answers::Evaluation;
 use crate::report::compare;
 use crate::report::figures::Fits;
-use crate::report::rated::Evaluation;
 use crate::report::response::TracedResponse;
 use crate::rocking::Outcome;
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
+use crate::table::answers::{Answer, FragilityRow};
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
 use crate::table::motions::{self, Motion};
@@ -20,50 +24,65 @@ use crate::table::provenance::{Provenance, joined};
 use crate::table::rows::{self, Row};
 use crate::table::writer::MOTIONS_IN_GROUP;
 
-/// What a table holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Scenarios,
-    Motions,
-    Traces,
-    Stripes,
-    Responses,
-    Capacities,
-    CapacityFits,
-    Rates,
-    Probabilities,
-    Calibrations,
-    Curves,
-    Planes,
-    Parameters,
-    Paper,
-    Validation,
-    Reliability,
-    Ranking,
-    Other,
+keywords! {
+    /// What a table holds, in words.
+    pub enum Kind {
+        Motions = "motions",
+        Traces = "responses over time",
+        Stripes = "stripes",
+        Responses = "responses",
+        Capacities = "overturning intensities",
+        CapacityFits = "distributions of overturning intensities",
+        Rates = "annual rates",
+        Fragility = "fragility curves",
+        Probabilities = "probabilities under motions",
+        Calibrations = "calibrations",
+        Curves = "curves of overturning",
+        Planes = "regressions of the demand",
+        Parameters = "parameters of fits",
+        Paper = "numbers of the paper",
+        Reliability = "observed shares",
+        Validation = "validation",
+        Ranking = "ranking of measures",
+        Scenarios = "scenarios",
+        Other = "another program's table",
+    }
 }
 
-/// Columns by which each kind is known, and what it is called; the first that has all counts.
-const KINDS: [(Kind, &str, &str); 18] = [
-    (Kind::Motions, "acceleration_m_s2 dt_s", "motions"),
-    (Kind::Traces, "theta_over_alpha time_s", "responses over time"),
-    (Kind::Stripes, "outcome intensity scale", "stripes"),
-    (Kind::Responses, "outcome edp alpha_rad", "responses"),
-    (Kind::Capacities, "capacity overturning_intensity", "overturning intensities"),
-    (Kind::CapacityFits, "theta beta n_safe", "distributions of overturning intensities"),
-    (Kind::Rates, "overturning_per_year p_overturning", "annual rates"),
-    (Kind::Probabilities, "p_ro", "probabilities under motions"),
-    (Kind::Probabilities, "p_overturns", "probabilities under motions"),
-    (Kind::Calibrations, "ln_s tau n_clusters", "calibrations"),
-    (Kind::Curves, "event coefficients aic", "curves of overturning"),
-    (Kind::Planes, "model coefficients range_low", "regressions of the demand"),
-    (Kind::Parameters, "parameter value standard_error", "parameters of fits"),
-    (Kind::Paper, "published ours", "numbers of the paper"),
-    (Kind::Reliability, "predicted share", "observed shares"),
-    (Kind::Validation, "observed expected log_score", "validation"),
-    (Kind::Ranking, "loss rank measures", "ranking of measures"),
-    (Kind::Scenarios, "scenario_id gamma", "scenarios"),
-];
+impl Kind {
+    /// Columns by which it is known; the first kind of which a table has all counts.
+    fn columns(self) -> &'static str {
+        match self {
+            Kind::Motions => "acceleration_m_s2 dt_s",
+            Kind::Traces => "theta_over_alpha time_s",
+            Kind::Stripes => "outcome intensity scale",
+            Kind::Responses => "outcome edp alpha_rad",
+            Kind::Capacities => "capacity overturning_intensity",
+            Kind::CapacityFits => "theta beta n_safe",
+            Kind::Rates => "overturning_per_year p_overturning",
+            Kind::Fragility => "p_rocking p_failure p_overturning",
+            Kind::Probabilities => "p_ro",
+            Kind::Calibrations => "ln_s tau n_clusters",
+            Kind::Curves => "event coefficients aic",
+            Kind::Planes => "model coefficients range_low",
+            Kind::Parameters => "parameter value standard_error",
+            Kind::Paper => "published ours",
+            Kind::Reliability => "predicted share",
+            Kind::Validation => "observed expected log_score",
+            Kind::Ranking => "loss rank measures",
+            Kind::Scenarios => "scenario_id gamma",
+            Kind::Other => "",
+        }
+    }
+
+    fn from_schema(schema: &Schema) -> Kind {
+        let has_all = |kind: &&Kind| {
+            let mut columns = kind.columns().split(' ').filter(|column| !column.is_empty());
+            columns.all(|column| schema.index_of(column).is_ok())
+        };
+        Kind::ALL.iter().find(has_all).copied().unwrap_or(Kind::Other)
+    }
+}
 
 /// Tables of which the page shows nothing of their own: others are made of them, or stand beside them.
 const SILENT: [Kind; 4] = [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities];
@@ -81,8 +100,7 @@ pub struct Item {
 impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
         let table = Table::open(path)?;
-        let has = |columns: &str| columns.split(' ').all(|column| table.schema().index_of(column).is_ok());
-        let kind = KINDS.iter().find(|(_, columns, _)| has(columns)).map_or(Kind::Other, |(kind, ..)| *kind);
+        let kind = Kind::from_schema(table.schema());
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
@@ -96,14 +114,6 @@ impl Item {
     pub fn name(&self) -> String {
         self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
-
-    /// What it holds, in words.
-    pub fn words(&self) -> &'static str {
-        KINDS
-            .iter()
-            .find(|(kind, ..)| *kind == self.kind)
-            .map_or("another program's table", |(.., words)| words)
-    }
 }
 
 /// What most of the report needs; further tables are read where they are shown.
@@ -115,6 +125,7 @@ pub struct Tables {
     pub fits: Fits,
     pub compared: Vec<Comparison>,
     pub evaluations: Vec<Evaluation>,
+    pub fragilities: Vec<Answer<FragilityRow>>,
     pub traces: Vec<TracedResponse>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
@@ -141,8 +152,6 @@ impl Tables {
         tables.leave_out_strangers();
         let groups = tables.of(Kind::Responses).map(|item| responses::read(&item.path));
         tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        let overturning =
-            |cases: &Cases| cases.count(Outcome::Overturned) as f64 / cases.all.len().max(1) as f64;
         if tables.groups.len() > 2 {
             tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
         }
@@ -156,88 +165,73 @@ impl Tables {
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
         tables.compared = tables.rows(Kind::Paper)?;
-        let evaluations: Vec<Evaluation> = tables
-            .of(Kind::Rates)
-            .map(|item| evaluations::read(&item.path, item.made.as_ref()))
-            .collect::<Result<_, _>>()?;
-        tables.keep_of_one_time(evaluations);
-        let traced = tables
-            .of(Kind::Traces)
-            .map(|item| evaluations::read_traces(&item.path))
-            .collect::<Result<Vec<_>, _>>()?;
-        tables.traces = traced.into_iter().flatten().collect();
         for item in &tables.items {
-            if matches!(item.kind, Kind::Other | Kind::Probabilities) {
-                let (name, words) = (item.name(), item.words());
-                tables.left_out.push(format!("{name} is not shown: it holds {words}."));
+            match item.kind {
+                Kind::Rates => tables.evaluations.push(evaluations::read(&item.path, item.made.as_ref())?),
+                Kind::Fragility => tables.fragilities.extend(evaluations::read_fragility(&item.path)?),
+                Kind::Traces => tables.traces.extend(evaluations::read_traces(&item.path)?),
+                Kind::Other | Kind::Probabilities => {
+                    let (name, words) = (item.name(), item.kind);
+                    tables.left_out.push(format!("{name} is not shown: it holds {words}."));
+                }
+                _ => {}
             }
+        }
+        // Probabilities in other times do not compare.
+        let first = tables.evaluations.first().map_or(String::new(), |first| first.when.clone());
+        for other in tables.evaluations.extract_if(.., |evaluation| evaluation.when != first) {
+            let Evaluation { file, when, .. } = other;
+            tables.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
         }
         Ok(tables)
-    }
-
-    /// Keeps the evaluations of the first one's exposure time: probabilities in other times do not compare.
-    fn keep_of_one_time(&mut self, evaluations: Vec<Evaluation>) {
-        let first = evaluations.first().map(|first| (first.years, first.when.clone()));
-        for evaluation in evaluations {
-            match first.as_ref().is_none_or(|(years, _)| *years == evaluation.years) {
-                true => self.evaluations.push(evaluation),
-                false => {
-                    let (file, when) = (&evaluation.file, &evaluation.when);
-                    let first = first.as_ref().map_or("", |(_, when)| when);
-                    self.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
-                }
-            }
-        }
     }
 
     /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
     /// names of structures alone do not tell.
     fn leave_out_strangers(&mut self) {
-        let keys = |kind: Kind| -> Vec<String> { self.of(kind).map(|item| item.key.clone()).collect() };
-        let of_flag = |kind: Kind, flag: &str| -> Vec<String> {
-            self.of(kind).filter_map(|item| item.input(flag)).collect()
+        let responses = match &self.keys(Kind::Responses)[..] {
+            [] => self.inputs(Kind::Curves, "in").into_iter().take(1).collect(),
+            keys => keys.to_vec(),
         };
-        let or = |first: Vec<String>, second: Vec<String>| if first.is_empty() { second } else { first };
-        let responses = or(keys(Kind::Responses), of_flag(Kind::Curves, "in").into_iter().take(1).collect());
-        let motions = or(of_flag(Kind::Responses, "in"), keys(Kind::Motions));
-        let (fits, calibrations) = (keys(Kind::Curves), keys(Kind::Calibrations));
-        let rules: [(&[Kind], &str, &[String], &str); 5] = [
-            (
-                &[Kind::Planes, Kind::Curves, Kind::Calibrations, Kind::Parameters, Kind::Ranking],
-                "in",
-                &responses,
-                "responses",
-            ),
-            (&[Kind::Capacities, Kind::CapacityFits, Kind::Stripes], "in", &motions, "motions"),
-            (&[Kind::Paper], "pro", &fits, "fits"),
-            (&[Kind::Validation, Kind::Reliability, Kind::Rates], "fits", &calibrations, "fits"),
-            (&[Kind::Motions], "", &motions, "responses"),
-        ];
-        let mut left_out = Vec::new();
-        let stranger = |item: &Item| -> Option<&str> {
-            let (.., flag, expected, what) = rules.iter().find(|(kinds, ..)| kinds.contains(&item.kind))?;
-            let has = if flag.is_empty() { Some(item.key.clone()) } else { item.input(flag) };
-            // The motions of the ground may stand beside those of a floor that were made of them.
-            let is_ground =
-                item.kind == Kind::Motions && keys(Kind::Motions).iter().any(|key| motions.contains(key));
-            let is_stranger = !expected.is_empty() && has.is_some_and(|has| !expected.contains(&has));
-            (is_stranger && !is_ground).then_some(*what)
+        let motions = match &self.inputs(Kind::Responses, "in")[..] {
+            [] => self.keys(Kind::Motions),
+            inputs => inputs.to_vec(),
         };
+        let (fits, calibrations) = (self.keys(Kind::Curves), self.keys(Kind::Calibrations));
+        // The motions of the ground may stand beside those of a floor that were made of them.
+        let has_motions = self.keys(Kind::Motions).iter().any(|key| motions.contains(key));
         let mut kept = Vec::new();
-        let told: Vec<Option<String>> =
-            self.items.iter().map(|item| stranger(item).map(str::to_string)).collect();
-        for (item, what) in std::mem::take(&mut self.items).into_iter().zip(told) {
-            match what {
-                None => kept.push(item),
-                Some(what) => {
-                    if !SILENT.contains(&item.kind) && item.kind != Kind::Calibrations {
-                        left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
-                    }
+        for item in std::mem::take(&mut self.items) {
+            let (has, expected, what) = match item.kind {
+                Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters | Kind::Ranking => {
+                    (item.input("in"), &responses, "responses")
                 }
+                Kind::Capacities | Kind::CapacityFits | Kind::Stripes => {
+                    (item.input("in"), &motions, "motions")
+                }
+                Kind::Paper => (item.input("pro"), &fits, "fits"),
+                Kind::Validation | Kind::Reliability | Kind::Rates => {
+                    (item.input("fits"), &calibrations, "fits")
+                }
+                Kind::Motions if !has_motions => (Some(item.key.clone()), &motions, "responses"),
+                _ => (None, &motions, ""),
+            };
+            if expected.is_empty() || has.is_none_or(|has| expected.contains(&has)) {
+                kept.push(item);
+            } else if !SILENT.contains(&item.kind) && item.kind != Kind::Calibrations {
+                self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
             }
         }
         self.items = kept;
-        self.left_out = left_out;
+    }
+
+    fn keys(&self, kind: Kind) -> Vec<String> {
+        self.of(kind).map(|item| item.key.clone()).collect()
+    }
+
+    /// The keys of the files that an option of the stage has read.
+    fn inputs(&self, kind: Kind, flag: &str) -> Vec<String> {
+        self.of(kind).filter_map(|item| item.input(flag)).collect()
     }
 
     /// Two evaluations of objects of the same names: before and after, in the order of the files.
@@ -280,6 +274,11 @@ impl Tables {
         let some = part.map(|part| motions::read_part(&table, part?, MOTIONS_IN_GROUP)?.next().transpose());
         Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
     }
+}
+
+/// The share of the motions that overturn.
+fn overturning(cases: &Cases) -> f64 {
+    cases.count(Outcome::Overturned) as f64 / cases.all.len().max(1) as f64
 }
 
 /// A file; of a folder its tables, and folders of partitions in it.

@@ -7,9 +7,9 @@ use std::collections::HashSet;
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
-use crate::number::counted;
+use crate::number::{counted, listed};
 use crate::object::{Object, Subject};
-use crate::pipeline::options::{listed, number};
+use crate::pipeline::options::number;
 use crate::pipeline::paths::{FitsFolder, Read};
 use crate::pipeline::{InRun, UsageError};
 use crate::rocking::Structure;

@@ -1,0 +1,211 @@
+//! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
+
+use crate::fragility::Peak;
+use crate::hazard::{Fragility, RateByIntensity};
+use crate::number::{self, Limited, PERCENT};
+use crate::table::answers::{Answer, ObjectRow, RatesRow};
+use crate::warning::UNNAMED;
+
+use super::text::literal;
+
+/// An object, and how often it reaches each limit state.
+pub type Rated = Answer<RatesRow>;
+
+/// An evaluation of objects over the hazard of a site, or under one motion.
+#[derive(Debug, Clone, Default)]
+pub struct Evaluation {
+    /// Name of its file, where there are several.
+    pub file: String,
+    /// The exposure time or the motion, in words: `in 50 years`.
+    pub when: String,
+    /// Probability of overturning that is aimed at.
+    pub target: Option<f64>,
+    /// The hazard, in words.
+    pub hazard: String,
+    /// Key of the hazard: the same for the same files.
+    pub hazard_key: String,
+    pub rows: Vec<Rated>,
+    pub portrait: Portrait,
+}
+
+/// What the page of a single object shows beside its row.
+#[derive(Debug, Clone, Default)]
+pub struct Portrait {
+    pub outline: Option<Outline>,
+    pub fragility: Option<Fragility>,
+    pub hazard: Option<SiteHazard>,
+    /// What would change the answer, with the probability of overturning; as it is first.
+    pub changes: Vec<(String, Limited)>,
+}
+
+/// An object in the plane in which it rocks, m.
+#[derive(Debug, Clone, Copy)]
+pub struct Outline {
+    pub width: f64,
+    pub height: f64,
+    pub centre_height: f64,
+    pub centre_offset: f64,
+    pub alpha_rad: f64,
+}
+
+/// How often an intensity is exceeded at the site, and where the rate of overturning comes from.
+#[derive(Debug, Clone)]
+pub struct SiteHazard {
+    pub peak: Peak,
+    /// Intensities, m/s2 or m/s, and annual rates of exceedance.
+    pub points: Vec<(f64, f64)>,
+    pub parts: RateByIntensity,
+}
+
+impl ObjectRow {
+    /// The name; none where it was given without one.
+    pub fn name(&self) -> Option<&str> {
+        Some(self.structure.as_str()).filter(|name| *name != UNNAMED)
+    }
+
+    /// Width, depth and height, else p and alpha.
+    pub fn size(&self) -> String {
+        let sides = [self.width_m, self.depth_m, self.height_m].into_iter().flatten().map(number::length);
+        match (self.width_m.zip(self.height_m), self.p_rad_s.zip(self.alpha_rad)) {
+            (Some(_), _) => format!("{} m", sides.collect::<Vec<_>>().join(" x ")),
+            (_, Some((p, alpha))) => {
+                let [p, alpha] = [p, alpha].map(|value| number::significant(value, 3));
+                format!("p {p} rad/s, alpha {alpha}")
+            }
+            _ => "-".to_string(),
+        }
+    }
+
+    /// The size with the signs of a page.
+    pub fn set_size(&self) -> String {
+        self.size().replace(" x ", " × ").replace("alpha", "α")
+    }
+
+    /// The floor that it stands on: `level 0.6 of a 0.5 s building`; none on the ground.
+    pub fn floor(&self) -> Option<String> {
+        let floor = self.floor_level.zip(self.floor_period_s)?;
+        let [level, period] = [floor.0, floor.1].map(|value| number::plain((100.0 * value).round() / 100.0));
+        Some(format!("level {level} of a {period} s building"))
+    }
+
+    /// What it is called without a name, in a text: `Block of 0.50 x 1.90 m at level 1 of a 0.5 s building`.
+    pub fn title(&self) -> String {
+        let floor = self.floor().map_or(String::new(), |floor| format!(" at {floor}"));
+        match self.name() {
+            Some(name) => format!("{}, {}{floor}", number::name(name), self.size()),
+            None => format!("{} of {}{floor}", self.kind(), self.size()),
+        }
+    }
+
+    /// The name, or what it is: marked text.
+    pub fn marked_name(&self) -> String {
+        self.name().map_or_else(|| format!("{} of {}", self.kind(), self.set_size()), literal)
+    }
+
+    /// The name and the size, for the title of a page.
+    pub fn marked_title(&self) -> String {
+        let size = self.name().map_or(String::new(), |_| format!(", {}", self.set_size()));
+        self.marked_name() + &size
+    }
+
+    fn kind(&self) -> &'static str {
+        if self.kind.is_empty() { "Object" } else { self.kind }
+    }
+
+    pub fn too_far(&self) -> String {
+        format!("rocks beyond {} of its slenderness", PERCENT.one(self.limit_state.unwrap_or(0.1)))
+    }
+}
+
+/// The exposure time in words: `in 50 years`.
+pub fn in_years(years: f64) -> String {
+    format!("in {} year{}", number::plain(years), if years == 1.0 { "" } else { "s" })
+}
+
+/// Said of an object that could rock, but has no rate.
+pub const NO_RATE: &str =
+    "has no rate of overturning: its model has no probability for some motions of the hazard";
+
+/// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
+/// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
+const BANDS: [f64; 2] = [0.02, 0.1];
+
+/// The bands in words.
+pub const BAND_NAMES: [&str; 3] = ["below 2 %", "2 to 10 %", "above 10 %"];
+
+impl Answer<RatesRow> {
+    /// The probability of overturning by which objects are sorted: where there is no value its upper end.
+    pub fn severity(&self) -> f64 {
+        let p = self.row.p_overturning;
+        p.value.or(p.high).unwrap_or(f64::NEG_INFINITY)
+    }
+
+    pub fn is_answered(&self) -> bool {
+        self.severity() >= 0.0
+    }
+
+    pub fn band(&self) -> usize {
+        BANDS.iter().filter(|end| self.severity() > **end).count()
+    }
+
+    /// The sentence that answers how likely it overturns.
+    pub fn sentence(&self, when: &str) -> String {
+        let p = self.row.p_overturning;
+        let limits = PERCENT.limits(p, "95 % limits ");
+        let often = format!("overturns with a probability of {} {when}", PERCENT.value(p));
+        match (p.value, p.high, self.row.return_period_years) {
+            (Some(0.0), ..) => "does not overturn: nothing of the hazard uplifts it".to_string(),
+            (Some(_), _, Some(years)) => format!("{often} {limits}: once in {} years", number::period(years)),
+            (Some(_), ..) => format!("{often} {limits}"),
+            (_, Some(_), _) => format!("{often}: the hazard ends too early for one number"),
+            _ if self.object.p_rad_s.is_none() => "has no answer".to_string(),
+            _ => NO_RATE.to_string(),
+        }
+    }
+}
+
+/// How many objects of a list are expected to overturn, and how likely at least one does.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Expected {
+    /// With the lower ends of what is known as a range alone.
+    pub least: f64,
+    /// With the upper ends.
+    pub most: f64,
+    /// The number of all objects.
+    pub all: f64,
+    /// If all fall together: the probability of the worst.
+    pub together: f64,
+    /// If each falls by itself.
+    pub independent: f64,
+}
+
+impl Expected {
+    pub fn new<'a>(rows: impl IntoIterator<Item = &'a Rated>) -> Expected {
+        let (mut sum, mut ln_none) = (Expected::default(), 0.0);
+        for rated in rows {
+            let (count, Limited { value, low, high }) =
+                (rated.object.count.unwrap_or(1.0), rated.row.p_overturning);
+            let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else {
+                continue;
+            };
+            sum.all += count;
+            sum.least += count * low;
+            sum.most += count * high;
+            sum.together = sum.together.max(low);
+            ln_none += count * (-high).ln_1p();
+        }
+        Expected { independent: -f64::exp_m1(ln_none), ..sum }
+    }
+
+    /// The expected number, or its range.
+    pub fn number(&self) -> String {
+        let (low, high) = (number::significant(self.least, 2), number::significant(self.most, 2));
+        if low == high { low } else { format!("{low} to {high}") }
+    }
+}
+
+/// How many of all have no answer: `For 2 of 15 there is no answer.`
+pub fn words_of_silent(silent: usize, all: usize) -> Option<String> {
+    (silent > 0)
+        .then(|| format!("For {} of {} there is no answer.", number::count(silent), number::count(all)))
+}

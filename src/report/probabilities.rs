@@ -1,0 +1,68 @@
+//! Probabilities in rows: names, values with their limits, words beside them, and a target.
+
+use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
+use crate::number::{Limited, PERCENT};
+
+/// A row of a panel.
+pub struct Row {
+    /// Marked text.
+    pub name: String,
+    /// Probabilities in their colours, one below the other.
+    pub values: Vec<(Ink, Limited)>,
+    /// To the right of them.
+    pub words: String,
+}
+
+impl Row {
+    /// A row of one probability, with its value beside it.
+    pub fn new(name: String, ink: Ink, p: Limited) -> Row {
+        Row { name, values: vec![(ink, p)], words: PERCENT.value(p) }
+    }
+}
+
+/// How far apart the values of a row stand, rows.
+const APART: f64 = 0.34;
+
+/// An axis in percent over all of these, with room for words at the right.
+pub fn axis(label: &str, all: impl IntoIterator<Item = Limited>) -> Axis {
+    let ends = all.into_iter().flat_map(|p| [p.value, p.low, p.high]).flatten();
+    let values: Vec<f64> = ends.filter(|p| *p > 0.0).map(|p| 100.0 * p).collect();
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(0.0, f64::max);
+    let axis = Axis::log(&format!("{label}, %"));
+    if low < high { axis.over(low / 1.3, high * (high / low).powf(0.3).max(1.6)) } else { axis }
+}
+
+/// A panel of rows; `labels` name the colours in the legend, the last one drawn last.
+pub fn panel(title: &str, x: Axis, rows: &[Row], labels: &[(Ink, &str)], target: Option<f64>) -> Panel {
+    let names = Axis::names(rows.iter().map(|row| row.name.clone()));
+    let mut panel = Panel::new(title, x, names, Vec::new());
+    if let Some(target) = target {
+        let text = format!("target {}", PERCENT.one(target));
+        let words = Words { x: 100.0 * target, y: -0.5, text, side: Side::Above, ink: Ink::Muted };
+        panel.add_upright(words, rows.len() as f64 - 0.5);
+    }
+    for (ink, label) in labels {
+        let mut marks = Vec::new();
+        for (at, row) in rows.iter().enumerate() {
+            let middle = 0.5 * (row.values.len() as f64 - 1.0);
+            for (place, (_, p)) in row.values.iter().enumerate().filter(|(_, (own, _))| own == ink) {
+                let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
+                let y = at as f64 + APART * (place as f64 - middle);
+                marks.push(Mark { low, high, ..Mark::new(x, y) });
+            }
+        }
+        if !marks.is_empty() {
+            panel.layers.push(Layer::new(label, *ink, Shape::Estimates, marks));
+        }
+    }
+    for (at, row) in rows.iter().enumerate() {
+        let ends = row.values.iter().filter_map(|(_, p)| p.high.or(p.value));
+        let x = 100.0 * ends.fold(0.0, f64::max);
+        if x > 0.0 {
+            let (y, text) = (at as f64, row.words.clone());
+            panel.words.push(Words { x, y, text, side: Side::Right, ink: Ink::Text });
+        }
+    }
+    panel
+}
