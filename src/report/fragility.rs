@@ -1,8 +1,8 @@
 //! The page of fragilities: the intensities of one peak at which half of the motions overturn each object.
 
-use super::answers::{Outline, SiteHazard};
-use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Span, Words};
-use super::object::{HEIGHT, model_in_words, once_in, sketch};
+use super::answers::Outline;
+use super::figure::{Figure, Ink, Layer, Panel, Span};
+use super::object::{HEIGHT, axes, curve, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
 use crate::fragility::LimitState;
@@ -12,60 +12,6 @@ use crate::table::answers::{Answer, FragilityRow, ObjectRow};
 
 /// The most objects whose curves are drawn in one panel, each in a colour.
 const DRAWN: usize = 6;
-
-/// The curve of a limit state, in percent; with its limits if they are wanted.
-fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<Mark> {
-    let (_, unit, _) = fragility.over.words();
-    let marks = fragility.points.iter().map(|point| {
-        let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
-        if has_limits { Mark::estimate(x, p) } else { Mark::new(x, p.value) }
-    });
-    marks.collect()
-}
-
-fn axes(fragility: &Fragility) -> (Axis, Axis) {
-    let (what, unit, symbol) = fragility.over.words();
-    let ends = fragility.points.first().zip(fragility.points.last());
-    let x = Axis::log(&format!("{what} ({symbol})"));
-    let x = ends.map_or(x.clone(), |(first, last)| x.over(first.intensity / unit, last.intensity / unit));
-    (x, Axis::linear("probability, %").over(0.0, 101.0))
-}
-
-/// The limit states of one object, with the usual intensities of a site.
-pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option<&SiteHazard>) -> Panel {
-    let too_far = object.too_far().replace("its slenderness", "*α*");
-    let layers = vec![
-        Layer::line("rocks", Ink::Muted, curve(fragility, LimitState::Rocking, false)),
-        Layer::line(
-            &format!("{too_far}, or overturns"),
-            Ink::Data(0),
-            curve(fragility, LimitState::Failure, false),
-        ),
-        Layer::line(
-            "overturns, with 95 % limits",
-            Ink::Data(1),
-            curve(fragility, LimitState::Overturning, true),
-        ),
-    ];
-    let (x, y) = axes(fragility);
-    let ends = x.range;
-    let (what, _, _) = fragility.over.words();
-    let mut panel = Panel::new("Fragility", x, y, layers);
-    for usual in
-        hazard.filter(|hazard| hazard.peak == fragility.over).iter().flat_map(|hazard| hazard.usual())
-    {
-        let (x, text) = (usual.intensity, once_in(usual.years));
-        if ends.is_some_and(|ends| ends.low <= x && x <= ends.high) {
-            panel.add_upright(Words { x, y: 100.0, text, side: Side::Along, ink: Ink::Muted }, 0.0);
-        }
-    }
-    let place = if hazard.is_some() { " at the site" } else { "" };
-    panel.explained(format!(
-        "Probability under a motion of this {what}{place}, averaged over what such motions have besides. One in two: \
-         {}.",
-        intensity_in_words(fragility.over, fragility.overturning.theta.value)
-    ))
-}
 
 /// The fragility of one object with all its limit states, or overturning of several.
 pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure {

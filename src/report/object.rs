@@ -3,12 +3,11 @@
 
 use super::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard};
 use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
-use super::fragility::fragility_panel;
 use super::page::{Page, Section, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::{literal, words};
-use crate::fragility::Z_95;
-use crate::hazard::intensity_in_words;
+use crate::fragility::{LimitState, Z_95};
+use crate::hazard::{Fragility, intensity_in_words};
 use crate::number::{self, Limited, PERCENT, RATE};
 use crate::object::Part;
 use crate::table::answers::ObjectRow;
@@ -90,6 +89,60 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers).explained(caption) }
 }
 
+/// The curve of a limit state, in percent; with its limits if they are wanted.
+pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<Mark> {
+    let (_, unit, _) = fragility.over.words();
+    let marks = fragility.points.iter().map(|point| {
+        let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
+        if has_limits { Mark::estimate(x, p) } else { Mark::new(x, p.value) }
+    });
+    marks.collect()
+}
+
+pub fn axes(fragility: &Fragility) -> (Axis, Axis) {
+    let (what, unit, symbol) = fragility.over.words();
+    let ends = fragility.points.first().zip(fragility.points.last());
+    let x = Axis::log(&format!("{what} ({symbol})"));
+    let x = ends.map_or(x.clone(), |(first, last)| x.over(first.intensity / unit, last.intensity / unit));
+    (x, Axis::linear("probability, %").over(0.0, 101.0))
+}
+
+/// The limit states of one object, with the usual intensities of a site.
+pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option<&SiteHazard>) -> Panel {
+    let too_far = object.too_far().replace("its slenderness", "*α*");
+    let layers = vec![
+        Layer::line("rocks", Ink::Muted, curve(fragility, LimitState::Rocking, false)),
+        Layer::line(
+            &format!("{too_far}, or overturns"),
+            Ink::Data(0),
+            curve(fragility, LimitState::Failure, false),
+        ),
+        Layer::line(
+            "overturns, with 95 % limits",
+            Ink::Data(1),
+            curve(fragility, LimitState::Overturning, true),
+        ),
+    ];
+    let (x, y) = axes(fragility);
+    let ends = x.range;
+    let (what, _, _) = fragility.over.words();
+    let mut panel = Panel::new("Fragility", x, y, layers);
+    for usual in
+        hazard.filter(|hazard| hazard.peak == fragility.over).iter().flat_map(|hazard| hazard.usual())
+    {
+        let (x, text) = (usual.intensity, once_in(usual.years));
+        if ends.is_some_and(|ends| ends.low <= x && x <= ends.high) {
+            panel.add_upright(Words { x, y: 100.0, text, side: Side::Along, ink: Ink::Muted }, 0.0);
+        }
+    }
+    let place = if hazard.is_some() { " at the site" } else { "" };
+    panel.explained(format!(
+        "Probability under a motion of this {what}{place}, averaged over what such motions have besides. One in two: \
+         {}.",
+        intensity_in_words(fragility.over, fragility.overturning.theta.value)
+    ))
+}
+
 fn changes_panel(evaluation: &Evaluation) -> Panel {
     let (when, changes) = (&evaluation.when, &evaluation.portrait.changes);
     let mut rows = Vec::new();
@@ -143,7 +196,7 @@ impl SiteHazard {
 }
 
 /// How rare an intensity is: `once in 475 years`.
-pub fn once_in(years: f64) -> String {
+fn once_in(years: f64) -> String {
     format!("once in {} years", number::count(years as usize))
 }
 

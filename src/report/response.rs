@@ -8,30 +8,13 @@ use super::page::Page;
 use super::text::{escape, file_words, html, literal, words};
 use crate::number;
 use crate::rocking::SolverEvent;
+use crate::table::responses::TraceRow;
 use crate::units::G_M_S2;
 use crate::warning::UNNAMED;
 
-/// A structure under a motion, over time.
-#[derive(Debug, Clone, Default)]
-pub struct TracedResponse {
-    pub motion: String,
-    pub structure: String,
-    pub alpha_rad: f64,
-    /// Width and height of the block that rocks like it, m.
-    pub width_m: f64,
-    pub height_m: f64,
-    /// At each sample and event.
-    pub points: Vec<TracedPoint>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TracedPoint {
-    pub time_s: f64,
-    pub theta_over_alpha: f64,
-    pub ground_m_s2: f64,
-    pub ground_m_s: f64,
-    pub event: Option<SolverEvent>,
-}
+/// A structure under a motion: a row at each sample and event, one or more.
+#[derive(Debug, Clone)]
+pub struct Trace(pub Vec<TraceRow>);
 
 /// Values of a line.
 const VALUES: usize = 900;
@@ -45,10 +28,10 @@ const AROUND_S: f64 = 1.5;
 const PICTURES_A_SECOND: f64 = 25.0;
 const MOST_PICTURES: f64 = 1200.0;
 
-impl TracedResponse {
+impl Trace {
     /// The structure; without a name, the block that rocks like it.
     fn structure(&self) -> String {
-        match self.structure.as_str() {
+        match self.0[0].structure.as_str() {
             UNNAMED => format!("a block of {}", self.block()),
             name => literal(name),
         }
@@ -56,15 +39,19 @@ impl TracedResponse {
 
     /// The sides of the block that rocks like it: `0.50 × 1.90 m`.
     fn block(&self) -> String {
-        format!("{} × {} m", number::length(self.width_m), number::length(self.height_m))
+        format!(
+            "{} × {} m",
+            number::length(self.0[0].block_width_m),
+            number::length(self.0[0].block_height_m)
+        )
     }
 
     fn title(&self) -> String {
-        format!("Response of {} to motion {}", self.structure(), literal(&self.motion))
+        format!("Response of {} to motion {}", self.structure(), literal(&self.0[0].motion_id))
     }
 
     fn times(&self, event: SolverEvent) -> Vec<f64> {
-        self.points.iter().filter(|point| point.event == Some(event)).map(|point| point.time_s).collect()
+        self.0.iter().filter(|point| point.solver_event == Some(event)).map(|point| point.time_s).collect()
     }
 
     fn overturned_at(&self) -> Option<f64> {
@@ -74,8 +61,8 @@ impl TracedResponse {
     /// What came of it, in a sentence.
     pub fn sentence(&self) -> String {
         let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
-        let most = self.points.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
-        let (structure, motion) = (self.structure(), literal(&self.motion));
+        let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
+        let (structure, motion) = (self.structure(), literal(&self.0[0].motion_id));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
                 format!(
@@ -97,7 +84,7 @@ impl TracedResponse {
     fn size(&self) -> String {
         let Span { low, high } = self.span();
         let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
-        let like = match self.structure.as_str() {
+        let like = match self.0[0].structure.as_str() {
             UNNAMED => String::new(),
             _ => format!("A block of {} rocks like it. ", self.block()),
         };
@@ -106,10 +93,10 @@ impl TracedResponse {
 
     /// From when to when something happens, s.
     fn span(&self) -> Span {
-        let mut events = self.points.iter().filter(|point| point.event.is_some()).map(|point| point.time_s);
-        let end = self.points.last().map_or(0.0, |point| point.time_s);
+        let mut events = self.0.iter().filter(|point| point.solver_event.is_some()).map(|point| point.time_s);
+        let end = self.0.last().map_or(0.0, |point| point.time_s);
         let Some(first) = events.next() else { return Span { low: 0.0, high: end.min(10.0) } };
-        let moving = self.points.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
+        let moving = self.0.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
         let last =
             events.next_back().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
         Span { low: (first - AROUND_S).max(0.0), high: (last + AROUND_S).min(end) }
@@ -117,11 +104,11 @@ impl TracedResponse {
 }
 
 /// The rotation, the acceleration and the velocity of the ground.
-pub fn figure(response: &TracedResponse) -> Figure {
-    let samples: Vec<&TracedPoint> = response.points.iter().filter(|point| point.event.is_none()).collect();
+pub fn figure(response: &Trace) -> Figure {
+    let samples: Vec<&TraceRow> = response.0.iter().filter(|point| point.solver_event.is_none()).collect();
     let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
     let end = samples.last().map_or(1.0, |point| point.time_s);
-    let line = |ink: Ink, value: fn(&TracedPoint) -> f64| {
+    let line = |ink: Ink, value: fn(&TraceRow) -> f64| {
         let values: Vec<f64> = samples.iter().map(|point| value(point)).collect();
         Layer::line("", ink, envelope(&values, dt_s, VALUES))
     };
@@ -146,34 +133,35 @@ pub fn figure(response: &TracedResponse) -> Figure {
             "Ground acceleration",
             above,
             Axis::linear("g"),
-            vec![line(Ink::Text, |point| point.ground_m_s2 / G_M_S2)],
+            vec![line(Ink::Text, |point| point.ground_acceleration_m_s2 / G_M_S2)],
         ),
         Panel::new(
             "Ground velocity",
             below,
             Axis::linear("m/s"),
-            vec![line(Ink::Data(0), |point| point.ground_m_s)],
+            vec![line(Ink::Data(0), |point| point.ground_velocity_m_s)],
         ),
     ];
     if let Some(x) = response.overturned_at() {
         let text = "overturned".to_string();
         panels[0].add_upright(Words { x, y: most, text, side: Side::Along, ink: Ink::Muted }, -most);
     }
-    let [structure, motion] = [&response.structure, &response.motion].map(|name| file_words(name));
+    let [structure, motion] =
+        [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
     Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels)
         .explained("Dots: uplift and impacts. Dashed: the rotation *α* at which it tips.")
 }
 
 /// The page of responses: what moves, and what came of each.
-pub fn page(all: &[TracedResponse]) -> Page {
+pub fn page(all: &[Trace]) -> Page {
     let title = match all {
         [one] => words(&one.title()),
         several => format!("{} over time", number::counted(several.len(), "response")),
     };
     Page {
         title,
-        place: all.first().map_or(String::new(), TracedResponse::size),
-        sentence: all.first().map_or(String::new(), TracedResponse::sentence),
+        place: all.first().map_or(String::new(), Trace::size),
+        sentence: all.first().map_or(String::new(), Trace::sentence),
         moving: match all {
             [one] => vec![format!("<div>\n{}</div>\n", moving(one, 0))],
             several => several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
@@ -184,7 +172,7 @@ pub fn page(all: &[TracedResponse]) -> Page {
 }
 
 /// The block as it moves, with what came of it.
-fn with_words(response: &TracedResponse, id: usize) -> String {
+fn with_words(response: &Trace, id: usize) -> String {
     format!(
         "<div>\n{}<p class=\"caption\">{}</p>\n</div>\n",
         moving(response, id),
@@ -202,7 +190,7 @@ struct Keyframe {
 
 /// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its
 /// own on the page.
-pub fn moving(response: &TracedResponse, id: usize) -> String {
+pub fn moving(response: &Trace, id: usize) -> String {
     let span = response.span();
     let seconds = span.high - span.low;
     let (half, high) = drawn_size(response);
@@ -253,20 +241,21 @@ pub fn moving(response: &TracedResponse, id: usize) -> String {
 }
 
 /// Half the width and the height of the drawn block, of which the diagonal is always the same.
-fn drawn_size(response: &TracedResponse) -> (f64, f64) {
+fn drawn_size(response: &Trace) -> (f64, f64) {
     const DIAGONAL: f64 = 190.0;
-    let scale = DIAGONAL / response.width_m.hypot(response.height_m);
-    (0.5 * scale * response.width_m, scale * response.height_m)
+    let TraceRow { block_width_m: width, block_height_m: height, .. } = response.0[0];
+    let scale = DIAGONAL / width.hypot(height);
+    (0.5 * scale * width, scale * height)
 }
 
 /// The rotation at equal times, and at each sample where it changes its corner; a block turns about the
 /// corner on the side to which it leans.
-fn keyframes(response: &TracedResponse, Span { low: start, high: end }: Span) -> Vec<Keyframe> {
+fn keyframes(response: &Trace, Span { low: start, high: end }: Span) -> Vec<Keyframe> {
     let seconds = (end - start).max(1e-9);
     let step = (1.0 / PICTURES_A_SECOND).max(seconds / MOST_PICTURES);
-    let alpha = response.alpha_rad.to_degrees();
+    let alpha = response.0[0].alpha_rad.to_degrees();
     let (mut frames, mut next, mut corner): (Vec<Keyframe>, f64, f64) = (Vec::new(), start, 1.0);
-    for point in response.points.iter().filter(|point| (start..=end).contains(&point.time_s)) {
+    for point in response.0.iter().filter(|point| (start..=end).contains(&point.time_s)) {
         let at = (point.time_s - start) / seconds;
         let side = if point.theta_over_alpha < 0.0 { -1.0 } else { 1.0 };
         let is_turning = point.theta_over_alpha != 0.0 && side != corner;

@@ -11,7 +11,7 @@ use rockfrag::report::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
 use rockfrag::report::fragility;
-use rockfrag::report::response::{self, TracedPoint, TracedResponse};
+use rockfrag::report::response::{self, Trace};
 use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Mark, Page, Panel, Section, Span, Table, png, svg};
 use rockfrag::report::{compare, list, object};
 use rockfrag::rocking::{Outcome, SolverEvent, Structure};
@@ -19,6 +19,7 @@ use rockfrag::statistics::Estimate;
 use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use rockfrag::table::motions::Motion;
+use rockfrag::table::responses::TraceRow;
 use serde_json::json;
 
 const PLANES: [[f64; 3]; 2] = [[-6.0, 30.0, -2.0], [0.5, 1.5, -2.0]];
@@ -115,29 +116,30 @@ fn curve(count: usize) -> Fragility {
 }
 
 /// A block that rocks to one side, strikes, and overturns to the other.
-fn traced(count: usize) -> TracedResponse {
+fn traced(count: usize) -> Trace {
     let event = |k: usize| match k {
         100 => Some(SolverEvent::Uplift),
         200 => Some(SolverEvent::Impact),
         300 => Some(SolverEvent::Overturn),
         _ => None,
     };
-    let point = |k: usize| TracedPoint {
+    let row = |k: usize| TraceRow {
+        motion_id: "m<1>".to_string(),
+        structure: "fra*me*2".to_string(),
         time_s: 0.01 * k as f64,
+        theta_rad: 0.0,
+        theta_dot_rad_s: 0.0,
         theta_over_alpha: if k < 100 { 0.0 } else { (0.0314 * (k - 100) as f64).sin() },
-        ground_m_s2: (0.05 * k as f64).sin(),
-        ground_m_s: 0.2,
-        event: event(k),
-    };
-    let (motion, structure) = ("m<1>".to_string(), "fra*me*2".to_string());
-    TracedResponse {
-        motion,
-        structure,
+        ground_acceleration_m_s2: (0.05 * k as f64).sin(),
+        ground_velocity_m_s: 0.2,
+        solver_event: event(k),
+        p_rad_s: 2.0,
         alpha_rad: 0.2,
-        width_m: 0.4,
-        height_m: 2.0,
-        points: (0..count * 4).map(point).collect(),
-    }
+        eta: 0.9,
+        block_width_m: 0.4,
+        block_height_m: 2.0,
+    };
+    Trace((0..=count * 4).map(row).collect())
 }
 
 /// All figures, of `count` data, which may be none.

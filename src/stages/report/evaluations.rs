@@ -6,7 +6,7 @@ use crate::fragility::{LimitStates, Peak};
 use crate::hazard::{Fragility, FragilityPoint};
 use crate::number::Limited;
 use crate::report::answers::Evaluation;
-use crate::report::response::{TracedPoint, TracedResponse};
+use crate::report::response::Trace;
 use crate::stages::evaluate::pages;
 use crate::statistics::Estimate;
 use crate::table::TableError;
@@ -55,26 +55,8 @@ fn estimate(p: Limited) -> Estimate {
 }
 
 /// The first responses over time of a file.
-pub fn read_traces(path: &Path) -> Result<Vec<TracedResponse>, TableError> {
+pub fn read_traces(path: &Path) -> Result<Vec<Trace>, TableError> {
     let rows = rows::read::<TraceRow>(path)?;
     let traces = rows.chunk_by(|a, b| a.motion_id == b.motion_id && a.structure == b.structure);
-    let traced = traces.take(MOST_TRACES).map(|trace| TracedResponse {
-        motion: trace[0].motion_id.clone(),
-        structure: trace[0].structure.clone(),
-        alpha_rad: trace[0].alpha_rad,
-        width_m: trace[0].block_width_m,
-        height_m: trace[0].block_height_m,
-        points: trace.iter().map(point).collect(),
-    });
-    Ok(traced.collect())
-}
-
-fn point(row: &TraceRow) -> TracedPoint {
-    TracedPoint {
-        time_s: row.time_s,
-        theta_over_alpha: row.theta_over_alpha,
-        ground_m_s2: row.ground_acceleration_m_s2,
-        ground_m_s: row.ground_velocity_m_s,
-        event: row.solver_event,
-    }
+    Ok(traces.take(MOST_TRACES).map(|trace| Trace(trace.to_vec())).collect())
 }

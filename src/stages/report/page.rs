@@ -50,17 +50,19 @@ surface, calibrated where there are responses.";
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
 pub fn head(tables: &Tables) -> anyhow::Result<Page> {
-    Ok(match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
+    let mut head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
         ([], [], []) if !tables.fragilities.is_empty() => fragility::page(&tables.fragilities, None, None),
         ([], [], []) => responses_page(tables)?,
-        ([], [], traces) => response::page(traces),
+        ([], [], traces) => return Ok(response::page(traces)),
         ([], compared, _) => paper_page(tables, compared),
         (evaluations, ..) => match (tables.comparison(), evaluations) {
             (Some([before, after]), _) => compare::page(before, after),
             (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
             (_, several) => list::page(several),
         },
-    })
+    };
+    head.figures.extend(tables.traces.iter().map(response::figure));
+    Ok(head)
 }
 
 /// The page of all tables, below its head.

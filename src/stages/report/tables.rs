@@ -11,7 +11,7 @@ use crate::paper;
 use crate::report::answers::Evaluation;
 use crate::report::compare;
 use crate::report::figures::Fits;
-use crate::report::response::TracedResponse;
+use crate::report::response::Trace;
 use crate::rocking::Outcome;
 use crate::stages::shared::responses;
 use crate::studies::paper::Comparison;
@@ -126,7 +126,7 @@ pub struct Tables {
     pub compared: Vec<Comparison>,
     pub evaluations: Vec<Evaluation>,
     pub fragilities: Vec<Answer<FragilityRow>>,
-    pub traces: Vec<TracedResponse>,
+    pub traces: Vec<Trace>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
     /// Whether files were given, in an order that means something, rather than a folder.
