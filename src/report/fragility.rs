@@ -51,8 +51,15 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
 
 /// The page of fragilities, those that need least first; at a site, with its hazard in words.
 pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Option<&str>) -> Page {
+    let mut notes = Vec::new();
+    for one in all {
+        let name = one.object.marked_name();
+        notes.extend(one.doubts.warnings.as_ref().map(|doubts| format!("{name}: {}", literal(doubts))));
+    }
     let known = all.iter().find_map(|one| Some((&one.object, one.row.curve.as_ref()?)));
-    let Some((weakest, fragility)) = known else { return Page::default() };
+    let Some((weakest, fragility)) = known else {
+        return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };
+    };
     let what = fragility.over.words().0;
     let half = intensity_in_words(fragility.over, fragility.overturning.theta.value);
     let of = if fragility.overturning.theta.value.is_some() { "of " } else { "" };
@@ -63,11 +70,6 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
             weakest.marked_name(),
         ),
     };
-    let mut notes = Vec::new();
-    for one in all {
-        let name = one.object.marked_name();
-        notes.extend(one.doubts.warnings.as_ref().map(|doubts| format!("{name}: {}", literal(doubts))));
-    }
     Page {
         title,
         place: match hazard {

@@ -177,7 +177,12 @@ impl Tables {
                 _ => {}
             }
         }
-        // Probabilities in other times do not compare.
+        // Probabilities over another peak, or in other times, do not compare.
+        let over = tables.fragilities.first().and_then(|first| first.row.over);
+        for other in tables.fragilities.extract_if(.., |answer| answer.row.over != over) {
+            let name = other.object.structure;
+            tables.left_out.push(format!("{name} is not shown: its fragility is over another peak."));
+        }
         let first = tables.evaluations.first().map_or(String::new(), |first| first.when.clone());
         for other in tables.evaluations.extract_if(.., |evaluation| evaluation.when != first) {
             let Evaluation { file, when, .. } = other;
