@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use crate::motion::Peaks;
 use crate::number::{period, significant};
+use crate::units::{G_M_S2, Unit};
 
 /// A range within which a quantity can be right, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +62,8 @@ pub const RECORDED_STEPS_S: RangeInclusive<f64> = 1e-4..=0.1;
 pub const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
 /// Frequency parameters that a person gives, rad/s: blocks from 3 mm to 180 m.
 pub const GIVEN_FREQUENCIES_RAD_S: RangeInclusive<f64> = 0.2..=50.0;
-/// Solid blocks of a smaller p (rad/s) are higher than about 40 m: their dimensions are probably in cm.
-pub const LEAST_P_RAD_S: f64 = 0.6;
+/// Solid blocks of a smaller p (rad/s) are higher than about 18 m, as few monuments are.
+pub const LEAST_P_RAD_S: f64 = 0.9;
 
 /// Numbers of columns without a range of their own.
 static NUMBERS: Range = Range::new(f64::MIN..=f64::MAX, "a finite number");
@@ -128,7 +129,7 @@ const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
 
 /// Judges the motions of a table by the medians of their peaks, which show a wrong unit.
 pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), ImplausibleHazard> {
-    let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / crate::units::G_M_S2));
+    let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / G_M_S2));
     let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));
     let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
     let refuse = |name: &str, value: f64, expected: &str| {
@@ -151,6 +152,38 @@ pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(),
     }
 }
 
+/// Spectral acceleration at 1 s over PGA, each exceeded as often, of any site.
+const SPECTRAL_OVER_PGA: RangeInclusive<f64> = 0.1..=4.0;
+
+/// Judges spectral accelerations at 1 s over PGA, each exceeded as often, by their median.
+pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), ImplausibleHazard> {
+    let unit = match median(ratios) {
+        Some(ratio) if ratio > *SPECTRAL_OVER_PGA.end() => "is it in m/s2 or cm/s2, beside PGA in g?",
+        Some(ratio) if ratio < *SPECTRAL_OVER_PGA.start() => "is it in g, beside PGA in m/s2 or cm/s2?",
+        _ => return Ok(()),
+    };
+    Err(ImplausibleHazard(format!("SA(1.0 s) is not 0.1 to 4 times PGA at the same rates: {unit}")))
+}
+
+/// Least m of the longest of the sides, and of the heights, of a list of objects.
+const LEAST_SIDE_M: f64 = 0.01;
+const LEAST_HEIGHT_M: f64 = 0.03;
+
+/// Judges the lengths in a column of a list, which are in a unit: what is expected if none can be right.
+pub fn judge_lengths(
+    is_height: bool,
+    unit: Unit,
+    lengths: impl Iterator<Item = f64>,
+) -> Result<(), &'static str> {
+    let longest_m = unit.si * lengths.fold(0.0, f64::max);
+    let least = if is_height { LEAST_HEIGHT_M } else { LEAST_SIDE_M };
+    match unit.name {
+        _ if longest_m == 0.0 || longest_m >= least => Ok(()),
+        "mm" => Err("longer ones: are they in m, or do points part thousands (1.100 of 1100)?"),
+        _ => Err("longer ones: are they in m?"),
+    }
+}
+
 /// The median of values that are above 0 and finite.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
@@ -161,7 +194,7 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 /// Moves peaks beyond any record to the rim of what was recorded: tails of ground-motion models have such
 /// motions.
 pub fn at_rim(peaks: Peaks) -> Peaks {
-    let pga_m_s2 = peaks.pga_m_s2.min(STRONGEST_PGA_G * crate::units::G_M_S2);
+    let pga_m_s2 = peaks.pga_m_s2.min(STRONGEST_PGA_G * G_M_S2);
     let pgv = peaks.pgv_m_s.min(STRONGEST_PGV_M_S);
     let is_possible = pga_m_s2 == 0.0 || PGV_PGA_S.contains(&(pgv / pga_m_s2));
     let [least, most] = [PGV_PGA_S.start(), PGV_PGA_S.end()].map(|ratio_s| ratio_s * pga_m_s2);

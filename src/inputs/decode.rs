@@ -59,8 +59,8 @@ fn encoding(bytes: &[u8]) -> &'static Encoding {
         return encoding;
     }
     let start = &bytes[..bytes.len().min(4096)];
-    let nulls = |from: usize| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
-    let (even, odd) = (nulls(0), nulls(1));
+    let [even, odd] =
+        [0, 1].map(|from| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count());
     let most = start.len() / 5;
     if odd > most && even < odd / 10 {
         return UTF_16LE;
@@ -73,6 +73,8 @@ fn encoding(bytes: &[u8]) -> &'static Encoding {
     }
     // Japanese text has kana, which in Windows-1252 would be rare signs.
     let japanese = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes);
-    let has_kana = |text: Cow<str>| text.contains(|sign| matches!(sign, '\u{3041}'..='\u{30fe}'));
-    if japanese.is_some_and(has_kana) { SHIFT_JIS } else { WINDOWS_1252 }
+    match japanese.is_some_and(|text| text.contains(|sign| matches!(sign, '\u{3041}'..='\u{30fe}'))) {
+        true => SHIFT_JIS,
+        false => WINDOWS_1252,
+    }
 }

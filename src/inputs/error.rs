@@ -33,8 +33,6 @@ pub enum InputError {
     Heading { heading: String, expected: &'static str, found: String },
     #[error("{found}; expected {expected}")]
     Missing { found: String, expected: &'static str },
-    #[error("line {line}: '{first}' and '{other}' contradict; keep one")]
-    Contradiction { line: usize, first: String, other: String },
     #[error(
         "column '{heading}': the lowest floor is {lowest}: --ground-floor 1 if the ground floor is called 1, \
          --ground-floor 0 if 1 is the floor above it"
@@ -53,8 +51,24 @@ pub enum InputError {
 }
 
 impl InputError {
+    pub(super) fn missing(found: impl Into<String>, expected: &'static str) -> InputError {
+        InputError::Missing { found: found.into(), expected }
+    }
+
     /// The error with the name of its file.
-    pub fn of(self, path: &Path) -> InputError {
+    pub fn in_file(self, path: &Path) -> InputError {
         InputError::File { path: path.display().to_string(), error: Box::new(self) }
+    }
+}
+
+impl From<zip::result::ZipError> for InputError {
+    fn from(error: zip::result::ZipError) -> InputError {
+        InputError::Damaged(error.to_string())
+    }
+}
+
+impl From<calamine::Error> for InputError {
+    fn from(error: calamine::Error) -> InputError {
+        InputError::Damaged(error.to_string())
     }
 }

@@ -25,37 +25,11 @@ pub enum Storey {
 impl Storey {
     /// Reads a floor as `3`, `3rd floor`, `G`, `EG`, `2. OG`, `B1`, `-1`, `roof`.
     pub fn parse(cell: &str) -> Option<Storey> {
-        const BESIDE: [&str; 23] = [
-            "st",
-            "nd",
-            "rd",
-            "th",
-            "f",
-            "fl",
-            "floor",
-            "storey",
-            "story",
-            "level",
-            "l",
-            "stock",
-            "stockwerk",
-            "geschoss",
-            "etage",
-            "étage",
-            "e",
-            "er",
-            "ème",
-            "piano",
-            "planta",
-            "piso",
-            "階",
-        ];
-        const ABOVE: [&str; 2] = ["og", "obergeschoss"];
         let text = joined(cell);
         let digits: String = text.chars().filter(char::is_ascii_digit).collect();
         let letters = text.replace(|sign: char| sign.is_ascii_digit(), "-");
         let letters: Vec<&str> = letters.split('-').filter(|word| !word.is_empty()).collect();
-        let is_all = |list: &[&str]| letters.iter().all(|word| list.contains(word));
+        let are_all = |meaning: &str| letters.iter().all(|word| words(meaning).any(|known| known == *word));
         if means(cell, "ground") {
             return Some(Storey::Ground);
         }
@@ -71,8 +45,8 @@ impl Storey {
             ..0.0 => Some(Storey::Basement),
             0.0 => Some(Storey::Ground),
             200.0.. => None,
-            _ if !letters.is_empty() && is_all(&ABOVE) => Some(Storey::Above(number as u32)),
-            _ if is_all(&BESIDE) => Some(Storey::Number(number as u32)),
+            _ if !letters.is_empty() && are_all("above") => Some(Storey::Above(number as u32)),
+            _ if are_all("of-floors") => Some(Storey::Number(number as u32)),
             _ => None,
         }
     }
@@ -91,56 +65,55 @@ impl Storey {
 /// The number of the ground floor by floors of a list: 0 where one is called so; none where nothing tells,
 /// with the lowest number.
 pub fn ground_floor(storeys: &[Storey]) -> Result<u32, u32> {
-    let says_ground = |storey: &Storey| matches!(storey, Storey::Ground | Storey::Above(_));
-    let number = |storey: &Storey| if let Storey::Number(number) = storey { Some(*number) } else { None };
-    match storeys.iter().filter_map(number).min() {
-        Some(lowest) if !storeys.iter().any(says_ground) => Err(lowest),
+    let numbers = storeys.iter().filter_map(|storey| match storey {
+        Storey::Number(number) => Some(*number),
+        _ => None,
+    });
+    let is_told = storeys.iter().any(|storey| matches!(storey, Storey::Ground | Storey::Above(_)));
+    match numbers.min() {
+        Some(lowest) if !is_told => Err(lowest),
         _ => Ok(0),
     }
 }
 
-/// How a building resists earthquakes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Building {
-    Walls,
-    ConcreteFrame,
-    SteelFrame,
+/// How a building resists earthquakes, and its first period by ASCE 7: factor x (height in m)^exponent, s.
+#[derive(Debug, PartialEq)]
+pub struct Building {
+    /// Of the words in data/headings.csv.
+    meaning: &'static str,
+    factor: f64,
+    exponent: f64,
 }
 
-impl Building {
-    const ALL: [Building; 3] = [Building::Walls, Building::ConcreteFrame, Building::SteelFrame];
+static CONCRETE: Building = Building { meaning: "concrete", factor: 0.0466, exponent: 0.9 };
+static WALLS: Building = Building { meaning: "walls", factor: 0.0488, exponent: 0.75 };
+static STEEL: Building = Building { meaning: "steel", factor: 0.0724, exponent: 0.8 };
 
-    pub fn parse(cell: &str) -> Option<Building> {
-        let known = [("walls", Building::Walls), ("concrete", Building::ConcreteFrame)];
-        let known = known.into_iter().chain([("steel", Building::SteelFrame)]);
-        known.into_iter().find(|(meaning, _)| means(cell, meaning)).map(|(_, building)| building)
+impl Building {
+    const ALL: [&Building; 3] = [&CONCRETE, &WALLS, &STEEL];
+
+    pub fn parse(cell: &str) -> Option<&'static Building> {
+        Building::ALL.into_iter().find(|building| means(cell, building.meaning))
     }
 
-    /// The first period, s, of a building of this height, by ASCE 7.
-    fn period_s(self, height_m: f64) -> f64 {
-        match self {
-            Building::Walls => 0.0488 * height_m.powf(0.75),
-            Building::ConcreteFrame => 0.0466 * height_m.powf(0.9),
-            Building::SteelFrame => 0.0724 * height_m.powf(0.8),
-        }
+    fn period_s(&self, storeys: u32) -> f64 {
+        self.factor * (STOREY_M * f64::from(storeys)).powf(self.exponent)
     }
 }
 
 /// The place on a floor that has so many storeys below it; what is known of the period already stays. A
 /// building of unknown type has the period of a concrete frame, with the scatter between the types beside
 /// that of one.
-pub fn place(above: u32, storeys: u32, building: Option<Building>, known: Place) -> Place {
-    let height_m = STOREY_M * f64::from(storeys);
-    let period_s = |building: Building| building.period_s(height_m);
-    let middle = period_s(building.unwrap_or(Building::ConcreteFrame));
-    let of_types = Building::ALL.iter().map(|building| (period_s(*building) / middle).ln().powi(2));
-    let between = if building.is_none() { of_types.sum::<f64>() / Building::ALL.len() as f64 } else { 0.0 };
-    let sd = (SD_OF_TYPE.powi(2) + between).sqrt();
-    let period_sd = known.period_sd.or(building.is_none().then_some(sd).filter(|_| known.period.is_none()));
+pub fn place(above: u32, storeys: u32, building: Option<&Building>, known: Place) -> Place {
+    let period_s = building.unwrap_or(&CONCRETE).period_s(storeys);
+    let squares = Building::ALL.map(|other| (other.period_s(storeys) / period_s).ln().powi(2));
+    let between = squares.iter().sum::<f64>() / squares.len() as f64;
+    let is_guessed = building.is_none() && known.period.is_none();
+    let period_sd = is_guessed.then_some((SD_OF_TYPE.powi(2) + between).sqrt());
     Place {
         level: known.level.or(Some(f64::from(above) / f64::from(storeys))),
-        period: known.period.or(Some(middle)),
-        period_sd,
+        period: known.period.or(Some(period_s)),
+        period_sd: known.period_sd.or(period_sd),
         ..known
     }
 }

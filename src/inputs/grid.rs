@@ -1,6 +1,6 @@
 //! A table: cells under headings, as people and agencies write it.
 
-use std::borrow::Cow;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -10,6 +10,7 @@ use super::error::InputError;
 use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
 use super::unpack::{Member, unpack};
+use super::words::{joined, words};
 use super::workbook;
 use crate::source;
 use crate::units::Unit;
@@ -38,15 +39,6 @@ struct Row {
     is_comment: bool,
 }
 
-/// The rows of a file.
-struct Rows {
-    rows: Vec<Row>,
-    /// All lines as they stand in the file.
-    lines: Vec<String>,
-    /// What stands between cells; none in a workbook.
-    separator: Option<char>,
-}
-
 impl Grid {
     /// Reads the table in a file, or in a sheet of a workbook: `list.xlsx#Sheet2`.
     pub fn read(path: &Path) -> Result<Grid, InputError> {
@@ -65,72 +57,56 @@ impl Grid {
         };
         if workbook::is_workbook(bytes) {
             let (first, cells) = workbook::cells(bytes, sheet)?;
-            return Grid::new(Rows::of_sheet(first, cells));
+            return Grid::new(rows_of_sheet(first, cells), None);
         }
-        Grid::new(Rows::of_text(&decode(bytes)?)?)
+        let text = decode(bytes)?;
+        let lines: Vec<&str> =
+            text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a', '\0'])).collect();
+        let separator = separator(&lines);
+        Grid::new(rows_of_text(&lines, separator)?, Some(separator))
     }
 
-    /// Finds headings, units and comments. The heading is the row above the numbers, or first of them, that
-    /// has the most words where others have numbers; a comment needs as many cells as a row.
-    fn new(file: Rows) -> Result<Grid, InputError> {
-        let Rows { rows, lines, separator } = file;
+    /// Parts headings, units and comments from rows. No `separator` stands between cells of a workbook.
+    fn new(rows: Vec<Row>, separator: Option<char>) -> Result<Grid, InputError> {
         let is_number_column = number_columns(&rows);
-        let width = is_number_column.len();
-        let words = |row: &Row| words(row, &is_number_column);
-        let is_heading = |row: &Row| {
-            let cells = row.cells.len();
-            let is_whole = match row.is_comment || separator == Some(' ') {
-                true => cells == width,
-                false => cells >= width.min(2),
-            };
-            is_whole && words(row) > 0 && !is_units(row)
-        };
         let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
         let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
-        // Of equal rows the last one is that above the numbers; without numbers, all but the first are rows.
-        let candidates = above.iter().enumerate().filter(|(_, row)| is_heading(row));
-        let heading = match is_number_column.contains(&true) {
-            true => candidates.max_by_key(|(_, row)| words(row)),
-            false => candidates.rev().max_by_key(|(_, row)| words(row)),
-        };
+        let heading = heading_row(above, &is_number_column, separator);
         let mut headings: Vec<Heading> =
-            heading.map_or(Vec::new(), |(_, row)| row.cells.iter().map(heading_of).collect());
-        let mut end = heading.map_or(first.unwrap_or(0), |(at, _)| at + 1);
+            heading.map_or(Vec::new(), |at| rows[at].cells.iter().map(to_heading).collect());
+        let mut end = heading.map_or(first.unwrap_or(0), |at| at + 1);
         while let Some(units) = rows.get(end).filter(|row| !headings.is_empty() && is_units(row)) {
             headings = with_units(&headings, units)?;
             end += 1;
         }
-        let columns = if headings.is_empty() { width } else { headings.len() };
-        let is_named = separator.is_none_or(|separator| separator != ' ')
-            && columns > 1
-            && is_number_column.first().is_some_and(|is_number| !is_number);
+        let columns = if headings.is_empty() { is_number_column.len() } else { headings.len() };
         // An object may be called #2.
-        let is_row =
-            |row: &Row| !is_ruler(row) && (!row.is_comment || is_named && row.cells.len() == columns);
-        let below = end;
-        let note = |(at, row): (usize, &Row)| {
-            let is_note = heading.is_none_or(|(heading, _)| heading != at) && (at < below || !is_row(row));
-            is_note.then(|| lines.get(row.line - 1).cloned()).flatten()
-        };
-        let notes = rows.iter().enumerate().filter_map(note).collect();
-        let kept: Vec<Row> = rows.into_iter().skip(end).filter(is_row).collect();
-        let is_long = |row: &&Row| row.cells.iter().skip(columns).any(|cell| !cell.is_empty());
-        if let Some(row) = kept.iter().find(is_long) {
-            let found = row.cells.len();
-            return Err(InputError::Cells { line: row.line, found, expected: columns });
-        }
+        let are_named = separator != Some(' ') && columns > 1 && is_number_column.first() == Some(&false);
         let mut evidence = vec![Evidence::default(); columns];
-        for row in &kept {
-            evidence.iter_mut().zip(&row.cells).for_each(|(column, cell)| column.add(cell));
+        let (mut notes, mut lines, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        for (at, Row { line, cells, is_comment }) in rows.into_iter().enumerate() {
+            if at < end || is_ruler(&cells) || is_comment && !(are_named && cells.len() == columns) {
+                if heading != Some(at) {
+                    let filled: Vec<&str> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+                    notes.push(filled.join(if separator == Some(' ') { " " } else { ", " }));
+                }
+                continue;
+            }
+            if cells.iter().skip(columns).any(|cell| !cell.is_empty()) {
+                return Err(InputError::Cells { line, found: cells.len(), expected: columns });
+            }
+            evidence.iter_mut().zip(&cells).for_each(|(column, cell)| column.add(cell));
+            lines.push(line);
+            kept.push(cells);
         }
         let styles = numbers::styles(&evidence, separator.is_none());
-        let (lines, rows) = kept.into_iter().map(|row| (row.line, row.cells)).unzip();
-        Ok(Grid { notes, headings, columns, lines, rows, styles })
+        Ok(Grid { notes, headings, columns, lines, rows: kept, styles })
     }
 
-    /// Returns the index of the column with one of these names; see [`Heading::name`].
-    pub fn column(&self, names: &[&str]) -> Option<usize> {
-        self.headings.iter().position(|heading| names.contains(&heading.name.as_str()))
+    /// Returns the index of the first column about this; see [`words`].
+    pub fn about(&self, meaning: &str) -> Option<usize> {
+        let names: Vec<String> = self.headings.iter().map(|heading| joined(&heading.name)).collect();
+        words(meaning).find_map(|word| names.iter().position(|name| name == word))
     }
 
     /// Returns the text of a cell; empty beyond the end of a short row.
@@ -158,6 +134,20 @@ impl Grid {
         })
     }
 
+    /// Reads a number that must lie in a range.
+    pub fn within(
+        &self,
+        row: usize,
+        column: usize,
+        range: &RangeInclusive<f64>,
+        expected: &str,
+    ) -> Result<f64, InputError> {
+        match self.number(row, column)? {
+            number if range.contains(&number) => Ok(number),
+            _ => Err(self.refusal(row, column, expected)),
+        }
+    }
+
     /// Makes the error of a cell with an unexpected value.
     pub fn refusal(&self, row: usize, column: usize, expected: impl Into<String>) -> InputError {
         let found = self.cell(row, column).chars().take(60).collect();
@@ -176,40 +166,28 @@ impl Grid {
     }
 }
 
-impl Rows {
-    fn of_text(text: &str) -> Result<Rows, InputError> {
-        let trim = |line: &str| line.trim_matches([' ', '\x0c', '\x1a', '\0']).to_string();
-        let lines: Vec<String> = text.lines().map(trim).collect();
-        let separator = separator(&lines);
-        let joined = joined(&lines, separator);
-        let mut reader = ReaderBuilder::new();
-        reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
-        let records: Vec<StringRecord> =
-            reader.from_reader(joined.as_bytes()).into_records().map_while(Result::ok).collect();
-        if let Some(line) = records.last().and_then(|last| never_closed(last, &joined)) {
-            return Err(InputError::Quote { line });
-        }
-        let row = |cells: StringRecord| {
-            let line = cells.position().map_or(1, |at| at.line() as usize);
-            Row { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
-        };
-        let filled = |cells: &StringRecord| cells.iter().any(|cell| !cell.is_empty());
-        let rows = records.into_iter().filter(filled).map(row).collect();
-        Ok(Rows { rows, lines, separator: Some(separator) })
+fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<Row>, InputError> {
+    let joined = join_lines(lines, separator);
+    let mut reader = ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
+    let records = reader.from_reader(joined.as_bytes()).into_records();
+    let records: Vec<StringRecord> = records.map_while(Result::ok).collect();
+    if let Some(line) = records.last().and_then(|last| never_closed(last, &joined)) {
+        return Err(InputError::Quote { line });
     }
+    let rows = records.into_iter().filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
+        let line = cells.position().map_or(1, |at| at.line() as usize);
+        Row { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
+    });
+    Ok(rows.collect())
+}
 
-    fn of_sheet(first: usize, cells: Vec<Vec<String>>) -> Rows {
-        let blank = std::iter::repeat_n(String::new(), first - 1);
-        let lines = blank.chain(cells.iter().map(|row| row.join(" ").trim().to_string())).collect();
-        let filled = |(_, cells): &(usize, Vec<String>)| cells.iter().any(|cell| !cell.is_empty());
-        let row = |(at, cells): (usize, Vec<String>)| Row {
-            line: first + at,
-            is_comment: cells.iter().find(|cell| !cell.is_empty()).is_some_and(|cell| is_comment(cell)),
-            cells: StringRecord::from(cells),
-        };
-        let rows = cells.into_iter().enumerate().filter(filled).map(row).collect();
-        Rows { rows, lines, separator: None }
-    }
+fn rows_of_sheet(first: usize, cells: Vec<Vec<String>>) -> Vec<Row> {
+    let rows = (first..).zip(cells).filter_map(|(line, cells)| {
+        let filled = cells.iter().find(|cell| !cell.is_empty())?;
+        Some(Row { line, is_comment: is_comment(filled), cells: StringRecord::from(cells) })
+    });
+    rows.collect()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -221,21 +199,20 @@ fn uncommented(text: &str) -> &str {
     if is_comment(text) { text.trim_start_matches(['#', '%', '/', ' ']) } else { text }
 }
 
-fn heading_of(cell: &str) -> Heading {
+fn to_heading(cell: &str) -> Heading {
     Heading::new(uncommented(cell))
 }
 
 /// Finds what separates cells: what parts most of the last lines, and parts the most of them into numbers.
-fn separator(lines: &[String]) -> char {
+fn separator(lines: &[&str]) -> char {
     let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
-    let body: Vec<&String> = body.take(SHOWN).collect();
+    let body: Vec<&str> = body.take(SHOWN).copied().collect();
     let (mut best, mut most) = (' ', -1.0);
     for sign in [';', '\t', ','] {
         let parted = body.iter().filter(|line| is_parted(line, sign)).count();
-        let cells =
-            || body.iter().flat_map(|line| line.split(sign)).map(|cell| cell.trim_matches([' ', '"']));
-        let numbers = cells().filter(|cell| is_number(cell)).count();
-        let share = (parted * numbers) as f64 / (body.len() * cells().count()) as f64;
+        let cells: Vec<&str> = body.iter().flat_map(|line| line.split(sign)).collect();
+        let numbers = cells.iter().filter(|cell| is_number(cell.trim_matches([' ', '"']))).count();
+        let share = (parted * numbers) as f64 / (body.len() * cells.len()) as f64;
         if 2 * parted >= body.len() && share > most {
             (best, most) = (sign, share);
         }
@@ -243,28 +220,28 @@ fn separator(lines: &[String]) -> char {
     best
 }
 
-/// Whether `c` separates cells of a line. Among numbers between blanks, a comma is a decimal one.
-fn is_parted(line: &str, c: char) -> bool {
-    let is_whole = |word: &str| !word.ends_with(',') && is_number(word);
-    let are_numbers = || line.contains(' ') && line.split_whitespace().all(is_whole);
-    line.split('"').step_by(2).any(|unquoted| unquoted.contains(c)) && !(c == ',' && are_numbers())
+/// Whether a sign separates cells of a line. Among numbers between blanks, a comma is a decimal one.
+fn is_parted(line: &str, sign: char) -> bool {
+    let is_unquoted = line.split('"').step_by(2).any(|unquoted| unquoted.contains(sign));
+    let mut words = line.split_whitespace();
+    let are_numbers = line.contains(' ') && words.all(|word| !word.ends_with(',') && is_number(word));
+    is_unquoted && !(sign == ',' && are_numbers)
 }
 
 /// Joins lines for the reader of rows, which counts them.
-fn joined(lines: &[String], separator: char) -> String {
+fn join_lines(lines: &[&str], separator: char) -> String {
     let mut text = String::new();
     for line in lines {
-        // Between blanks, a unit in brackets belongs to its heading.
-        let words = || {
-            let line = uncommented(line).replace(" (", "(").replace(" [", "[");
-            line.split_whitespace().collect::<Vec<_>>().join(" ")
-        };
         let is_quoted = line.matches('"').count() % 2 == 0;
-        text += &match separator {
-            ' ' => Cow::Owned(words()),
-            _ if is_comment(line) && !is_quoted => Cow::Owned(line.replace('"', "")),
-            _ => Cow::Borrowed(line.as_str()),
-        };
+        if separator == ' ' {
+            // A unit in brackets belongs to its heading.
+            let line = uncommented(line).replace(" (", "(").replace(" [", "[");
+            text += &line.split_whitespace().collect::<Vec<_>>().join(" ");
+        } else if is_comment(line) && !is_quoted {
+            text += &line.replace('"', "");
+        } else {
+            text += line;
+        }
         // A row with one empty cell keeps the line count.
         text += if line.is_empty() { "\"\"\n" } else { "\n" };
     }
@@ -280,10 +257,29 @@ fn never_closed(last: &StringRecord, text: &str) -> Option<usize> {
 
 /// In which columns numbers stand, by the row of the last ones that has the most.
 fn number_columns(rows: &[Row]) -> Vec<bool> {
-    let numbers = |row: &&Row| row.cells.iter().filter(|cell| is_number(cell)).count();
     let last = rows.iter().rev().filter(|row| !row.is_comment).take(SHOWN);
-    let model = last.max_by_key(numbers);
+    let model = last.max_by_key(|row| row.cells.iter().filter(|cell| is_number(cell)).count());
     model.map_or(Vec::new(), |model| model.cells.iter().map(is_number).collect())
+}
+
+/// Finds the heading: the row above the numbers, or first of them, that has the most words where others have
+/// numbers; a comment needs as many cells as a row. Of equal rows the last one is that above the numbers;
+/// without numbers, all but the first are rows.
+fn heading_row(above: &[Row], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
+    let width = is_number_column.len();
+    let mut best = None;
+    for (at, row) in above.iter().enumerate() {
+        let (cells, words) = (row.cells.len(), count_words(row, is_number_column));
+        let is_whole = match row.is_comment || separator == Some(' ') {
+            true => cells == width,
+            false => cells >= width.min(2),
+        };
+        let least = best.map_or(1, |(_, most)| most + usize::from(!is_number_column.contains(&true)));
+        if is_whole && words >= least && !is_units(row) {
+            best = Some((at, words));
+        }
+    }
+    best.map(|(at, _)| at)
 }
 
 /// Whether numbers are more than words where numbers are expected.
@@ -296,40 +292,49 @@ fn is_data(row: &Row, is_number_column: &[bool]) -> bool {
 
 /// How many cells have words where numbers are expected, or at all if none are. What begins with a digit is a
 /// damaged number.
-fn words(row: &Row, is_number_column: &[bool]) -> usize {
-    let expects = |at: usize| is_number_column.get(at).is_some_and(|is_number| *is_number);
+fn count_words(row: &Row, is_number_column: &[bool]) -> usize {
     let is_anywhere = !is_number_column.contains(&true);
-    let is_word = |cell: &str| {
-        let start = cell.trim_start_matches(['+', '-', '.', '<', '>', '~', ' ']);
-        !is_missing(cell) && !is_number(cell) && !start.starts_with(|sign: char| sign.is_ascii_digit())
-    };
-    let cells = row.cells.iter().enumerate().filter(|(at, _)| is_anywhere || expects(*at));
+    let cells = row.cells.iter().enumerate();
+    let cells = cells.filter(|(at, _)| is_anywhere || is_number_column.get(*at) == Some(&true));
     cells.filter(|(_, cell)| is_word(cell)).count()
+}
+
+fn is_word(cell: &str) -> bool {
+    let start = cell.trim_start_matches(['+', '-', '.', '<', '>', '~', ' ']);
+    !is_missing(cell) && !is_number(cell) && !start.starts_with(|sign: char| sign.is_ascii_digit())
 }
 
 /// Whether a row has units and nothing else.
 fn is_units(row: &Row) -> bool {
-    const OTHERS: [&str; 8] = ["", "-", "%", "1/yr", "1/year", "1/a", "1/years", "text"];
-    let plain = |cell: &str| uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase();
-    let is_known = |cell: &str| Unit::parse(cell).is_some() || cell == "%";
-    let cells: Vec<String> = row.cells.iter().map(plain).collect();
-    cells.iter().any(|cell| is_known(cell))
-        && cells.iter().all(|cell| is_known(cell) || OTHERS.contains(&cell.as_str()))
+    const OTHERS: [&str; 8] = ["", "-", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
+    let mut units = 0;
+    for cell in &row.cells {
+        let cell = uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase();
+        match Unit::parse(&cell).is_some() || cell == "%" {
+            true => units += 1,
+            false if OTHERS.contains(&cell.as_str()) => {}
+            false => return false,
+        }
+    }
+    units > 0
 }
 
 /// Whether a row is a line drawn with signs.
-fn is_ruler(row: &Row) -> bool {
-    let drawn = |cell: &str| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign));
-    row.cells.iter().all(|cell| cell.is_empty() || drawn(cell))
+fn is_ruler(cells: &StringRecord) -> bool {
+    let mut cells = cells.iter().filter(|cell| !cell.is_empty());
+    cells.all(|cell| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign)))
 }
 
 /// Headings with the units in a row below.
 fn with_units(headings: &[Heading], units: &Row) -> Result<Vec<Heading>, InputError> {
-    let with = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
-        "" | "-" => Ok(heading.clone()),
-        unit => heading
-            .with_unit(uncommented(unit))
-            .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() }),
-    };
-    headings.iter().enumerate().map(with).collect()
+    let mut with_units = Vec::new();
+    for (at, heading) in headings.iter().enumerate() {
+        with_units.push(match units.cells.get(at).unwrap_or_default() {
+            "" | "-" => heading.clone(),
+            unit => heading
+                .with_unit(uncommented(unit))
+                .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() })?,
+        });
+    }
+    Ok(with_units)
 }

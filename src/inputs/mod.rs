@@ -10,11 +10,13 @@
 //! rename    headings that the user names
 //! hazard    the hazard of a site
 //! objects   lists of objects
+//! about     tables about records
 //! floors    floors as people write them: level and first period
 //! words     words of lists in several languages
 //! error     what is wrong with a file
 //! ```
 
+mod about;
 mod decode;
 mod error;
 mod floors;
@@ -25,12 +27,14 @@ mod numbers;
 pub mod objects;
 mod rename;
 mod unpack;
-mod words;
+pub mod words;
 mod workbook;
 
+pub use about::{About, Known};
 pub use decode::decode;
 pub use error::InputError;
 pub use grid::Grid;
 pub use heading::Heading;
+pub use numbers::plain_number;
 pub use rename::{Rename, Renames};
 pub use unpack::{Member, unpack};

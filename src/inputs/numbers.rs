@@ -2,9 +2,8 @@
 //! all cells of all columns.
 
 /// What a sign between digits is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sign {
-    #[default]
     Decimal,
     Thousands,
     /// Nothing in the table tells.
@@ -12,26 +11,20 @@ enum Sign {
 }
 
 /// How the numbers of a column are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Style {
     point: Sign,
     comma: Sign,
 }
 
-/// What the cells of a column show of one sign.
-#[derive(Debug, Clone, Copy, Default)]
-struct Shown {
-    decimal: bool,
-    thousands: bool,
-    /// One to three digits before it and three behind: it may be either.
-    either: bool,
-}
-
 /// What the cells of a column show.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Evidence {
-    point: Shown,
-    comma: Shown,
+    /// Signs that are decimal, that stand between thousands, and that may do either: one to three digits
+    /// before them and three behind.
+    decimal: Vec<char>,
+    thousands: Vec<char>,
+    either: Vec<char>,
     /// A number from 100 to 999 without signs.
     hundreds: bool,
     /// One of four digits or more: thousands are not parted.
@@ -73,72 +66,51 @@ impl Evidence {
                 self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
             }
             (Some(point), Some(comma)) => {
-                let point_is_last = point > comma;
-                self.point.decimal |= point_is_last;
-                self.comma.thousands |= point_is_last;
-                self.comma.decimal |= !point_is_last;
-                self.point.thousands |= !point_is_last;
+                let (last, before) = if point > comma { ('.', ',') } else { (',', '.') };
+                self.decimal.push(last);
+                self.thousands.push(before);
             }
-            (Some(_), None) => self.point.add(digits, '.'),
-            (None, Some(_)) => self.comma.add(digits, ','),
+            (point, _) => {
+                let sign = if point.is_some() { '.' } else { ',' };
+                match digits.split(sign).collect::<Vec<_>>()[..] {
+                    ["0" | "", _] => self.decimal.push(sign),
+                    [whole, rest] if rest.len() == 3 && whole.len() <= 3 => self.either.push(sign),
+                    [_, _] => self.decimal.push(sign),
+                    _ => self.thousands.push(sign),
+                }
+            }
         }
     }
-}
 
-impl Shown {
-    fn add(&mut self, digits: &str, sign: char) {
-        let parts: Vec<&str> = digits.split(sign).collect();
-        match parts[..] {
-            [whole, rest] if rest.len() == 3 && (1..=3).contains(&whole.len()) && whole != "0" => {
-                self.either = true;
-            }
-            [_, _] => self.decimal = true,
-            _ => self.thousands = true,
+    /// What a sign is in this column, by its cells, else by those of others.
+    fn sign(&self, sign: char, all: &[Evidence]) -> Sign {
+        let other = if sign == '.' { ',' } else { '.' };
+        let is_decimal = all.iter().any(|column| column.decimal.contains(&sign));
+        let is_thousands =
+            all.iter().any(|column| column.thousands.contains(&sign) || column.decimal.contains(&other));
+        // 1,029 beside 999 is of a country of decimal points.
+        let is_beside_hundreds = all.iter().any(|column| column.either.contains(&sign) && column.hundreds);
+        let is_shown = self.either.contains(&sign) || self.thousands.contains(&sign);
+        match (is_decimal, is_thousands) {
+            _ if self.decimal.contains(&sign) || !is_shown => Sign::Decimal,
+            _ if self.thousands.contains(&sign) => Sign::Thousands,
+            _ if self.unparted => Sign::Decimal,
+            (true, false) if !self.hundreds => Sign::Decimal,
+            (false, true) => Sign::Thousands,
+            (false, false) if sign == '.' && !self.hundreds => Sign::Decimal,
+            (false, false) if sign == ',' && is_beside_hundreds => Sign::Thousands,
+            _ => Sign::Unclear,
         }
     }
 }
 
 /// Settles how each column is written. In a workbook points are decimal.
 pub fn styles(columns: &[Evidence], is_workbook: bool) -> Vec<Style> {
-    let style = |own: &Evidence| Style {
-        point: if is_workbook { Sign::Decimal } else { point(own, columns) },
-        comma: comma(own, columns),
-    };
-    columns.iter().map(style).collect()
-}
-
-fn point(own: &Evidence, all: &[Evidence]) -> Sign {
-    let by_others = sign(own, |column| column.point, |column| column.comma, all);
-    by_others.unwrap_or(if own.hundreds { Sign::Unclear } else { Sign::Decimal })
-}
-
-fn comma(own: &Evidence, all: &[Evidence]) -> Sign {
-    // 1,029 beside 999 is of a country of decimal points.
-    let are_thousands = all.iter().any(|column| column.comma.either && column.hundreds);
-    let by_others = sign(own, |column| column.comma, |column| column.point, all);
-    by_others.unwrap_or(if are_thousands { Sign::Thousands } else { Sign::Unclear })
-}
-
-/// What a sign is in a column, by its cells, else by those of other columns; none where none tells.
-fn sign(
-    own: &Evidence,
-    this: fn(&Evidence) -> Shown,
-    other: fn(&Evidence) -> Shown,
-    all: &[Evidence],
-) -> Option<Sign> {
-    let is_decimal = all.iter().any(|column| this(column).decimal);
-    let is_thousands = all.iter().any(|column| this(column).thousands || other(column).decimal);
-    match this(own) {
-        Shown { decimal: true, .. } | Shown { thousands: false, either: false, .. } => Some(Sign::Decimal),
-        Shown { thousands: true, .. } => Some(Sign::Thousands),
-        _ if own.unparted => Some(Sign::Decimal),
-        _ => match (is_decimal, is_thousands) {
-            (true, false) if !own.hundreds => Some(Sign::Decimal),
-            (false, true) => Some(Sign::Thousands),
-            (false, false) => None,
-            _ => Some(Sign::Unclear),
-        },
-    }
+    let styles = columns.iter().map(|own| Style {
+        point: if is_workbook { Sign::Decimal } else { own.sign('.', columns) },
+        comma: own.sign(',', columns),
+    });
+    styles.collect()
 }
 
 impl Style {
@@ -146,28 +118,33 @@ impl Style {
     pub fn number(self, cell: &str) -> Option<f64> {
         let (text, size) = share(cell);
         let is_plain = self.point == Sign::Decimal && !text.contains([',', '\'', ' ']);
-        let value = if is_plain { plain(text) } else { self.unparted(text).and_then(|text| plain(&text)) };
+        let value = if is_plain {
+            plain_number(text)
+        } else {
+            self.unparted(text).and_then(|text| plain_number(&text))
+        };
         value.map(|value| size * value)
     }
 
     /// Whether a cell is a number but for a sign that may be decimal or not.
     pub fn is_unclear(self, cell: &str) -> bool {
-        let has = |sign: char, known: Sign| known == Sign::Unclear && cell.contains(sign);
-        (has('.', self.point) || has(',', self.comma)) && is_number(cell)
+        let has_open = self.point == Sign::Unclear && cell.contains('.')
+            || self.comma == Sign::Unclear && cell.contains(',');
+        has_open && is_number(cell)
     }
 
     /// The number with a decimal point, without what stands between its thousands.
     fn unparted(self, text: &str) -> Option<String> {
         let mut text = text.to_string();
-        for (sign, known) in [('.', self.point), (',', self.comma)] {
-            text = match known {
-                Sign::Decimal => text,
-                Sign::Thousands => without(&text, sign)?,
+        for (sign, known) in
+            [('.', self.point), (',', self.comma), ('\'', Sign::Thousands), (' ', Sign::Thousands)]
+        {
+            match known {
+                Sign::Thousands => text = without(&text, sign)?,
                 Sign::Unclear if text.contains(sign) => return None,
-                Sign::Unclear => text,
-            };
+                Sign::Unclear | Sign::Decimal => {}
+            }
         }
-        let text = without(&without(&text, '\'')?, ' ')?;
         Some(text.replacen(',', ".", 1))
     }
 }
@@ -186,7 +163,7 @@ fn without(text: &str, sign: char) -> Option<String> {
 }
 
 /// Reads a number with a decimal point; Fortran's exponents begin with D.
-fn plain(text: &str) -> Option<f64> {
+pub fn plain_number(text: &str) -> Option<f64> {
     let value = text.parse().or_else(|_| text.replacen(['d', 'D'], "e", 1).parse());
     value.ok().filter(|value: &f64| value.is_finite())
 }

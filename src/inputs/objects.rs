@@ -10,6 +10,7 @@ use super::{Grid, Heading, InputError, Renames};
 use crate::keyword::Keyword;
 use crate::number::rounded;
 use crate::object::{Field, Object, Place, Reason};
+use crate::plausibility::judge_lengths;
 use crate::units::{Quantity, Unit};
 use crate::warning::{Warning, Warnings};
 
@@ -20,6 +21,8 @@ enum Column {
     Known(Field),
     /// The number of such objects.
     Count,
+    /// The unit of lengths.
+    Unit,
     /// What holds an object.
     Held,
     /// The floor that it stands on.
@@ -32,22 +35,6 @@ enum Column {
     Unclear,
     Unused,
 }
-
-/// Parts of headings that speak of an object.
-const OF_OBJECTS: [&str; 12] = [
-    "floor",
-    "storey",
-    "story",
-    "geschoss",
-    "stockwerk",
-    "centre-of",
-    "centroid",
-    "cog",
-    "schwerpunkt",
-    "friction",
-    "reibung",
-    "anchor",
-];
 
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
@@ -73,49 +60,46 @@ pub fn read(
     renames: &mut Renames,
     common: &Common,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
-    let mut objects = || {
-        let mut grid = Grid::read(path)?;
-        renames.apply(&mut grid)?;
+    let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
+    let read = grid.and_then(|grid| {
         let list = List::new(&grid, common)?;
         Ok((list.objects(), list.unused()))
-    };
-    objects().map_err(|error: InputError| error.of(path))
+    });
+    read.map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid.
-pub fn of_rows(grid: &Grid) -> Result<Vec<Object>, InputError> {
+pub fn in_rows(grid: &Grid) -> Result<Vec<Object>, InputError> {
     Ok(List::new(grid, &Common::default())?.objects())
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
 pub fn describes_object(heading: &Heading) -> bool {
-    const OF_STRUCTURES: [Field; 3] = [Field::P, Field::Alpha, Field::Eta];
     match meaning(heading) {
-        Column::Known(field) => !OF_STRUCTURES.contains(&field),
+        Column::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
         column => matches!(column, Column::Storey | Column::Storeys | Column::Unclear),
     }
 }
 
 fn meaning(heading: &Heading) -> Column {
-    let name = joined(&heading.name);
-    if heading.unit.is_some_and(|unit| unit.quantity == Quantity::Counts) {
-        return Column::Count;
-    }
-    let is = |meaning: &str| words(meaning).any(|word| word == name);
-    let field = Field::ALL.iter().find(|field| field.as_str() == name || is(field.as_str()));
-    let others = [
+    const OTHERS: [(&str, Column); 5] = [
         ("count", Column::Count),
+        ("unit", Column::Unit),
         ("storey", Column::Storey),
         ("storeys", Column::Storeys),
         ("building", Column::Building),
     ];
-    let other = others.into_iter().find(|(meaning, _)| is(meaning)).map(|(_, column)| column);
-    match field.map(|field| Column::Known(*field)).or(other) {
+    let (name, quantity) = (joined(&heading.name), heading.unit.map(|unit| unit.quantity));
+    let is = |meaning: &str| words(meaning).any(|word| word == name);
+    let field = Field::ALL.iter().find(|field| field.as_str() == name || is(field.as_str()));
+    let other = || OTHERS.iter().find(|(meaning, _)| is(meaning)).map(|(_, column)| *column);
+    match field.map(|field| Column::Known(*field)).or_else(other) {
+        _ if quantity == Some(Quantity::Counts) => Column::Count,
         Some(column) => column,
         None if words("held").any(|start| name.starts_with(start)) => Column::Held,
-        None if OF_OBJECTS.iter().any(|part| name.contains(part)) => Column::Unclear,
+        None if words("of-objects").any(|part| name.contains(part)) => Column::Unclear,
         // Perhaps another side of the base: without it the object would seem safer.
-        None if heading.unit.is_some_and(|unit| unit.quantity == Quantity::Length) => Column::Unclear,
+        None if quantity == Some(Quantity::Length) => Column::Unclear,
         None => Column::Unused,
     }
 }
@@ -123,63 +107,65 @@ fn meaning(heading: &Heading) -> Column {
 impl List<'_> {
     fn new<'a>(grid: &'a Grid, common: &Common) -> Result<List<'a>, InputError> {
         let columns: Vec<Column> = grid.headings.iter().map(meaning).collect();
-        let name = words("name")
-            .find_map(|name| grid.headings.iter().position(|heading| joined(&heading.name) == name));
-        let mut list = List { grid, columns, name, ground_floor: 0, place: common.place };
+        let mut list = List { grid, columns, name: grid.about("name"), ground_floor: 0, place: common.place };
         list.check()?;
-        if list.column(Column::Storey).is_none() {
+        let Some(at) = list.column(Column::Storey) else {
             // Without a floor, the building says nothing.
             for column in &mut list.columns {
                 if matches!(column, Column::Storeys | Column::Building) {
                     *column = Column::Unused;
                 }
             }
-        }
+            return Ok(list);
+        };
         let storeys: Vec<Storey> = (0..grid.lines.len())
             .filter(|row| list.cell(*row, Column::Known(Field::Level)).is_none())
-            .filter_map(|row| list.cell(row, Column::Storey).and_then(Storey::parse))
+            .filter_map(|row| Storey::parse(grid.cell(row, at)))
             .collect();
-        let ask = |lowest| InputError::GroundFloor {
-            heading: list.column(Column::Storey).map_or(String::new(), |at| grid.headings[at].text.clone()),
-            lowest,
-        };
+        let heading = grid.headings[at].text.clone();
         list.ground_floor = match common.ground_floor {
             Some(number) => number,
-            None => floors::ground_floor(&storeys).map_err(ask)?,
+            None => floors::ground_floor(&storeys)
+                .map_err(|lowest| InputError::GroundFloor { heading, lowest })?,
         };
         Ok(list)
     }
 
-    /// Checks the headings.
+    /// Checks the headings, and the lengths below each.
     fn check(&self) -> Result<(), InputError> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
-        let has = |field| self.column(Column::Known(field)).is_some();
-        if !(has(Field::Height) || has(Field::P)) {
-            let unused =
-                |(at, column): &(usize, &Column)| **column == Column::Unused && Some(*at) != self.name;
-            let unknown = self.columns.iter().enumerate().find(unused);
-            return Err(match unknown {
-                Some((at, _)) => {
-                    let heading = grid.headings[at].text.clone();
-                    InputError::Heading { heading, expected, found: grid.found() }
-                }
-                None => InputError::Missing { found: grid.found(), expected },
+        if self.column(Column::Known(Field::Height)).or(self.column(Column::Known(Field::P))).is_none() {
+            let found = grid.found();
+            return Err(match self.headings(Column::Unused).next() {
+                Some(heading) => InputError::Heading { heading: heading.to_string(), expected, found },
+                None => InputError::missing(found, expected),
             });
         }
         if grid.lines.is_empty() {
-            return Err(InputError::Missing { found: "no rows".to_string(), expected: "one per object" });
+            return Err(InputError::missing("no rows", "one per object"));
         }
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             let text = heading.text.replace("(-)", "").replace("[-]", "");
             let has_sign = text.contains(['(', '[', '"', '\'', '%']);
             if matches!(column, Column::Known(_)) && heading.unit.is_none() && has_sign {
                 let found = format!("heading '{}'", heading.text);
-                return Err(InputError::Missing { found, expected: "m, cm or mm in brackets, or no unit" });
+                return Err(InputError::missing(found, "m, cm or mm in brackets, or no unit"));
             }
             let is_one = !matches!(column, Column::Held | Column::Unclear | Column::Unused);
             if is_one && self.columns[..at].contains(column) {
-                let found = format!("two columns '{}'", heading.text);
-                return Err(InputError::Missing { found, expected: "one" });
+                return Err(InputError::missing(format!("two columns '{}'", heading.text), "one"));
+            }
+            let Column::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
+                continue;
+            };
+            if let Some(unit) = heading.unit {
+                let lengths = (0..grid.lines.len()).filter_map(|row| grid.number(row, at).ok());
+                judge_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
+                    InputError::missing(format!("column '{}'", heading.text), expected)
+                })?;
+            } else if let Some(note) = grid.notes.iter().find(|note| names_unit_of_length(note)) {
+                let expected = "the unit in the heading of each column: Width (mm)";
+                return Err(InputError::missing(format!("a unit above the headings: '{note}'"), expected));
             }
         }
         Ok(())
@@ -189,75 +175,82 @@ impl List<'_> {
         self.columns.iter().position(|column| *column == wanted)
     }
 
-    /// What stands in a column, if anything does.
+    /// The texts of the headings of this kind, but for that of names.
+    fn headings(&self, wanted: Column) -> impl Iterator<Item = &str> {
+        let all =
+            (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted && Some(*at) != self.name);
+        all.map(|at| self.grid.headings[at].text.as_str())
+    }
+
+    /// What stands in a column, if it says anything.
     fn cell(&self, row: usize, column: Column) -> Option<&str> {
-        self.column(column).map(|at| self.grid.cell(row, at)).filter(|cell| !cell.is_empty())
+        self.column(column).map(|at| self.grid.cell(row, at)).filter(|cell| !has_no_value(cell))
     }
 
     /// The columns that are not used, named once.
     fn unused(&self) -> Warnings {
-        let is_unused =
-            |(at, column): &(usize, &Column)| **column == Column::Unused && Some(*at) != self.name;
-        let unused: Vec<&str> = self
-            .columns
-            .iter()
-            .enumerate()
-            .filter(is_unused)
-            .map(|(at, _)| self.grid.headings[at].text.as_str())
-            .filter(|text| !text.is_empty())
-            .collect();
+        let unused: Vec<&str> = self.headings(Column::Unused).filter(|text| !text.is_empty()).collect();
         let one = (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", ")));
         one.into_iter().collect()
     }
 
     fn objects(&self) -> Vec<Object> {
         let grid = self.grid;
-        let name = |row: usize| match self.name.map_or("", |column| grid.cell(row, column)) {
-            "" => format!("line {}", grid.lines[row]),
-            name => name.to_string(),
-        };
-        let names: Vec<String> = (0..grid.lines.len()).map(name).collect();
+        let names: Vec<String> = (0..grid.lines.len()).map(|row| self.name_of(row)).collect();
         let mut uses: HashMap<&str, usize> = HashMap::new();
         names.iter().for_each(|name| *uses.entry(name).or_default() += 1);
-        let listed = |(row, name): (usize, &String)| {
-            let is_total = means(name, "total");
-            let name = match uses[name.as_str()] {
-                1 => name.clone(),
-                _ => format!("{name} (line {})", grid.lines[row]),
-            };
-            match self.object(row) {
-                Ok(object) if !is_total => Object { name, refused: self.held(row), ..object },
-                given => {
-                    let problem = given.err().unwrap_or("a row of totals, not an object".to_string());
-                    Object { name, refused: Some(Reason::Implausible(problem)), ..Object::default() }
+        let names_floors =
+            self.place.level.is_none() && (0..grid.lines.len()).any(|row| self.names_floor(row));
+        let mut objects = Vec::new();
+        for (row, name) in names.iter().enumerate() {
+            let object = match self.object(row) {
+                Ok(_) if means(name, "total") => Err("a row of totals, not an object".to_string()),
+                Ok(_) if names_floors && !self.names_floor(row) => {
+                    Err("no floor, but others have one: write G if it is the ground".to_string())
                 }
-            }
-        };
-        names.iter().enumerate().map(listed).collect()
+                given => given,
+            };
+            let object = match object {
+                Ok(object) => Object { refused: self.held(row), ..object },
+                Err(why) => Object { refused: Some(Reason::Implausible(why)), ..Object::default() },
+            };
+            let is_unique = uses[name.as_str()] == 1;
+            let name = if is_unique { name.clone() } else { format!("{name} (line {})", grid.lines[row]) };
+            objects.push(Object { name, ..object });
+        }
+        objects
+    }
+
+    fn name_of(&self, row: usize) -> String {
+        match self.name.map_or("", |column| self.grid.cell(row, column)) {
+            "" => format!("line {}", self.grid.lines[row]),
+            name => name.to_string(),
+        }
+    }
+
+    /// Whether a row says on which floor its object stands.
+    fn names_floor(&self, row: usize) -> bool {
+        self.cell(row, Column::Storey).or(self.cell(row, Column::Known(Field::Level))).is_some()
     }
 
     /// The object of a row, or what is wrong with it.
     fn object(&self, row: usize) -> Result<Object, String> {
         let mut object = Object::default();
         for (at, column) in self.columns.iter().enumerate() {
-            let (cell, heading) = (self.grid.cell(row, at), &self.grid.headings[at]);
-            let (name, quantity) = match column {
-                _ if cell.is_empty() => continue,
-                Column::Known(field) => (field.as_str(), field.quantity()),
-                Column::Count => ("count", None),
+            let cell = self.grid.cell(row, at);
+            let is_needed =
+                [Field::Width, Field::Height, Field::P, Field::Alpha].map(Column::Known).contains(column);
+            let (name, size) = match column {
+                _ if cell.is_empty() || has_no_value(cell) && !is_needed => continue,
+                Column::Known(field) => (field.as_str(), self.size(row, at, *field)?),
+                Column::Count => ("count", 1.0),
                 Column::Unclear if !is_missing(cell) => {
-                    let text = &heading.text;
-                    return Err(format!(
-                        "column '{text}' is not understood: rename it (--columns) or leave it out"
-                    ));
+                    let text = &self.grid.headings[at].text;
+                    let problem = "is not understood: rename it (--columns) or leave it out";
+                    return Err(format!("column '{text}' {problem}"));
                 }
                 _ => continue,
             };
-            let is_needed = matches!(name, "width" | "height" | "p" | "alpha");
-            if !is_needed && has_no_value(cell) {
-                continue;
-            }
-            let size = in_si(name, quantity, heading.unit)?;
             match self.grid.number(row, at) {
                 Ok(number) => object.set(name, &rounded(size * number).to_string())?,
                 Err(error @ InputError::Thousands { .. }) => return Err(error.to_string()),
@@ -268,12 +261,31 @@ impl List<'_> {
         Ok(object)
     }
 
+    /// The size of the unit of a cell in m, s, rad or rad/s: that of its heading, of lengths else that of the
+    /// row.
+    fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
+        let (heading, quantity) = (&self.grid.headings[at], field.quantity());
+        let cell = self.cell(row, Column::Unit).filter(|_| quantity == Some(Quantity::Length));
+        let own = cell.and_then(Unit::parse);
+        if let Some(cell) = cell.filter(|_| own.is_none() || heading.unit.is_some() && heading.unit != own) {
+            return Err(format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text));
+        }
+        match heading.unit.or(own) {
+            None => Ok(1.0),
+            Some(unit) if Some(unit.quantity) == quantity => Ok(unit.si),
+            Some(unit) => {
+                let is_length = quantity == Some(Quantity::Length);
+                let expected = if is_length { "m, cm or mm" } else { "another unit, or none" };
+                Err(format!("{field} is in {}; expected {expected}", unit.name))
+            }
+        }
+    }
+
     /// The place of an object with the floor that its row names.
     fn on_floor(&self, row: usize, place: Place) -> Result<Place, String> {
-        let Some(cell) = self.cell(row, Column::Storey).filter(|cell| !has_no_value(cell)) else {
-            return Ok(place);
-        };
-        if place.level.is_some() && place.period.or(self.place.period).is_some() {
+        let known = Place { period: place.period.or(self.place.period), ..place };
+        let Some(cell) = self.cell(row, Column::Storey) else { return Ok(place) };
+        if known.level.is_some() && known.period.is_some() {
             return Ok(place);
         }
         let storey =
@@ -282,27 +294,23 @@ impl List<'_> {
         if above == Some(0) {
             return Ok(Place { level: place.level.or(Some(0.0)), ..place });
         }
-        let all = self.cell(row, Column::Storeys);
-        let storeys = match all.map(|cell| cell.parse::<f64>()) {
-            Some(Ok(storeys)) if storeys.fract() == 0.0 && (1.0..200.0).contains(&storeys) => storeys as u32,
-            Some(_) => return Err(format!("storeys '{}'; expected a whole number", all.unwrap_or_default())),
-            None => {
-                return Err(format!(
-                    "floor {cell}: expected the storeys of the building (column Storeys), or Level and T1 (s)"
-                ));
-            }
-        };
+        let all = self.cell(row, Column::Storeys).ok_or_else(|| {
+            format!(
+                "floor {cell}: expected the storeys of the building (column Storeys), or Level and T1 (s)"
+            )
+        })?;
+        let storeys = all.parse().ok().filter(|all: &f64| all.fract() == 0.0 && (1.0..200.0).contains(all));
+        let storeys = storeys.ok_or_else(|| format!("storeys '{all}'; expected a whole number"))? as u32;
         let above = above.unwrap_or(storeys);
         if above > storeys {
             return Err(format!("floor {cell} of {storeys} storeys: which is right?"));
         }
-        let building = self.cell(row, Column::Building).filter(|cell| !is_missing(cell));
-        let type_of = |cell: &str| {
-            let expected = "expected walls, masonry, concrete frame or steel frame";
-            Building::parse(cell).ok_or_else(|| format!("building '{cell}'; {expected}"))
+        let building = match self.cell(row, Column::Building) {
+            Some(cell) => Some(Building::parse(cell).ok_or_else(|| {
+                format!("building '{cell}'; expected walls, masonry, concrete frame or steel frame")
+            })?),
+            None => None,
         };
-        let building = building.map(type_of).transpose()?;
-        let known = Place { period: place.period.or(self.place.period), ..place };
         Ok(floors::place(above, storeys, building, known))
     }
 
@@ -318,27 +326,27 @@ fn has_no_value(cell: &str) -> bool {
     is_missing(cell) && !cell.starts_with('#')
 }
 
-/// The size of a unit in m, s, rad or rad/s.
-fn in_si(name: &str, quantity: Option<Quantity>, unit: Option<Unit>) -> Result<f64, String> {
-    let refuse = |unit: Unit, expected| Err(format!("{name} is in {}; expected {expected}", unit.name));
-    match (quantity, unit) {
-        (Some(quantity), Some(unit)) if unit.quantity == quantity => Ok(unit.si),
-        (Some(Quantity::Length), Some(unit)) => refuse(unit, "m, cm or mm"),
-        (_, Some(unit)) if unit.quantity != Quantity::Counts => refuse(unit, "another unit, or none"),
-        _ => Ok(1.0),
-    }
+/// Whether a line above the headings names a unit of lengths other than m.
+fn names_unit_of_length(note: &str) -> bool {
+    note.split([',', ';', '\t']).any(|cell| {
+        let unit = Heading::new(cell.trim()).unit;
+        unit.is_some_and(|unit| unit.quantity == Quantity::Length && unit.si != 1.0)
+    })
 }
 
-/// Why an object with this cell under this heading of anchors is not free to rock.
+/// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.
 fn held_by(heading: &str, cell: &str) -> Option<Reason> {
-    const WHEELS: [&str; 6] = ["castor", "caster", "wheel", "rollen", "ruote", "ruedas"];
-    let [heading, word] = [heading, cell].map(|text| text.trim().to_lowercase());
-    let rolls = WHEELS.iter().any(|wheels| heading.contains(wheels) || word.contains(wheels));
-    if has_no_value(cell) || means(cell, "free") {
-        return None;
+    let (heading, text) = (heading.to_lowercase(), joined(cell));
+    let has = |text: &str, meaning: &str| words(meaning).any(|part| text.contains(part));
+    let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
+    let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
+    if has_no_value(cell) || means(cell, "free") || is_loose {
+        None
+    } else if !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
+        Some(Reason::Implausible(format!("{heading}: '{cell}'; expected yes or no")))
+    } else if has(&heading, "rolls") || has(&text, "rolls") {
+        Some(Reason::NotRocking("on castors: it rolls, and does not rock".to_string()))
+    } else {
+        Some(Reason::NotRocking(format!("{heading}: {}; it is not free to rock", cell.to_lowercase())))
     }
-    Some(Reason::NotRocking(match rolls {
-        true => "on castors: it rolls, and does not rock".to_string(),
-        false => format!("{heading}: {word}; it is not free to rock"),
-    }))
 }

@@ -21,18 +21,9 @@ pub struct Member {
 
 /// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
 pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>, InputError> {
-    let mut members = match bytes {
-        packed if packed.starts_with(b"\x1f\x8b") => {
-            vec![Member { name: None, bytes: read(MultiGzDecoder::new(packed.as_slice()))? }]
-        }
-        archive if archive.starts_with(b"PK\x03\x04") || archive.starts_with(b"PK\x05\x06") => {
-            match members(&archive)? {
-                Some(members) => members,
-                None => return Ok(vec![Member { name: None, bytes: archive }]),
-            }
-        }
-        plain => return Ok(vec![Member { name: None, bytes: plain }]),
-    };
+    let is_archive = bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06");
+    let members = if is_archive { members(&bytes)? } else { None };
+    let mut members = members.unwrap_or_else(|| vec![Member { name: None, bytes }]);
     for member in &mut members {
         if member.bytes.starts_with(b"\x1f\x8b") {
             member.bytes = read(MultiGzDecoder::new(member.bytes.as_slice()))?;
@@ -46,15 +37,13 @@ pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>, InputError> {
 
 /// Reads the files of a zip archive, without those that systems add; none of a workbook.
 fn members(bytes: &[u8]) -> Result<Option<Vec<Member>>, InputError> {
-    let damaged = |error: zip::result::ZipError| InputError::Damaged(error.to_string());
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(damaged)?;
-    let is_workbook = |name: &str| matches!(name, "[Content_Types].xml" | "mimetype");
-    if archive.file_names().any(is_workbook) {
+    let mut archive = ZipArchive::new(Cursor::new(bytes))?;
+    if archive.file_names().any(|name| matches!(name, "[Content_Types].xml" | "mimetype")) {
         return Ok(None);
     }
     let mut members = Vec::new();
     for index in 0..archive.len() {
-        let file = archive.by_index(index).map_err(damaged)?;
+        let file = archive.by_index(index)?;
         let name = file.name().to_string();
         let is_hidden = name.split('/').any(|part| part.starts_with('.') || part == "__MACOSX");
         if !file.is_dir() && !is_hidden {

@@ -1,4 +1,4 @@
-//! Words of people's lists, in several languages: data/headings.csv.
+//! Words of people's tables, in several languages: data/headings.csv.
 
 use std::sync::LazyLock;
 

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use calamine::{Data, Reader, SheetVisible, open_workbook_auto_from_rs};
+use calamine::{Data, DataType, Reader, SheetVisible, open_workbook_auto_from_rs};
 
 use super::error::InputError;
 
@@ -14,24 +14,22 @@ pub fn is_workbook(bytes: &[u8]) -> bool {
 /// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of
 /// the first row.
 pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
-    let damaged = |error: calamine::Error| InputError::Damaged(error.to_string());
-    let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(damaged)?;
-    let visible = |sheet: &&calamine::Sheet| sheet.visible == SheetVisible::Visible;
+    let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes))?;
     let all = workbook.sheets_metadata().to_vec();
-    let names: Vec<String> = match name {
-        Some(name) => all.iter().map(|sheet| sheet.name.clone()).filter(|known| known == name).collect(),
-        None => all.iter().filter(visible).map(|sheet| sheet.name.clone()).collect(),
-    };
     let mut filled = Vec::new();
-    for name in names {
-        let range = workbook.worksheet_range(&name).map_err(damaged)?;
+    for sheet in &all {
+        let is_meant = match name {
+            Some(name) => sheet.name == name,
+            None => sheet.visible == SheetVisible::Visible,
+        };
+        let range = if is_meant { workbook.worksheet_range(&sheet.name)? } else { continue };
         if !range.is_empty() {
-            filled.push((name, range));
+            filled.push((sheet.name.clone(), range));
         }
     }
     match &filled[..] {
         [(name, range)] => {
-            let formulas = workbook.worksheet_formula(name).map_err(damaged)?;
+            let formulas = workbook.worksheet_formula(name)?;
             let (first, left) = range.start().unwrap_or_default();
             let rows = range.rows().zip(first..).map(|(row, at)| {
                 let cells = row.iter().zip(left..);
@@ -49,8 +47,7 @@ pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>
 fn text(cell: &Data, formula: Option<&String>) -> String {
     let formula = formula.filter(|formula| !formula.is_empty());
     match cell {
-        Data::Empty => formula.map_or(String::new(), |formula| format!("={formula}")),
-        Data::String(text) if text.is_empty() => {
+        _ if cell.is_empty() || cell.get_string() == Some("") => {
             formula.map_or(String::new(), |formula| format!("={formula}"))
         }
         Data::Bool(true) => "yes".to_string(),

@@ -47,19 +47,20 @@ keywords! {
     }
 }
 
-const LENGTH: &str = "a length above 0 m, up to 200 m: is it in cm or mm?";
+const SIDE: &str = "a side above 0 m, up to 50 m: is it in cm or mm?";
+const HEIGHT: &str = "a height above 0 m, up to 100 m: is it in cm or mm?";
 const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
 
 impl Field {
     /// Returns the least and the largest value that an object can have, and what is expected. No rocking
-    /// structure is taller than 200 m, has a semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2
-    /// rad/s), or is wider than tall (it slides).
+    /// structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a semi-diagonal
+    /// below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
     pub fn range(self) -> (RangeInclusive<f64>, &'static str) {
         match self {
-            Field::Width | Field::Depth => (1e-4..=200.0, LENGTH),
-            Field::Height => (1e-3..=200.0, LENGTH),
-            Field::CentreHeight => (1e-6..=200.0, LENGTH),
+            Field::Width | Field::Depth => (1e-4..=50.0, SIDE),
+            Field::Height => (1e-3..=100.0, HEIGHT),
+            Field::CentreHeight => (1e-6..=100.0, HEIGHT),
             Field::CentreOffset => (-100.0..=100.0, "a length up to 100 m: is it in cm or mm?"),
             Field::Inertia => (1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?"),
             Field::BeamMassRatio => (0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?"),

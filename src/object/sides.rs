@@ -95,7 +95,12 @@ impl Object {
             ("width", Some(side), height, "m, the height: were they exchanged?"),
             ("depth", shape.depth, LONGEST * height, "m, 20 times the height: is it in cm or mm?"),
             ("centre-height", shape.centre_height, height, "m, the height: were they exchanged?"),
-            ("centre-offset", offset, 0.5 * width, "m, half of the width: is it from an edge, or in cm?"),
+            (
+                "centre-offset",
+                offset,
+                FARTHEST * 0.5 * width,
+                "m, or it does not stand: from an edge, or in cm?",
+            ),
             ("inertia", shape.inertia, inertia, "m2: is it about an edge, or times mass?"),
             ("centre-height-sd", place.centre_height_sd, height, "m, the height: is it in cm?"),
             ("centre-offset-sd", place.centre_offset_sd, width, "m, the width: is it in cm?"),

@@ -38,6 +38,8 @@ pub enum Implausibility {
     Spike { sample: usize, pga_g: f64 },
     #[error("PGA {} g; the largest ever recorded is 4 g: another unit, such as cm/s2?", digits(.pga_g))]
     Pga { pga_g: f64 },
+    #[error("no sample below 0; expected both signs: a spectrum, or absolute values?")]
+    OneSided,
     #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", digits(.velocity_m_s))]
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", digits(.pgv_m_s))]
@@ -87,6 +89,7 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
         (pga_m_s2 == 0.0, Implausibility::Still),
         (spike.is_some(), Implausibility::Spike { sample: spike.map_or(0, |at| at + 1), pga_g }),
         (pga_g > STRONGEST_PGA_G, Implausibility::Pga { pga_g }),
+        (acceleration.iter().all(|a| *a >= 0.0), Implausibility::OneSided),
         (velocity_m_s > DRIFT.0.max(DRIFT.1 * pgv_m_s), Implausibility::Drift { velocity_m_s }),
         (pgv_m_s > STRONGEST_PGV_M_S, Implausibility::Pgv { pgv_m_s }),
         (ratio_s > *PGV_PGA_RECORDED_S.end(), Implausibility::Slow { ratio_s }),

@@ -3,7 +3,7 @@
 use super::RecordedMotion;
 use super::implausibility::{Implausibility, implausibility};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
-use super::rotation::{Direction, HorizontalPair, RotD};
+use super::rotation::{Direction, HorizontalPair, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
@@ -167,16 +167,18 @@ impl Processing {
 
     /// Rotates two components to the chosen direction.
     fn rotated(&self, first: NamedRecord, second: NamedRecord) -> (NamedRecord, RotD) {
-        let azimuths_deg = [&first, &second].map(|record| record.motion.azimuth_deg.unwrap_or_default());
-        let accelerations = [first.motion.acceleration_m_s2, second.motion.acceleration_m_s2];
-        let pair = HorizontalPair::new(first.motion.dt_s, azimuths_deg, accelerations);
+        let pair = HorizontalPair::new(first.motion, second.motion);
         let azimuth_deg = match self.direction {
             Some(Direction::Azimuth(azimuth_deg)) => azimuth_deg,
             Some(Direction::StrongestPulse) | None => {
-                let [x, y] = pair.accelerations.each_ref().map(|a| measures::velocity(a, pair.dt_s));
-                pair.azimuth_of(strongest_direction([&x, &y], pair.dt_s).unwrap_or([1.0, 0.0]))
+                let dt_s = pair.first.dt_s;
+                let [x, y] = [&pair.first, &pair.second]
+                    .map(|component| measures::velocity(&component.acceleration_m_s2, dt_s));
+                let along_first = Parts { first: 1.0, second: 0.0 };
+                pair.azimuth_of(strongest_direction([&x, &y], dt_s).unwrap_or(along_first))
             }
         };
+        let (acceleration_m_s2, rotd) = (pair.towards(azimuth_deg), pair.rotd());
         let both = |a: String, b: String| if a == b { a } else { format!("{a}; {b}") };
         let record = NamedRecord {
             motion_id: format!("{}+{}", first.motion_id, second.motion_id),
@@ -185,14 +187,14 @@ impl Processing {
                 blake3: both(first.source.blake3, second.source.blake3),
             },
             motion: RecordedMotion {
-                acceleration_m_s2: pair.towards(azimuth_deg),
+                acceleration_m_s2,
                 component: Some(format!("{azimuth_deg:.1} deg of a pair")),
                 azimuth_deg: Some(azimuth_deg),
                 header_pga: None,
-                ..first.motion
+                ..pair.first
             },
         };
-        (record, pair.rotd())
+        (record, rotd)
     }
 
     /// Scales and measures a record: one motion for each factor.
@@ -246,9 +248,9 @@ impl Processing {
         let velocity = measures::velocity(&motion.acceleration_m_s2, motion.dt_s);
         let indicator = PulseIndicator::of(&velocity, motion.dt_s);
         let found = indicator.filter(|found| found.verdict == Verdict::Pulse);
-        let fit =
-            |found: PulseIndicator| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s);
-        (indicator, found.and_then(fit))
+        let fitted =
+            found.and_then(|found| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s));
+        (indicator, fitted)
     }
 
     /// Measures samples as written, in single precision.

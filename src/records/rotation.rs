@@ -30,8 +30,8 @@ impl Component {
 }
 
 /// Pairs each component with the first free earlier one of its event, station and time step at right angles;
-/// `T` identifies a component. Returns the pairs in the order of their first components, and the components
-/// left out: vertical, of unknown origin, or without a partner.
+/// `T` identifies a component. Returns the pairs in the order of their first
+/// components, and the components left out: vertical, of unknown origin, or without a partner.
 pub fn pairs<T>(components: Vec<(Component, T)>) -> (Vec<[T; 2]>, Vec<T>) {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();
@@ -46,9 +46,9 @@ pub fn pairs<T>(components: Vec<(Component, T)>) -> (Vec<[T; 2]>, Vec<T>) {
     }
     found.sort_unstable();
     let mut left: Vec<Option<T>> = components.into_iter().map(|(_, component)| Some(component)).collect();
-    let both = |[first, second]: [usize; 2]| Some([left[first].take()?, left[second].take()?]);
-    let pairs = found.into_iter().filter_map(both).collect();
-    (pairs, left.into_iter().flatten().collect())
+    let pairs =
+        found.into_iter().filter_map(|[first, second]| Some([left[first].take()?, left[second].take()?]));
+    (pairs.collect(), left.into_iter().flatten().collect())
 }
 
 /// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
@@ -56,15 +56,20 @@ fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
     ((first_deg - second_deg).rem_euclid(180.0) - 90.0).abs() <= 1.0
 }
 
-/// Two horizontal components of one station at right angles, of equal length.
+/// Two horizontal components of one station at right angles, of equal time step and length.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
 pub struct HorizontalPair {
-    /// Time between samples, s.
-    pub dt_s: f64,
-    /// Directions of positive acceleration, degrees clockwise from north.
-    pub azimuths_deg: [f64; 2],
-    /// Samples of each component, m/s2.
-    pub accelerations: [Vec<f64>; 2],
+    pub first: RecordedMotion,
+    pub second: RecordedMotion,
+}
+
+/// The parts of a direction along the components of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Parts {
+    pub first: f64,
+    pub second: f64,
 }
 
 /// Peaks over all directions (Boore 2010).
@@ -93,33 +98,36 @@ impl RotD {
 }
 
 impl HorizontalPair {
-    /// Makes a pair of accelerations that start together; the longer one is cut.
-    pub fn new(dt_s: f64, azimuths_deg: [f64; 2], mut accelerations: [Vec<f64>; 2]) -> HorizontalPair {
-        let length = accelerations.iter().map(Vec::len).min().unwrap_or(0);
-        accelerations.iter_mut().for_each(|samples| samples.truncate(length));
-        HorizontalPair { dt_s, azimuths_deg, accelerations }
+    /// Makes a pair of components that start together; the longer one is cut.
+    pub fn new(mut first: RecordedMotion, mut second: RecordedMotion) -> HorizontalPair {
+        let length = first.acceleration_m_s2.len().min(second.acceleration_m_s2.len());
+        first.acceleration_m_s2.truncate(length);
+        second.acceleration_m_s2.truncate(length);
+        HorizontalPair { first, second }
     }
 
     /// Computes the acceleration in the direction of an azimuth (degrees), m/s2.
     pub fn towards(&self, azimuth_deg: f64) -> Vec<f64> {
-        let weights = self.azimuths_deg.map(|own| (azimuth_deg - own).to_radians().cos());
-        let [first, second] = &self.accelerations;
-        first.iter().zip(second).map(|(a, b)| weights[0] * a + weights[1] * b).collect()
+        let weight = |component| (azimuth_deg - azimuth_of(component)).to_radians().cos();
+        let (first, second) = (weight(&self.first), weight(&self.second));
+        let both = self.first.acceleration_m_s2.iter().zip(&self.second.acceleration_m_s2);
+        both.map(|(a, b)| first * a + second * b).collect()
     }
 
-    /// Computes the azimuth (degrees, in [0, 360)) of a direction given by its parts along both components.
-    pub fn azimuth_of(&self, parts: [f64; 2]) -> f64 {
-        let [first, second] = self.azimuths_deg.map(f64::to_radians);
-        let north = parts[0] * first.cos() + parts[1] * second.cos();
-        let east = parts[0] * first.sin() + parts[1] * second.sin();
+    /// Computes the azimuth (degrees, in [0, 360)) of a direction given by its parts.
+    pub fn azimuth_of(&self, parts: Parts) -> f64 {
+        let (first, second) = (azimuth_of(&self.first).to_radians(), azimuth_of(&self.second).to_radians());
+        let north = parts.first * first.cos() + parts.second * second.cos();
+        let east = parts.first * first.sin() + parts.second * second.sin();
         east.atan2(north).to_degrees().rem_euclid(360.0)
     }
 
     /// Computes RotD50 and RotD100 of peak acceleration and velocity (Boore 2010).
     pub fn rotd(&self) -> RotD {
-        let [first, second] = &self.accelerations;
+        let (first, second) = (&self.first.acceleration_m_s2, &self.second.acceleration_m_s2);
+        let dt_s = self.first.dt_s;
         let accelerations = peaks_over_directions(first, second);
-        let velocities = peaks_over_directions(&velocity(first, self.dt_s), &velocity(second, self.dt_s));
+        let velocities = peaks_over_directions(&velocity(first, dt_s), &velocity(second, dt_s));
         RotD {
             pga50_m_s2: median(&accelerations),
             pga100_m_s2: peak(&accelerations),
@@ -127,6 +135,10 @@ impl HorizontalPair {
             pgv100_m_s: peak(&velocities),
         }
     }
+}
+
+fn azimuth_of(component: &RecordedMotion) -> f64 {
+    component.azimuth_deg.unwrap_or_default()
 }
 
 /// Computes the peak in each direction, ascending.
@@ -159,12 +171,10 @@ impl FromStr for Direction {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Direction, String> {
-        let azimuth = || text.parse().ok().filter(|azimuth| (0.0..=360.0).contains(azimuth));
-        match text {
-            "strongest-pulse" => Ok(Direction::StrongestPulse),
-            _ => azimuth().map(Direction::Azimuth).ok_or_else(|| {
-                format!("'{text}'; expected an azimuth from 0 to 360 degrees, or strongest-pulse")
-            }),
+        match text.parse() {
+            Ok(azimuth) if (0.0..=360.0).contains(&azimuth) => Ok(Direction::Azimuth(azimuth)),
+            Err(_) if text == "strongest-pulse" => Ok(Direction::StrongestPulse),
+            _ => Err(format!("'{text}'; expected an azimuth from 0 to 360 degrees, or strongest-pulse")),
         }
     }
 }

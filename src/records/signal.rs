@@ -89,12 +89,9 @@ pub fn resample(samples: &[f64], dt_s: f64, new_dt_s: f64) -> Vec<f64> {
         let centre = k as f64 * new_dt_s / dt_s;
         let first = (centre - reach).ceil().max(0.0) as usize;
         let last = ((centre + reach).floor() as usize + 1).min(samples.len());
-        let near = samples.iter().enumerate().take(last).skip(first);
-        near.map(|(n, sample)| {
-            let x = centre - n as f64;
-            sample * corner * sinc(corner * x) * kaiser(x / reach)
-        })
-        .sum()
+        let near =
+            samples.iter().enumerate().take(last).skip(first).map(|(n, sample)| (centre - n as f64, sample));
+        near.map(|(x, sample)| sample * corner * sinc(corner * x) * kaiser(x / reach)).sum()
     };
     (0..length).map(value).collect()
 }
@@ -127,11 +124,11 @@ pub enum Scaling {
 impl Scaling {
     /// Computes the factors of an acceleration (m/s2) at steps of `dt_s`; none without a peak to scale.
     pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
-        let to = |target: f64, peak: f64| Some(target / peak).filter(|factor| factor.is_finite());
-        match self {
-            Scaling::Factors(factors) => factors.clone(),
-            Scaling::Pga(target) => Vec::from_iter(to(*target, peak(acceleration))),
-            Scaling::Pgv(target) => Vec::from_iter(to(*target, peak(&velocity(acceleration, dt_s)))),
-        }
+        let factor = match self {
+            Scaling::Factors(factors) => return factors.clone(),
+            Scaling::Pga(target) => target / peak(acceleration),
+            Scaling::Pgv(target) => target / peak(&velocity(acceleration, dt_s)),
+        };
+        if factor.is_finite() { vec![factor] } else { Vec::new() }
     }
 }

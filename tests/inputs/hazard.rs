@@ -172,3 +172,41 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         assert!(found.contains(named), "{named}: {found}");
     }
 }
+
+#[test]
+fn curves_given_together_are_of_one_site_and_in_their_units() {
+    let with = |notes: &str, heading: &str, factor: f64| {
+        notes.to_string() + &table(heading, |a| format!("{},{}", factor * a, 0.02 * rate(a)))
+    };
+    let at = |place: &str, heading: &str, values: &str| {
+        table(&format!("{place},{heading},AFE"), |a| format!("{values},{},{}", 0.5 * a, 0.02 * rate(a)))
+    };
+    let pga = with("# vs30 = 760, lon=13.4\n", "pga_g,AFE", 1.0);
+    let in_rows = table("lon,lat,pga_g,AFE", |a| format!("13.4,42.3,{a},{}", 0.02 * rate(a)));
+    for (first, second, named) in [
+        (&pga, with("# Vs30: 360 m/s\n", "SA(1.0) (g),AFE", 0.5), "vs30 760 and 360"),
+        (&pga, with("# lon=13.9\n", "SA(1.0) (g),AFE", 0.5), "lon 13.4 and 13.9"),
+        (&pga, at("Vs30 (m/s)", "SA(1.0) (g)", "400"), "vs30 760 and 400"),
+        (&in_rows, at("lon,lat", "PGV (m/s)", "13.4,42.9"), "lat 42.3 and 42.9"),
+        (&pga, with("", "SA(1.0) (g),AFE", 9.81), "1.csv: SA(1.0 s) is not 0.1 to 4 times PGA"),
+        (&pga, with("", "SA(1.0) (m/s2),AFE", 0.5), "in g, beside PGA in m/s2"),
+    ] {
+        let refusal = read(&[first.as_bytes(), second.as_bytes()], "").unwrap_err().to_string();
+        assert!(refusal.contains(named), "{named}: {refusal}");
+    }
+    let same = with("# vs30=760.0\n", "SA(1.0) (g),AFE", 0.5);
+    assert!(curves(&[pga.as_bytes(), same.as_bytes()], "", "").velocity.is_some());
+}
+
+#[test]
+fn a_curve_that_is_not_used_is_named() {
+    let text = table("pga_g,AFE,AFE 84th", |a| format!("{a},{},{}", rate(a), 2.0 * rate(a)));
+    assert!(curves(&[text.as_bytes()], "", "PGA (84 %)").fractiles.is_none());
+    let both = table("pga_g,AFE,AFE p16,AFE p84", |a| {
+        format!("{a},{},{},{}", rate(a), 0.5 * rate(a), 2.0 * rate(a))
+    });
+    assert!(curves(&[both.as_bytes()], "", "").fractiles.is_some());
+    let values =
+        table("AFE,pga_g,pga_m_s2_16,PGA 84th (g)", |a| format!("{},{a},{},{}", rate(a), 5.0 * a, 1.2 * a));
+    assert!(curves(&[values.as_bytes()], "", "").fractiles.is_some());
+}

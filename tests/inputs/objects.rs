@@ -2,7 +2,8 @@
 
 use rockfrag::inputs::objects::{self, Common};
 use rockfrag::inputs::{InputError, Rename, Renames};
-use rockfrag::object::Object;
+use rockfrag::object::{Object, structure_warnings};
+use rockfrag::warning::Warning;
 
 use super::packed::{Cells, csv, ods, utf_16, xlsx};
 
@@ -54,7 +55,7 @@ fn text(text: &str) -> Vec<Object> {
 /// Why the only object of a list has no answer.
 fn reason(text: &str) -> String {
     let objects = read("list.csv", text.as_bytes(), "", None).unwrap_or_else(|why| panic!("{why}: {text}"));
-    objects[0].refused.as_ref().map_or(String::new(), ToString::to_string)
+    objects[0].sides().err().map_or(String::new(), |reason| reason.to_string())
 }
 
 #[test]
@@ -214,14 +215,53 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height\nrack,#N/A,2.0\nshelf,0.9,1.8\n", "#N/A"),
         ("name,width,height\nA,1e400,2\nB,0.5,2\n", "1e400"),
         ("name,width,height\nTotal,0.5,2\nB,0.5,2\n", "totals"),
+        ("name,width,height,Storey,Storeys\na,0.5,2,,5\nb,0.5,2,3,5\nc,0.5,2,G,5\n", "no floor"),
+        ("name,width,height,Floor\na,0.5,2,-\nb,0.5,2,G\n", "no floor"),
+        ("name,width,height,level,T1\na,0.5,2,,\nb,0.5,2,0.6,0.5\n", "no floor"),
+        ("name,width,height,elevation\na,0.5,2,12\n", "elevation"),
+        ("name,width,height,unit\na,500,2000,cubit\n", "cubit"),
+        ("name,width (cm),height,unit\na,500,2000,mm\n", "width (cm)"),
+        ("name,width,height,Anchored\na,0.5,2,?\n", "'?'"),
+        ("name,width,height,Anchored\na,0.5,2,tbc\n", "'tbc'"),
+        ("name,width,height,Anchored\na,0.5,2,unknown\n", "'unknown'"),
+        ("name,width,height,on wheels?\na,0.5,2,maybe\n", "'maybe'"),
+        ("name,width,height,Secured\na,0.5,2,2 bolts M10\n", "not free to rock"),
+        ("name,width,height,Secured\na,0.5,2,x\n", "not free to rock"),
+        ("name,width,height,on wheels?\na,0.5,2,yes\n", "rolls"),
+        ("name,width,height\na,60,190\n", "width is 60"),
+        ("name,width,height\na,20,101\n", "height is 101"),
+        ("name,width,height,centre offset\na,0.5,2,0.25\n", "does not stand"),
     ] {
         assert!(reason(list).contains(named), "{named}: {}", reason(list));
     }
     assert_eq!(reason("name,width,height,Floor,Level,T1\na,0.5,2,3,0.6,0.5\n"), "");
     assert_eq!(reason("name,width,height,depth,COG height (m)\na,0.5,2,n/a,0.8\n"), "");
+    let tall = text("name,width,depth,height\na,5,5,19\nb,5,5,15\n");
+    let warnings = tall.iter().map(|object| structure_warnings(&object.sides().unwrap()[0].structure));
+    assert_eq!(warnings.collect::<Vec<_>>(), [vec![Warning::ImplausibleSize], vec![]]);
+    let free = "name,width,height,Secured,on wheels?\na,0.5,2,not bolted,no\nb,0.5,2,unsecured,n\n";
+    assert!(text(free).iter().all(|object| object.refused.is_none()));
+    let rows = text("name,width,height,unit\na,500,2000,mm\nb,50,200,cm\nc,0.5,2,m\n");
+    assert!(rows.iter().all(|object| (object.shape.width, object.shape.height) == (Some(0.5), Some(2.0))));
     let rooms =
         text("name\twidth (mm)\tdepth (mm)\theight (mm)\nrack\t600\t1,000\t2,000\nshelf\t900\t400\t1,800\n");
     assert_eq!(rooms[0].shape.depth, Some(1.0));
+}
+
+#[test]
+fn lengths_that_no_list_has_are_refused_with_what_is_meant() {
+    for (list, named) in [
+        ("name;width (mm);height (mm)\na;1.100;2.200\nb;0.850;1.900\n", "1.100"),
+        ("name;width (mm);height (mm)\na;600;1.900\nb;850;2.100\n", "height (mm)"),
+        ("name;width (mm);height (mm)\na;0.6;1.9\n", "in m"),
+        ("name;width (cm);height (cm)\na;0.6;1.9\n", "in m"),
+        (",Dimensions (mm),,\nname,width,depth,height\na,600,900,1900\n", "Dimensions (mm)"),
+        (";Dimensions [cm];;\nname;width;depth;height\na;60;90;190\n", "Dimensions [cm]"),
+    ] {
+        let refusal = read("list.csv", list.as_bytes(), "", None).unwrap_err().to_string();
+        assert!(refusal.contains(named), "{named}: {refusal}");
+    }
+    assert_eq!(text("All in (m)\nname,width,height\na,0.6,1.9\n")[0].shape.width, Some(0.6));
 }
 
 #[test]

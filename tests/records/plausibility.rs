@@ -12,8 +12,8 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
         match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
             None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}
-            // Half-sine and rectangular pulses end with a velocity.
-            Some(Implausibility::Drift { .. }) => half_pulses += 1,
+            // Half-sine and rectangular pulses end with a velocity, or never turn.
+            Some(Implausibility::Drift { .. } | Implausibility::OneSided) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
         }
     }
@@ -33,6 +33,7 @@ fn every_limit_is_kept() {
         (kind(DT, &|_, a| 9.81 * a), "Some(RarePga { pga_g: 2.9"),
         (kind(DT, &|_, a| 1e-3 * a), "Some(WeakPga"),
         (kind(DT, &|k, a| if k == 700 { 30.0 * G } else { a }), "Some(Spike { sample: 701, pga_g: 30.0"),
+        (kind(DT, &|_, a| a.abs()), "Some(OneSided"),
         (kind(DT, &|_, a| a + 0.5), "Some(Drift { velocity_m_s: 4.99"),
         (kind(1.0, &|_, a| a), "Some(TimeStep"),
         (kind(DT / 50.0, &|_, a| a), "Some(Fast { frequency_hz: 8"),

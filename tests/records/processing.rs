@@ -2,8 +2,11 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::records::rotation::{Component, HorizontalPair, pairs};
+use rockfrag::records::RecordedMotion;
+use rockfrag::records::rotation::{Component, HorizontalPair, Parts, pairs};
 use rockfrag::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
+
+use rockfrag::units::Unit;
 
 use crate::writers::{DT, motion, peak};
 
@@ -61,17 +64,23 @@ fn resampling_keeps_what_both_steps_can_hold() {
     assert!(peak(&resample(&sine(40.0, n, dt), dt, 0.02)[500..1500]) < 1e-3);
 }
 
+fn component(azimuth_deg: f64, samples: Vec<f64>) -> RecordedMotion {
+    let motion = RecordedMotion::new(DT, samples, Unit::parse("m/s2").unwrap());
+    RecordedMotion { azimuth_deg: Some(azimuth_deg), ..motion }
+}
+
 #[test]
 fn a_pair_turns_as_a_vector() {
     // Acceleration along N60E, in components of azimuths 20 and 290.
     let along = motion(1000);
     let seen =
         |azimuth: f64| along.iter().map(|a| a * (60.0 - azimuth).to_radians().cos()).collect::<Vec<_>>();
-    let pair = HorizontalPair::new(DT, [20.0, 290.0], [seen(20.0), seen(290.0)]);
+    let pair = HorizontalPair::new(component(20.0, seen(20.0)), component(290.0, seen(290.0)));
     for (azimuth, factor) in [(60.0, 1.0), (150.0, 0.0), (240.0, -1.0)] {
         near(&pair.towards(azimuth), along.iter().map(|a| factor * a), 1e-12);
     }
-    let azimuth = pair.azimuth_of([40.0, 60.0 - 290.0].map(|turn: f64| turn.to_radians().cos()));
+    let [first, second] = [40.0, 60.0 - 290.0].map(|turn: f64| turn.to_radians().cos());
+    let azimuth = pair.azimuth_of(Parts { first, second });
     assert!((azimuth - 60.0).abs() < 1e-9, "{azimuth}");
     // For a motion along one line, the peak varies with the cosine of the direction; for a circle it is
     // constant.
@@ -79,17 +88,23 @@ fn a_pair_turns_as_a_vector() {
     assert!((rotd.pga100_m_s2 / peak(&along) - 1.0).abs() < 1e-12);
     assert!((rotd.pga50_m_s2 / (peak(&along) * 45.0_f64.to_radians().cos()) - 1.0).abs() < 0.01);
     let circle = |phase: f64| (0..1000).map(|k| (0.05 * k as f64 + phase).sin()).collect::<Vec<f64>>();
-    let rotd = HorizontalPair::new(DT, [0.0, 90.0], [circle(0.0), circle(PI / 2.0)]).rotd();
+    let (first, second) = (component(0.0, circle(0.0)), component(90.0, circle(PI / 2.0)));
+    let rotd = HorizontalPair::new(first, second).rotd();
     assert!((rotd.pga50_m_s2 - 1.0).abs() < 1e-3 && (rotd.pga100_m_s2 - 1.0).abs() < 1e-3, "{rotd:?}");
 }
 
 #[test]
 fn components_of_one_station_at_right_angles_are_a_pair() {
-    let components = [("a", 230.0), ("b", 5.0), ("a", f64::NAN), ("a", 140.5), ("b", 190.0), ("b", 275.5)];
-    let component = |((station, azimuth), place): ((&str, f64), usize)| {
-        let (station, azimuth_deg) =
-            (Some(station.to_string()), Some(azimuth).filter(|azimuth| !azimuth.is_nan()));
-        (Component { event: None, station, dt_s: DT, azimuth_deg }, place)
+    let components = [
+        ("a", Some(230.0)),
+        ("b", Some(5.0)),
+        ("a", None),
+        ("a", Some(140.5)),
+        ("b", Some(190.0)),
+        ("b", Some(275.5)),
+    ];
+    let component = |((station, azimuth), place): ((&str, Option<f64>), usize)| {
+        (Component { event: None, station: Some(station.to_string()), dt_s: DT, azimuth_deg: azimuth }, place)
     };
     let found = pairs(components.into_iter().zip(0..).map(component).collect());
     assert_eq!(found, (vec![[0, 3], [1, 5]], vec![2, 4]));

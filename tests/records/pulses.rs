@@ -114,5 +114,5 @@ fn the_strongest_direction_is_that_of_the_pulse() {
     let along = velocity(&PULSE, 0.0);
     let [x, y] = [0.6, -0.8].map(|part| along.iter().map(|v| part * v).collect::<Vec<f64>>());
     let found = strongest_direction([&x, &y], DT).unwrap();
-    assert!((found[1] / found[0] + 0.8 / 0.6).abs() < 1e-9, "{found:?}");
+    assert!((found.second / found.first + 0.8 / 0.6).abs() < 1e-9, "{found:?}");
 }

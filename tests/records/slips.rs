@@ -81,7 +81,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (at2("VELOCITY TIME SERIES IN UNITS OF CM/S", "NPTS= 103, DT= .01"), "", "NotAcceleration { line: 3"),
         (cosmos(&motion(103), 90).replace("acceleration pts", "velocity pts"), "", "NotAcceleration"),
         (esm(&motion(103)).replace(": ACCELERATION", ": VELOCITY"), "", "NotAcceleration"),
-        (lines("acc_g,time", G, |k, a| format!("{:.2},{a:.6}", time(k))), "", "Exchanged"),
+        (lines("acc_g,time", G, |k, a| format!("{:.2},{a:.6}", time(k))), "", "UnevenTime"),
         // Time steps.
         (csv("time,acc_g", G), "dt=0.005", "Contradiction"),
         (
@@ -94,6 +94,9 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "", "UnevenTime"),
         (lines("", G, |_, a| format!("{a:.6}")), "unit=g", "NoTimeStep { line: 2"),
         (at2(IN_G, "NPTS= 103"), "", "NoTimeStep { line: 4"),
+        (csv("# dt = 0.005 s\ntime,acc_g", G), "", "Contradiction { line: 3, field: \"time step\""),
+        (csv("Period (s),PSA (g)", G), "", "NotAcceleration { line: 2, found: \"'Period (s)': a spectrum"),
+        (csv("T (s),Sa (g)", G), "", "NotAcceleration"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
         (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Input(Cell { line: 32"),

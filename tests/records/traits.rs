@@ -178,6 +178,10 @@ fn columns_of_directions_are_motions_of_their_own() {
         ("time,NS [g],EW [g],UD [g]", G, [Some(0.0), Some(90.0)]),
         ("time (s),acc 30 deg (g),acc 120 deg (g),acc up (g)", G, [Some(30.0), Some(120.0)]),
         ("time,ax (m/s2),ay (m/s2),Z (m/s2)", 1.0, [None, None]),
+        ("time,ax (g),ay (g),az (g)", G, [None, None]),
+        ("t (s),accN (g),accE (g),accZ (g)", G, [Some(0.0), Some(90.0)]),
+        ("Time (s),L (g),T (g),V (g)", G, [None, None]),
+        ("t,R (m/s2),T (m/s2),Z (m/s2)", 1.0, [None, None]),
     ] {
         let read = read_csv(&table(heading, unit, 3, seconds), "").unwrap();
         let (vertical, horizontal): (Vec<_>, Vec<_>) = read.iter().partition(|motion| motion.is_vertical());

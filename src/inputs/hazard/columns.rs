@@ -1,28 +1,38 @@
-//! What the headings of a hazard say: peaks and spectral accelerations by their units, rates, probabilities
-//! and return periods, means and fractiles.
+//! What the headings of a hazard say: measures by their units, rates, probabilities and return periods, means
+//! and fractiles.
 
 use crate::fragility::Peak;
+use crate::inputs::words::{means, words};
 use crate::inputs::{Grid, Heading, InputError};
+use crate::keyword::keywords;
 use crate::units::Quantity;
 
-/// Whether one of the words of a list is among these.
-fn has(words: &[&str], list: &str) -> bool {
-    list.split(' ').any(|known| words.contains(&known))
+keywords! {
+    /// A measure of motions.
+    pub enum Measure {
+        /// Peak ground acceleration.
+        Pga = "PGA",
+        /// Peak ground velocity.
+        Pgv = "PGV",
+        /// Spectral acceleration at 1 s.
+        Spectral = "SA(1.0 s)",
+        /// At another period.
+        Other = "SA",
+    }
 }
 
-/// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
-/// word more, which may change the meaning: `vertical PGA`.
-pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    const BESIDE: &str = "peak ground g motion horizontal mean rotd50 geomean h at site level iml";
-    let unit = heading.unit?;
-    let (peak, names) = match unit.quantity {
-        Quantity::Acceleration => (Peak::Pga, "pga ag a acceleration motion iml level"),
-        Quantity::Velocity => (Peak::Pgv, "pgv velocity"),
-        _ => return None,
-    };
-    let words: Vec<&str> = heading.name.split('_').collect();
-    let are_known = words.iter().all(|word| has(&[word], names) || has(&[word], BESIDE));
-    (are_known && has(&words, names)).then_some((peak, unit.si))
+keywords! {
+    /// Which of several curves of a measure.
+    pub enum Statistic {
+        /// Their mean.
+        Mean = "mean",
+        /// Their median.
+        Median = "median",
+        /// The 16 % fractile.
+        Low = "16 %",
+        /// The 84 % fractile.
+        High = "84 %",
+    }
 }
 
 /// How a column expresses frequency.
@@ -38,36 +48,180 @@ pub enum Frequency {
     Occurrence,
 }
 
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Content {
+    /// Values in a unit of so many m/s2 or m/s.
+    Values(f64),
+    Frequencies(Frequency),
+    Magnitude,
+    Period,
+    Unknown,
+}
+
+/// A column by its heading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column {
+    pub at: usize,
+    pub content: Content,
+    /// None where the heading names none: `Ground Motion (g)`, `AFE`.
+    pub measure: Option<Measure>,
+    pub statistic: Statistic,
+}
+
+/// Whether a word has a meaning.
+fn is(word: &str, meaning: &str) -> bool {
+    words(meaning).any(|known| known == word)
+}
+
+fn is_numeric(word: &str) -> bool {
+    word.starts_with(|sign: char| sign.is_ascii_digit())
+}
+
+impl Column {
+    /// Reads the heading of a column of a file whose probabilities are for so many years, if it says so.
+    pub fn new(at: usize, heading: &Heading, investigation_years: Option<f64>) -> Column {
+        // A fractile may stand behind the unit: pga_g_16.
+        let (text, rank) = heading.text.rsplit_once('_').unwrap_or_default();
+        let is_ranked = matches!(rank, "16" | "84" | "p16" | "p84");
+        let Heading { bare, unit, name, .. } = if is_ranked { Heading::new(text) } else { heading.clone() };
+        let unit = unit.or(heading.unit);
+        let quantity = unit.map(|unit| unit.quantity);
+        let text = format!("{bare} {}", if is_ranked { rank } else { "" }).to_lowercase();
+        let mut words = parts(&text);
+        // A unit at the end of `PoE in 50 years`.
+        words.extend((quantity == Some(Quantity::Time)).then_some("years"));
+        let measure = take_measure(&mut words);
+        let statistic = take_statistic(&mut words);
+        let frequency = Frequency::new(&words, investigation_years);
+        let measured = unit.filter(|_| are_of_values(&words, measure, quantity));
+        let content = match (measured, frequency) {
+            (Some(unit), _) => Content::Values(unit.si),
+            (None, Some(frequency)) => Content::Frequencies(frequency),
+            _ if means(&name, "magnitude") => Content::Magnitude,
+            _ if means(&name, "spectral-period") => Content::Period,
+            _ => Content::Unknown,
+        };
+        let is_velocity = quantity == Some(Quantity::Velocity);
+        let measure = measure.or(is_velocity.then_some(Measure::Pgv));
+        Column { at, content, measure, statistic }
+    }
+
+    /// The unit of the values of a measure, in m/s2 or m/s. An acceleration without a name is PGA.
+    pub fn unit_of(&self, measure: Measure) -> Option<f64> {
+        match self.content {
+            Content::Values(unit) if self.measure.unwrap_or(Measure::Pga) == measure => Some(unit),
+            _ => None,
+        }
+    }
+}
+
+/// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
+/// word more, which may change the meaning: `vertical PGA`.
+pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
+    let column = Column::new(0, heading, None);
+    let pga = column.unit_of(Measure::Pga).map(|unit| (Peak::Pga, unit));
+    pga.or(column.unit_of(Measure::Pgv).map(|unit| (Peak::Pgv, unit)))
+}
+
+/// Whether a heading in a unit, with these words beside a measure, is of values.
+fn are_of_values(words: &[&str], measure: Option<Measure>, quantity: Option<Quantity>) -> bool {
+    let name = match (quantity, measure) {
+        (Some(Quantity::Acceleration), Some(Measure::Spectral | Measure::Other)) => return words.is_empty(),
+        (Some(Quantity::Acceleration), None | Some(Measure::Pga)) => "acceleration",
+        (Some(Quantity::Velocity), None | Some(Measure::Pgv)) => "velocity",
+        _ => return false,
+    };
+    let is_named = measure.is_some() || words.iter().any(|word| is(word, name));
+    is_named && words.iter().all(|word| is(word, name) || is(word, "of-values"))
+}
+
+/// Splits a text into words and numbers: `pe50` is `pe` and `50`.
+fn parts(text: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    for word in text.split(|sign: char| !sign.is_alphanumeric() && sign != '.') {
+        let is_digit = |sign: char| sign.is_ascii_digit() || sign == '.';
+        let mut start = 0;
+        for ((at, sign), (_, before)) in word.char_indices().skip(1).zip(word.char_indices()) {
+            if is_digit(sign) != is_digit(before) {
+                parts.push(&word[start..at]);
+                start = at;
+            }
+        }
+        parts.push(&word[start..]);
+    }
+    parts.into_iter().map(|part| part.trim_matches('.')).filter(|part| !part.is_empty()).collect()
+}
+
+/// Takes the words that name a measure out of a heading.
+fn take_measure(words: &mut Vec<&str>) -> Option<Measure> {
+    for at in 0..words.len() {
+        let period: Vec<&str> = words[at + 1..].iter().copied().take_while(|word| is_numeric(word)).collect();
+        let is_after_spectral = at > 0 && words[at - 1] == "spectral";
+        let (measure, length) = match words[at] {
+            "pgv" => (Measure::Pgv, 1),
+            "pga" | "ag" => (Measure::Pga, 1),
+            "s" if at > 0 || period.is_empty() => continue,
+            "acceleration" if !is_after_spectral => continue,
+            "sa" | "psa" | "s" | "acceleration" => {
+                let is_at_1_s = period.join(".").parse() == Ok(1.0);
+                let in_s = words.get(at + 1 + period.len()).is_some_and(|next| matches!(*next, "s" | "sec"));
+                let measure = if is_at_1_s { Measure::Spectral } else { Measure::Other };
+                (measure, 1 + period.len() + usize::from(in_s))
+            }
+            _ => continue,
+        };
+        words.drain(at..at + length);
+        words.retain(|word| *word != "spectral");
+        return Some(measure);
+    }
+    None
+}
+
+/// Takes the words that name a fractile out of a heading. A number of years is none.
+fn take_statistic(words: &mut Vec<&str>) -> Statistic {
+    const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
+    let mut found = None;
+    for (at, word) in words.iter().enumerate() {
+        let (before, next) = (at.checked_sub(1).map_or("", |before| words[before]), words.get(at + 1));
+        let are_years = next.is_some_and(|next| is(next, "years")) || is(before, "probability");
+        let is_ranked = RANKS.contains(&before) || next.is_some_and(|next| RANKS.contains(next));
+        let statistic = match *word {
+            "median" | "0.5" => Statistic::Median,
+            "50" if is_ranked => Statistic::Median,
+            "16" | "84" if are_years => continue,
+            "16" | "0.16" => Statistic::Low,
+            "84" | "0.84" => Statistic::High,
+            _ => continue,
+        };
+        found.get_or_insert((at, statistic));
+    }
+    let Some((at, statistic)) = found else { return Statistic::Mean };
+    words.remove(at);
+    words.retain(|word| !RANKS.contains(word));
+    statistic
+}
+
 /// More motions a year than any site has that a hazard counts.
 const MOST_FREQUENT: f64 = 1000.0;
 
 impl Frequency {
     /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
     fn new(words: &[&str], investigation_years: Option<f64>) -> Option<Frequency> {
-        const RATES: &str = "rate frequency frequenza afe afoe mafe mare lambda \u{3bb} tasa taux";
-        const PERIODS: &str = "return ritorno retorno retour wiederkehrperiode tr rp arp";
-        const PROBABILITIES: &str = "probability poe pe aep ape probabilidad probabilité wahrscheinlichkeit";
-        const BESIDE: &str = "annual annua anual media mean of occurrence exceedance exceedence eccedenza \
-                              excedencia per a in year years yr yrs y period recurrence average t r tempo \
-                              periodo di de anni años ans jahre jahren";
-        let (numbers, words): (Vec<&str>, Vec<&str>) =
-            words.iter().partition(|word| word.starts_with(|sign: char| sign.is_ascii_digit()));
+        const MEANINGS: [&str; 5] = ["rate", "return-period", "probability", "years", "of-rates"];
+        let (numbers, words): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_numeric(word));
+        let has = |meaning: &str| words.iter().any(|word| is(word, meaning));
         let years: Option<f64> = numbers.first().and_then(|number| number.parse().ok());
-        let is_known =
-            |word: &&str| [RATES, PERIODS, PROBABILITIES, BESIDE].iter().any(|list| has(&[word], list));
-        if !words.iter().all(is_known) {
-            None
-        } else if has(&words, PROBABILITIES) {
-            let annual = has(&words, "annual aep ape").then_some(1.0);
-            years.or(annual).or(investigation_years).map(Frequency::ProbabilityIn)
-        } else if years.is_some_and(|years| years != 1.0) {
-            None
-        } else if has(&words, "occurrence") {
-            Some(Frequency::Occurrence)
-        } else if has(&words, PERIODS) || words.starts_with(&["t", "r"]) {
-            Some(Frequency::ReturnPeriod)
-        } else {
-            has(&words, RATES).then_some(Frequency::Rate)
+        match words.iter().all(|word| MEANINGS.iter().any(|meaning| is(word, meaning))) {
+            false => None,
+            _ if has("probability") => {
+                let annual = words.iter().any(|word| matches!(*word, "annual" | "aep" | "ape"));
+                years.or(annual.then_some(1.0)).or(investigation_years).map(Frequency::ProbabilityIn)
+            }
+            _ if years.is_some_and(|years| years != 1.0) => None,
+            _ if words.contains(&"occurrence") => Some(Frequency::Occurrence),
+            _ if has("return-period") || words.starts_with(&["t", "r"]) => Some(Frequency::ReturnPeriod),
+            _ => has("rate").then_some(Frequency::Rate),
         }
     }
 
@@ -92,121 +246,4 @@ impl Frequency {
         };
         Err(grid.refusal(row, column, expected))
     }
-}
-
-/// Which of several curves of an intensity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Statistic {
-    Mean,
-    Median,
-    Low,
-    High,
-}
-
-/// What a curve is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Intensity {
-    Peak(Peak),
-    /// Spectral acceleration at 1 s.
-    Spectral,
-    /// At another period, or an acceleration that is told beside the rates.
-    Other,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Content {
-    /// With the unit in m/s2 or m/s.
-    Intensity(Intensity, f64),
-    /// With the intensity whose frequency it is, where the heading tells.
-    Frequency(Frequency, Option<Intensity>),
-    Magnitude,
-    Period,
-    Unknown,
-}
-
-const YEARS: &str = "year years yr yrs y anni a\u{f1}os ans jahre jahren";
-
-/// Splits a name at its underscores, and between letters and digits: `pe50` is `pe` and `50`.
-fn parts(name: &str) -> Vec<&str> {
-    let mut parts = Vec::new();
-    for word in name.split('_') {
-        let is_digit = |sign: &char| sign.is_ascii_digit();
-        let mut start = 0;
-        for ((at, sign), (_, before)) in word.char_indices().skip(1).zip(word.char_indices()) {
-            if is_digit(&sign) != is_digit(&before) {
-                parts.push(&word[start..at]);
-                start = at;
-            }
-        }
-        parts.push(&word[start..]);
-    }
-    parts
-}
-
-/// The intensity that words name, and the other words.
-fn intensity_named<'a>(words: &[&'a str]) -> (Option<Intensity>, Vec<&'a str>) {
-    let is_number = |word: &&&str| word.starts_with(|sign: char| sign.is_ascii_digit());
-    for (at, word) in words.iter().enumerate() {
-        let periods = words[at + 1..].iter().take_while(is_number).copied().collect::<Vec<_>>();
-        let (intensity, length) = match *word {
-            "pga" => (Intensity::Peak(Peak::Pga), 1),
-            "pgv" => (Intensity::Peak(Peak::Pgv), 1),
-            "sa" | "psa" | "s" | "acceleration" if *word != "s" || at == 0 && !periods.is_empty() => {
-                let period: Option<f64> = periods.join(".").parse().ok();
-                let is_spectral = *word != "acceleration" || at > 0 && words[at - 1] == "spectral";
-                if !is_spectral {
-                    continue;
-                }
-                let of = if period == Some(1.0) { Intensity::Spectral } else { Intensity::Other };
-                let in_s = words.get(at + 1 + periods.len()).is_some_and(|next| has(&[next], "s sec"));
-                (of, 1 + periods.len() + usize::from(in_s))
-            }
-            _ => continue,
-        };
-        let others = words[..at].iter().chain(&words[at + length..]).filter(|word| **word != "spectral");
-        return (Some(intensity), others.copied().collect());
-    }
-    (None, words.to_vec())
-}
-
-/// What a heading says of its column, and of which curve it is.
-pub fn content(heading: &Heading, investigation_years: Option<f64>) -> (Content, Statistic) {
-    const STATISTICS: [(Statistic, &[&str]); 3] = [
-        (Statistic::Low, &["16", "0.16", "p16", "16th"]),
-        (Statistic::High, &["84", "0.84", "p84", "84th"]),
-        (Statistic::Median, &["median", "p50", "50th", "0.5"]),
-    ];
-    let mut words: Vec<&str> = heading.text.split(['_', ' ', '(', ')', '[', ']', '-', '%', ',']).collect();
-    // A number of years is no fractile.
-    let is_of_years = |at: usize| words.get(at + 1).is_some_and(|next| has(&[next], YEARS));
-    let named = (0..words.len()).filter(|at| !is_of_years(*at)).find_map(|at| {
-        let word = words[at].to_lowercase();
-        let (statistic, _) = STATISTICS.iter().find(|(_, names)| names.contains(&word.as_str()))?;
-        Some((at, *statistic))
-    });
-    let (statistic, heading) = match named {
-        Some((at, statistic)) => {
-            words.remove(at);
-            let rest = Heading::new(words.join(" ").trim());
-            (statistic, Heading { unit: heading.unit, ..rest })
-        }
-        None => (Statistic::Mean, heading.clone()),
-    };
-    let words = parts(&heading.name);
-    let (of, others) = intensity_named(&words);
-    let frequency = Frequency::new(&others, investigation_years);
-    let acceleration = heading.unit.filter(|unit| unit.quantity == Quantity::Acceleration);
-    let content = match (peak(&heading), frequency, heading.name.as_str()) {
-        (Some((peak, unit)), ..) => Content::Intensity(Intensity::Peak(peak), unit),
-        (None, Some(frequency), _) => Content::Frequency(frequency, of),
-        (.., "mw" | "magnitude" | "m" | "mag") => Content::Magnitude,
-        (.., "t" | "period" | "periods" | "periodo") => Content::Period,
-        _ => match (of, acceleration) {
-            (Some(of @ (Intensity::Spectral | Intensity::Other)), Some(unit)) if others.is_empty() => {
-                Content::Intensity(of, unit.si)
-            }
-            _ => Content::Unknown,
-        },
-    };
-    (content, statistic)
 }

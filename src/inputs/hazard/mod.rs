@@ -8,13 +8,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub use self::columns::peak;
-use self::columns::{Content, Frequency, Intensity, Statistic, content};
-use super::{Grid, Heading, InputError, Renames};
+use self::columns::{Column, Content, Frequency, Measure, Statistic};
+use super::words::means;
+use super::{Grid, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
 use crate::motion::Peaks;
-use crate::plausibility::{MAGNITUDES, at_rim, judge_hazard, judge_medians};
+use crate::plausibility::{MAGNITUDES, at_rim, judge_hazard, judge_medians, judge_spectrum};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
@@ -27,24 +28,12 @@ pub fn read(
 ) -> Result<(Hazard, Warnings), InputError> {
     let mut found = Found::default();
     for path in paths {
-        let mut add = || {
-            let mut grid = Grid::read(path)?;
-            renames.apply(&mut grid)?;
-            found.add(&grid, path, effective_years)
-        };
-        add().map_err(|error| error.of(path))?;
+        found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
     }
     let hazard = match (found.joint.pop(), paths) {
-        (Some(bins), [path]) => {
-            let of_pga = judge_hazard(false, &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2));
-            let of_both =
-                of_pga.and_then(|()| judge_hazard(true, &exceedance(&bins, |bin| bin.peaks.pgv_m_s)));
-            of_both.map_err(|error| InputError::from(error).of(path))?;
-            Hazard::Joint(bins)
-        }
+        (Some(bins), [_]) => Hazard::Joint(bins),
         (Some(_), _) => {
-            let found = "a hazard of PGA and PGV together among others".to_string();
-            return Err(InputError::Missing { found, expected: "it alone" });
+            return Err(InputError::missing("a hazard of PGA and PGV together among others", "it alone"));
         }
         (None, _) => Hazard::Curve(joined(&found.curves, &mut found.warnings)?),
     };
@@ -53,158 +42,161 @@ pub fn read(
 
 /// A curve, and the file that it is from.
 struct Curve {
-    intensity: Intensity,
+    measure: Measure,
     statistic: Statistic,
     curve: HazardCurve,
     file: String,
 }
 
-/// The only curve of an intensity.
-fn only(curves: &[Curve], intensity: Intensity, statistic: Statistic) -> Result<Option<&Curve>, InputError> {
-    let mut same = curves.iter().filter(|curve| (curve.intensity, curve.statistic) == (intensity, statistic));
-    match (same.next(), same.next()) {
-        (Some(first), Some(second)) => {
-            let name = match intensity {
-                Intensity::Peak(peak) => peak.to_string().to_uppercase(),
-                _ => "SA(1.0 s)".to_string(),
-            };
-            let found = format!("two curves of {name}: {} and {}", first.file, second.file);
-            Err(InputError::Missing { found, expected: "one" })
-        }
-        (first, _) => Ok(first),
+impl Curve {
+    /// Makes a curve of values in m/s2 or m/s and annual rates that some place on earth can have. Tables
+    /// often begin with motions that are certain to come, and end with some that never do: these tell
+    /// nothing.
+    fn new(
+        (measure, statistic): (Measure, Statistic),
+        mut points: Vec<(f64, Option<f64>)>,
+        file: &Path,
+    ) -> Result<Curve, InputError> {
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let known = points.into_iter().filter_map(|(value, rate)| Some((value, rate?)));
+        let curve = HazardCurve::new(known.filter(|(value, rate)| *value != 0.0 && *rate > 0.0).collect())?;
+        let is_velocity = measure == Measure::Pgv;
+        let unit = if is_velocity { 1.0 } else { G_M_S2 };
+        let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
+        judge_hazard(is_velocity, &points)?;
+        Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }
 
 /// The hazard of one peak, with what the other curves tell of it.
 fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<PeakHazard, InputError> {
-    use Intensity::Spectral;
-    const PGA: Intensity = Intensity::Peak(Peak::Pga);
-    const PGV: Intensity = Intensity::Peak(Peak::Pgv);
-    let missing = |found: &str, expected| Err(InputError::Missing { found: found.to_string(), expected });
-    for Curve { intensity, statistic, curve, file } in curves {
-        only(curves, *intensity, *statistic)?;
-        let is_velocity = *intensity == PGV;
-        let unit = if is_velocity { 1.0 } else { G_M_S2 };
-        let points: Vec<_> = curve.points().iter().map(|(im, rate)| (im / unit, *rate)).collect();
-        judge_hazard(is_velocity, &points).map_err(|error| InputError::from(error).of(Path::new(file)))?;
-    }
-    let mut central = |intensity| -> Result<Option<&HazardCurve>, InputError> {
-        if let Some(mean) = only(curves, intensity, Statistic::Mean)? {
-            return Ok(Some(&mean.curve));
-        }
-        let median = only(curves, intensity, Statistic::Median)?;
-        warnings
-            .extend(median.map(|curve| (Warning::MedianHazard, curve.file.clone())).into_iter().collect());
-        Ok(median.map(|curve| &curve.curve))
+    let find = |measure: Measure, statistic: Statistic| {
+        curves.iter().find(|curve| (curve.measure, curve.statistic) == (measure, statistic))
     };
-    let (peak, curve, velocity) = match (central(PGA)?, central(PGV)?, central(Spectral)?) {
-        (Some(pga), Some(pgv), _) => {
-            (Peak::Pga, pga, Some(PgvPgaRatio::by_curves(pga, pgv, VelocitySource::Velocity)?))
-        }
-        (Some(pga), None, Some(spectral)) => {
-            let pgv = velocity_of_spectrum(pga, spectral);
-            (Peak::Pga, pga, Some(PgvPgaRatio::by_curves(pga, &pgv, VelocitySource::Spectrum)?))
-        }
-        (Some(pga), None, None) => (Peak::Pga, pga, None),
-        (None, _, Some(_)) => return missing("SA(1.0 s) without PGA", "the curve of PGA too"),
-        (None, Some(pgv), None) => (Peak::Pgv, pgv, None),
-        (None, None, None) => return missing("fractiles alone", "the mean curve too"),
+    let central = |measure| find(measure, Statistic::Mean).or(find(measure, Statistic::Median));
+    let (pga, pgv) = (central(Measure::Pga), central(Measure::Pgv));
+    let spectral = central(Measure::Spectral).filter(|_| pgv.is_none());
+    let (peak, main) = match (pga, pgv, spectral) {
+        (Some(pga), ..) => (Peak::Pga, pga),
+        (None, Some(pgv), _) => (Peak::Pgv, pgv),
+        (.., Some(_)) => return Err(InputError::missing("SA(1.0 s) without PGA", "the curve of PGA too")),
+        _ => return Err(InputError::missing("fractiles alone", "the mean curve too")),
     };
-    let low = only(curves, Intensity::Peak(peak), Statistic::Low)?;
-    let high = only(curves, Intensity::Peak(peak), Statistic::High)?;
-    let fractiles = low.zip(high).map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
-    Ok(PeakHazard { peak, curve: curve.clone(), fractiles, velocity })
-}
-
-/// A column of intensities, with its unit in m/s2 or m/s.
-struct IntensityColumn {
-    at: usize,
-    intensity: Intensity,
-    unit: f64,
-    statistic: Statistic,
-    /// Whether its heading names no measure: `Ground Motion (g)`.
-    is_general: bool,
-}
-
-/// A column of frequencies, and the intensity that its heading names.
-struct FrequencyColumn {
-    at: usize,
-    frequency: Frequency,
-    of: Option<Intensity>,
-    statistic: Statistic,
-}
-
-/// The columns of a table by what they say.
-#[derive(Default)]
-struct Columns {
-    intensities: Vec<IntensityColumn>,
-    frequencies: Vec<FrequencyColumn>,
-    magnitude: Option<usize>,
-    period: Option<usize>,
-    unknown: Vec<usize>,
-}
-
-impl Columns {
-    fn new(grid: &Grid) -> Columns {
-        let (years, mut columns) = (openquake::investigation_years(grid), Columns::default());
-        for (at, heading) in grid.headings.iter().enumerate() {
-            match content(heading, years) {
-                (Content::Intensity(intensity, unit), statistic) => {
-                    let is_named = |word: &str| matches!(word, "pga" | "pgv" | "ag" | "sa");
-                    let is_general = !heading.name.split('_').any(is_named);
-                    let column = IntensityColumn { at, intensity, unit, statistic, is_general };
-                    columns.intensities.push(column);
-                }
-                (Content::Frequency(frequency, of), statistic) => {
-                    columns.frequencies.push(FrequencyColumn { at, frequency, of, statistic });
-                }
-                (Content::Magnitude, _) => columns.magnitude = Some(at),
-                (Content::Period, _) => columns.period = Some(at),
-                (Content::Unknown, _) => columns.unknown.push(at),
+    let curve = &main.curve;
+    let velocity = match (pga.and(pgv), pga.and(spectral)) {
+        (Some(pgv), _) => Some(PgvPgaRatio::by_curves(curve, &pgv.curve, VelocitySource::Velocity)?),
+        (None, Some(spectral)) => {
+            let points = spectral.curve.points().iter();
+            judge_spectrum(points.map(|(sa, rate)| sa / curve.intensity(*rate)))
+                .map_err(|error| InputError::from(error).in_file(Path::new(&spectral.file)))?;
+            let pgv = velocity_of_spectrum(curve, &spectral.curve);
+            Some(PgvPgaRatio::by_curves(curve, &pgv, VelocitySource::Spectrum)?)
+        }
+        (None, None) => None,
+    };
+    let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
+    let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
+    for curve in curves {
+        let is_used = used.into_iter().flatten().any(|used| std::ptr::eq(used, curve));
+        let doubt = match (is_used, curve.statistic) {
+            (true, Statistic::Median) => (Warning::MedianHazard, curve.file.clone()),
+            (true, _) => continue,
+            (false, statistic) => {
+                (Warning::UnusedColumns, format!("{} ({statistic}) of {}", curve.measure, curve.file))
             }
-        }
-        columns
+        };
+        warnings.extend([doubt].into_iter().collect());
     }
-
-    /// The column of a peak, and its unit.
-    fn peak(&self, peak: Peak) -> Option<(usize, f64)> {
-        let found = self.intensities.iter().find(|column| column.intensity == Intensity::Peak(peak));
-        found.map(|column| (column.at, column.unit))
-    }
+    let fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
+    Ok(PeakHazard { peak, curve: curve.clone(), fractiles, velocity })
 }
 
 #[derive(Default)]
 struct Found {
     curves: Vec<Curve>,
     joint: Vec<Vec<PairOfPeaks>>,
+    /// What rows and comments say of the site.
+    site: BTreeMap<String, String>,
     /// About columns that say nothing of the curves, and about medians.
     warnings: Warnings,
 }
 
 impl Found {
-    fn add(&mut self, grid: &Grid, path: &Path, effective_years: Option<f64>) -> Result<(), InputError> {
-        let file = path.display().to_string();
-        let starts = |start: &str| grid.headings.iter().any(|heading| heading.text.starts_with(start));
-        one_site(grid)?;
-        if starts("gmv_") {
-            let bins = openquake::fields(grid, effective_years)?;
-            return self.add_joint(bins, file);
+    /// Adds what is in a file, by what its headings say.
+    fn add(
+        &mut self,
+        path: &Path,
+        renames: &mut Renames,
+        effective_years: Option<f64>,
+    ) -> Result<(), InputError> {
+        let mut grid = Grid::read(path)?;
+        renames.apply(&mut grid)?;
+        self.expect_one_site(&grid)?;
+        let [are_fields, is_exported] =
+            ["gmv_", "poe-"].map(|start| grid.headings.iter().any(|heading| heading.text.starts_with(start)));
+        let years = openquake::investigation_years(&grid);
+        match (are_fields, effective_years) {
+            (true, None) => {
+                let expected = "--effective-years: investigation time x stochastic event sets x branches";
+                return Err(InputError::missing("ground-motion fields of OpenQuake", expected));
+            }
+            (true, _) => openquake::name_fields(&mut grid),
+            (false, Some(_)) => {
+                let expected = "ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV) with it";
+                return Err(InputError::missing("--effective-years", expected));
+            }
+            (false, None) if is_exported => return self.add_curve(openquake::probabilities(&grid, path)?),
+            (false, None) => {}
         }
-        if effective_years.is_some() {
-            return Err(InputError::Missing {
-                found: "--effective-years".to_string(),
-                expected: "ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV) with it",
-            });
+        let columns = grid.headings.iter().enumerate().map(|(at, heading)| Column::new(at, heading, years));
+        let columns: Vec<Column> = columns.collect();
+        let is_joint = are_fields || columns.iter().any(|column| column.content == OCCURRENCE);
+        if is_joint {
+            self.add_joint(joint(&grid, &columns, effective_years)?, path)?;
+        } else {
+            let before = self.curves.len();
+            for (values, rates) in columns.iter().flat_map(|a| columns.iter().map(move |b| (a, b))) {
+                if let Some(curve) = curve_of(&grid, values, rates, path)? {
+                    self.add_curve(curve)?;
+                }
+            }
+            if before == self.curves.len() {
+                return Err(not_understood(&grid, &columns));
+            }
         }
-        if starts("poe-") {
-            self.curves.push(openquake::probabilities(grid, &file)?);
+        for Column { at, content, .. } in columns {
+            let is_unused = content == Content::Unknown || content == Content::Magnitude && !is_joint;
+            let heading = &grid.headings[at];
+            let is_number = !grid.lines.is_empty() && grid.number(0, at).is_ok();
+            if is_unused && !are_fields && !means(&heading.name, "place") && is_number {
+                self.warnings.extend([(Warning::UnusedColumns, heading.text.clone())].into_iter().collect());
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a curve, unless another column of its file has said the same.
+    fn add_curve(&mut self, curve: Curve) -> Result<(), InputError> {
+        const SAME: f64 = 0.1;
+        let same = (curve.measure, curve.statistic);
+        let mut known = self.curves.iter().filter(|known| (known.measure, known.statistic) == same);
+        let Some(known) = known.next() else {
+            self.curves.push(curve);
             return Ok(());
+        };
+        let mut points = curve.curve.points().iter();
+        let agree = points.all(|(value, rate)| (known.curve.exceedance(*value) / rate).ln().abs() < SAME);
+        match known.file == curve.file && agree {
+            true => Ok(()),
+            false => {
+                let found = format!("two curves of {}: {} and {}", known.measure, known.file, curve.file);
+                Err(InputError::missing(found, "one"))
+            }
         }
-        self.add_columns(grid, file)
     }
 
     /// Adds motions with both peaks; those beyond any record count at the rim.
-    fn add_joint(&mut self, mut bins: Vec<PairOfPeaks>, file: String) -> Result<(), InputError> {
+    fn add_joint(&mut self, mut bins: Vec<PairOfPeaks>, path: &Path) -> Result<(), InputError> {
         judge_medians(bins.iter().map(|bin| bin.peaks))?;
         let mut beyond = 0;
         for bin in &mut bins {
@@ -212,204 +204,132 @@ impl Found {
             beyond += usize::from(peaks != bin.peaks);
             bin.peaks = peaks;
         }
-        let rim =
-            (beyond > 0).then(|| (Warning::AtRim, format!("{beyond} of {} rows of {file}", bins.len())));
-        self.warnings.extend(rim.into_iter().collect());
+        judge_hazard(false, &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))?;
+        judge_hazard(true, &exceedance(&bins, |bin| bin.peaks.pgv_m_s))?;
+        if beyond > 0 {
+            let rows = format!("{beyond} of {} rows of {}", bins.len(), path.display());
+            self.warnings.extend([(Warning::AtRim, rows)].into_iter().collect());
+        }
         self.joint.push(bins);
         Ok(())
     }
 
-    /// Adds the curves of a table, or its joint hazard, by what its headings say.
-    fn add_columns(&mut self, grid: &Grid, file: String) -> Result<(), InputError> {
-        let mut columns = Columns::new(grid);
-        refuse_other_tables(grid, &columns)?;
-        let occurrence = columns.frequencies.iter().find(|column| column.frequency == Frequency::Occurrence);
-        let magnitude = columns.magnitude.filter(|_| occurrence.is_none());
-        let is_told =
-            |at: &usize| grid.number(0, *at).is_ok() && !PLACES.contains(&grid.headings[*at].name.as_str());
-        let unused = columns.unknown.iter().copied().chain(magnitude);
-        if let Some(rate) = occurrence.map(|column| column.at) {
-            self.add_joint(joint(grid, rate, &columns)?, file)?;
-        } else {
-            columns.frequencies = without_repetition(grid, std::mem::take(&mut columns.frequencies))?;
-            let before = self.curves.len();
-            for intensity in &columns.intensities {
-                for frequency in &columns.frequencies {
-                    self.curves.extend(curve_of(grid, intensity, frequency, &file)?);
-                }
-            }
-            if before == self.curves.len() {
-                return Err(not_understood(grid, &columns));
+    /// Checks that rows and comments are about the site of those before, in this file and in others.
+    fn expect_one_site(&mut self, grid: &Grid) -> Result<(), InputError> {
+        const SAME: f64 = 1e-4;
+        let noted = ["lon", "lat", "longitude", "latitude", "vs30"].into_iter();
+        let noted = noted.filter_map(|key| Some((key, openquake::noted(grid, key)?)));
+        let mut told: Vec<(&str, &str)> = noted.collect();
+        for (at, heading) in
+            grid.headings.iter().enumerate().filter(|(_, heading)| means(&heading.name, "place"))
+        {
+            told.extend((0..grid.lines.len()).map(|row| (heading.name.as_str(), grid.cell(row, at))));
+        }
+        for (key, value) in told {
+            let known = self.site.entry(key.to_string()).or_insert(value.to_string());
+            let is_same = match (known.parse::<f64>(), value.parse::<f64>()) {
+                (Ok(known), Ok(value)) => (known - value).abs() <= SAME * value.abs(),
+                _ => known.eq_ignore_ascii_case(value),
+            };
+            if !is_same {
+                return Err(InputError::missing(format!("{key} {known} and {value}"), "one site"));
             }
         }
-        let unused = unused.filter(|at| !grid.lines.is_empty() && is_told(at));
-        let unused = unused.map(|at| (Warning::UnusedColumns, grid.headings[at].text.clone()));
-        self.warnings.extend(unused.collect());
         Ok(())
     }
 }
 
-/// Refuses a spectrum, and a row of levels without a measure.
-fn refuse_other_tables(grid: &Grid, columns: &Columns) -> Result<(), InputError> {
+const OCCURRENCE: Content = Content::Frequencies(Frequency::Occurrence);
+
+/// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
+/// not understood first.
+fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
+    let values = || columns.iter().filter(|column| matches!(column.content, Content::Values(_)));
     // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
     let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
-    if is_uniform || (columns.period.is_some() && columns.frequencies.is_empty()) {
-        return Err(InputError::Missing {
-            found: "a uniform hazard spectrum: one rate, many periods".to_string(),
-            expected: "a hazard curve: PGA, best with SA(1.0 s), at several rates",
-        });
+    if is_uniform || columns.iter().any(|column| column.content == Content::Period) {
+        let found = "a uniform hazard spectrum: one rate, many periods";
+        return InputError::missing(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
     }
     let levels: Vec<f64> = grid.headings.iter().filter_map(|heading| heading.text.parse().ok()).collect();
-    if let [first, .., last] = levels[..]
-        && levels.len() > 2
-        && columns.frequencies.is_empty()
-    {
+    if let [first, _, .., last] = levels[..] {
         let found = format!("a column for each level from {first} to {last}");
         let expected = "to know of which measure, and whether rates or probabilities: a row for each level, \
                         under pga_g and annual_rate_of_exceedance";
-        return Err(InputError::Missing { found, expected });
+        return InputError::missing(found, expected);
     }
-    Ok(())
-}
-
-/// The error of a table without intensities or frequencies: the heading that is not understood first.
-fn not_understood(grid: &Grid, columns: &Columns) -> InputError {
-    let expected = match columns.intensities.iter().any(|column| column.intensity == Intensity::Other) {
-        true => "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA",
-        false if columns.intensities.is_empty() => {
-            "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns \
-             pga_g=HEADING"
-        }
-        false => {
-            "annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period, by name or by \
-             --columns annual_rate_of_exceedance=HEADING"
-        }
+    let expected = if values().any(|column| column.measure == Some(Measure::Other)) {
+        "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
+    } else if values().next().is_none() {
+        "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns pga_g=HEADING"
+    } else {
+        "annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period, by name or by \
+         --columns annual_rate_of_exceedance=HEADING"
     };
-    let is_place = |heading: &Heading| PLACES.contains(&heading.name.as_str());
-    let unknown = columns.unknown.iter().map(|at| &grid.headings[*at]).find(|heading| !is_place(heading));
-    match unknown {
+    let unknown = columns.iter().filter(|column| column.content == Content::Unknown);
+    match unknown.map(|column| &grid.headings[column.at]).find(|heading| !means(&heading.name, "place")) {
         Some(heading) => InputError::Heading { heading: heading.text.clone(), expected, found: grid.found() },
-        None => InputError::Missing { found: grid.found(), expected },
+        None => InputError::missing(grid.found(), expected),
     }
 }
 
-/// The curve of a column of intensities and one of frequencies, if they belong together.
-fn curve_of(
+/// The curve of a column of values and one of frequencies, if they belong together.
+fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result<Option<Curve>, InputError> {
+    let (Content::Values(unit), Content::Frequencies(frequency)) = (values.content, rates.content) else {
+        return Ok(None);
+    };
+    let measure = match (values.measure, rates.measure) {
+        (Some(own), Some(other)) if own != other => return Ok(None),
+        // An acceleration without a name has that of its rates.
+        (None, Some(Measure::Pgv)) => return Ok(None),
+        (own, other) => own.or(other).unwrap_or(Measure::Pga),
+    };
+    let statistic = match (values.statistic, rates.statistic) {
+        (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => statistic,
+        _ => return Ok(None),
+    };
+    if measure == Measure::Other {
+        return Ok(None);
+    }
+    let mut points = Vec::new();
+    for row in 0..grid.lines.len() {
+        let value = grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
+        points.push((value * unit, frequency.annual_rate(grid, row, rates.at)?));
+    }
+    Curve::new((measure, statistic), points, file).map(Some)
+}
+
+/// Motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or equal.
+fn joint(
     grid: &Grid,
-    intensities: &IntensityColumn,
-    frequencies: &FrequencyColumn,
-    file: &str,
-) -> Result<Option<Curve>, InputError> {
-    let IntensityColumn { at, unit, .. } = *intensities;
-    let intensity = match frequencies.of {
-        Some(of) if of != intensities.intensity => {
-            let is_acceleration = intensities.intensity == Intensity::Peak(Peak::Pga);
-            Some(of).filter(|_| intensities.is_general && is_acceleration)
-        }
-        _ => Some(intensities.intensity),
-    };
-    let intensity = intensity.filter(|intensity| *intensity != Intensity::Other);
-    let statistic = match (intensities.statistic, frequencies.statistic) {
-        (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => Some(statistic),
-        _ => None,
-    };
-    let Some((intensity, statistic)) = intensity.zip(statistic) else { return Ok(None) };
-    let point = |row| match grid.number(row, at)? {
-        value @ 0.0.. => Ok((value * unit, frequencies.frequency.annual_rate(grid, row, frequencies.at)?)),
-        _ => Err(grid.refusal(row, at, "an intensity of 0 or more")),
-    };
-    let points = (0..grid.lines.len()).map(point).collect::<Result<Vec<_>, _>>()?;
-    Ok(Some(Curve { intensity, statistic, curve: curve(points)?, file: file.to_string() }))
-}
-
-/// Columns of rates, without those that say the same in another way, of which the first counts; others are
-/// refused.
-fn without_repetition(grid: &Grid, all: Vec<FrequencyColumn>) -> Result<Vec<FrequencyColumn>, InputError> {
-    const SAME: f64 = 0.1;
-    let mut kept: Vec<FrequencyColumn> = Vec::new();
-    for column in all {
-        let is_same = |known: &&FrequencyColumn| (known.statistic, known.of) == (column.statistic, column.of);
-        let Some(known) = kept.iter().find(is_same) else {
-            kept.push(column);
-            continue;
-        };
-        for row in 0..grid.lines.len() {
-            let first = known.frequency.annual_rate(grid, row, known.at)?;
-            let rates = first.zip(column.frequency.annual_rate(grid, row, column.at)?);
-            if rates.is_some_and(|(a, b)| (a - b).abs() > SAME * a.max(b)) {
-                let [first, other] = [known.at, column.at].map(|at| grid.headings[at].text.clone());
-                return Err(InputError::Contradiction { line: grid.lines[row], first, other });
-            }
-        }
-    }
-    Ok(kept)
-}
-
-/// Tables often begin with motions that are certain to come, and end with some that never do: these tell
-/// nothing.
-fn curve(mut points: Vec<(f64, Option<f64>)>) -> Result<HazardCurve, InputError> {
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let known = points.into_iter().filter_map(|(intensity, rate)| Some((intensity, rate?)));
-    Ok(HazardCurve::new(known.filter(|(intensity, rate)| *intensity != 0.0 && *rate > 0.0).collect())?)
-}
-
-/// Bins of PGA and PGV with rates of occurrence, and their magnitudes.
-fn joint(grid: &Grid, rate: usize, columns: &Columns) -> Result<Vec<PairOfPeaks>, InputError> {
-    let Some(((pga, pga_unit), (pgv, pgv_unit))) = columns.peak(Peak::Pga).zip(columns.peak(Peak::Pgv))
-    else {
-        let found = "rates of occurrence without PGA and PGV".to_string();
-        return Err(InputError::Missing { found, expected: "both, or rates of exceedance" });
-    };
-    let magnitude = |row: usize, column: usize| match grid.number(row, column)? {
-        mw if MAGNITUDES.contains(&mw) => Ok(mw),
-        _ => Err(grid.refusal(row, column, "a moment magnitude")),
-    };
-    let bins = pairs(grid, |row| {
-        Ok(PairOfPeaks {
-            peaks: Peaks {
-                pga_m_s2: grid.number(row, pga)? * pga_unit,
-                pgv_m_s: grid.number(row, pgv)? * pgv_unit,
-            },
-            annual_rate: Frequency::Occurrence.annual_rate(grid, row, rate)?.unwrap_or_default(),
-            mw: columns.magnitude.map(|mw| magnitude(row, mw)).transpose()?,
-        })
-    })?;
-    let mut known = BTreeMap::new();
-    for (bin, line) in bins.iter().zip(&grid.lines) {
-        let same = [bin.peaks.pga_m_s2, bin.peaks.pgv_m_s, bin.mw.unwrap_or(0.0)].map(f64::to_bits);
-        if let Some(first) = known.insert(same, line) {
-            let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
-            return Err(InputError::Missing { found, expected: "one row of each bin" });
-        }
-    }
-    Ok(bins)
-}
-
-/// The motions of all rows.
-fn pairs(
-    grid: &Grid,
-    bin: impl Fn(usize) -> Result<PairOfPeaks, InputError>,
+    columns: &[Column],
+    effective_years: Option<f64>,
 ) -> Result<Vec<PairOfPeaks>, InputError> {
-    match (0..grid.lines.len()).map(bin).collect::<Result<Vec<_>, _>>()? {
-        bins if bins.is_empty() => {
-            Err(InputError::Missing { found: "no rows".to_string(), expected: "motions with PGA and PGV" })
+    let [Some((pga, pga_unit)), Some((pgv, pgv_unit))] = [Measure::Pga, Measure::Pgv]
+        .map(|peak| columns.iter().find_map(|column| Some((column.at, column.unit_of(peak)?))))
+    else {
+        let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
+        return Err(InputError::missing(found, "both, or rates of exceedance"));
+    };
+    let [magnitude, rate] = [Content::Magnitude, OCCURRENCE]
+        .map(|content| columns.iter().find(|column| column.content == content).map(|column| column.at));
+    let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
+    for (row, line) in grid.lines.iter().enumerate() {
+        let mw = magnitude.map(|at| grid.within(row, at, &MAGNITUDES, "a moment magnitude")).transpose()?;
+        let (pga_m_s2, pgv_m_s) = (grid.number(row, pga)? * pga_unit, grid.number(row, pgv)? * pgv_unit);
+        let same = [pga_m_s2, pgv_m_s, mw.unwrap_or(0.0)].map(f64::to_bits);
+        let annual_rate = match (rate, effective_years) {
+            (Some(at), None) => Frequency::Occurrence.annual_rate(grid, row, at)?.unwrap_or_default(),
+            (_, years) => 1.0 / years.unwrap_or(f64::INFINITY),
+        };
+        if let Some(first) = lines.insert(same, line).filter(|_| effective_years.is_none()) {
+            let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
+            return Err(InputError::missing(found, "one row of each bin"));
         }
-        bins => Ok(bins),
+        bins.push(PairOfPeaks { peaks: Peaks { pga_m_s2, pgv_m_s }, annual_rate, mw });
     }
-}
-
-/// Headings of the place of a site.
-const PLACES: [&str; 9] =
-    ["site", "site_id", "custom_site_id", "lon", "lat", "longitude", "latitude", "location", "name"];
-
-/// Checks that no column of places has two.
-fn one_site(grid: &Grid) -> Result<(), InputError> {
-    for (at, heading) in grid.headings.iter().enumerate() {
-        let is_place = PLACES.contains(&heading.name.as_str());
-        if is_place && (0..grid.lines.len()).any(|row| grid.cell(row, at) != grid.cell(0, at)) {
-            let found = format!("column '{}': rows of several sites", heading.text);
-            return Err(InputError::Missing { found, expected: "those of one" });
-        }
+    match bins.is_empty() {
+        true => Err(InputError::missing("no rows", "motions with PGA and PGV")),
+        false => Ok(bins),
     }
-    Ok(())
 }

@@ -31,7 +31,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
     let mut at = 0;
     while at < lines.len() {
         let text = lines[at];
-        let announces = |words| leading_number(text).is_some() && after(text, words).is_some();
+        let announces = |words| after(text, words).is_some() && leading_number(text).is_some();
         at += 1;
         if announces("integer-header values") {
             channel.integers = block(lines, &mut at)?;
@@ -56,29 +56,34 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
 /// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
 fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
     let text = lines[*at - 1];
-    let layout = || {
-        let is_letter = |c: char| "FEDGI".contains(c.to_ascii_uppercase());
-        let (on_line, width) = text[text.rfind('(')? + 1..].split(')').next()?.split_once(is_letter)?;
-        let width = width.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()?;
-        let on_line: usize = if on_line.trim().is_empty() { 1 } else { on_line.trim().parse().ok()? };
-        (on_line > 0 && width > 0).then_some((on_line, width))
-    };
     let missing = RecordFileError::missing(*at, "format", "a count and 'Format=(8F10.5)'");
     let count = leading_number(text).filter(|count| *count >= 0.0);
-    let (count, (on_line, width)) = count.zip(layout()).ok_or(missing)?;
+    let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
     let extent = (count / on_line as f64).ceil() as usize;
     let start = std::mem::replace(at, lines.len().min(at.saturating_add(extent)));
-    let is_end = |line: &&str| after(line, "end-of-data").is_some();
-    let end = lines[start..*at].iter().position(is_end).map_or(*at, |length| start + length);
+    let length = lines[start..*at].iter().position(|line| after(line, "end-of-data").is_some());
+    let end = length.map_or(*at, |length| start + length);
     let by_width = samples(&lines[..end], start, count, |line| fields(line, width));
     by_width.or_else(|_| samples(&lines[..end], start, count, numbers))
+}
+
+/// Reads how many numbers are on a line, and their width, in `Format= (5F15.6)`.
+fn layout(text: &str) -> Option<(usize, usize)> {
+    let format = text[text.rfind('(')? + 1..].split(')').next()?;
+    let (on_line, width) = format.split_once(|c: char| "FEDGI".contains(c.to_ascii_uppercase()))?;
+    let width = width.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()?;
+    let on_line: usize = if on_line.trim().is_empty() { 1 } else { on_line.trim().parse().ok()? };
+    (on_line > 0 && width > 0).then_some((on_line, width))
 }
 
 /// Splits a line into fields of one width; the last may be shorter.
 fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
     let line = line.trim_end();
-    let end = move |start: usize| start.saturating_add(width).min(line.len());
-    (0..line.len()).step_by(width).map(move |start| line.get(start..end(start)).unwrap_or(line).trim())
+    let starts = (0..line.len()).step_by(width);
+    starts.map(move |start| {
+        let end = start.saturating_add(width).min(line.len());
+        line.get(start..end).unwrap_or(line).trim()
+    })
 }
 
 /// The header of one channel.

@@ -29,12 +29,12 @@ pub enum RecordFileError {
          series, or damage?"
     )]
     ShortLine { line: usize, found: usize, expected: usize },
-    #[error("line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap?")]
+    #[error(
+        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap, or exchanged headings?"
+    )]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
     #[error("{columns}; expected one of acceleration")]
     Column { columns: String },
-    #[error("line {line}: uneven '{time}', even '{acceleration}'; are the headings exchanged?")]
-    Exchanged { line: usize, time: String, acceleration: String },
 }
 
 impl RecordFileError {

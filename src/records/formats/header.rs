@@ -1,6 +1,7 @@
 //! Header fields and blocks of numbers, common to several formats.
 
 use super::error::RecordFileError;
+use crate::inputs::plain_number;
 use crate::records::{HeaderPga, ReadOptions};
 use crate::units::{Quantity, Unit};
 
@@ -11,17 +12,21 @@ const LONGEST_STEP_S: f64 = 10.0;
 
 /// Checks a time step (s) on a line.
 pub fn time_step(dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
-    let refusal =
-        || RecordFileError::value(line, "time step", &format!("{dt_s} s"), "one above 0 s and up to 10 s");
-    Some(dt_s).filter(|dt_s| *dt_s > 0.0 && *dt_s <= LONGEST_STEP_S).ok_or_else(refusal)
+    match dt_s > 0.0 && dt_s <= LONGEST_STEP_S {
+        true => Ok(dt_s),
+        false => {
+            let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
+            Err(RecordFileError::value(line, "time step", &found, expected))
+        }
+    }
 }
 
 /// Reads the unit of acceleration at the start of a text on a line; more text may follow.
 pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
     let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
     let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
-    let refusal = || RecordFileError::value(line, "unit", text, "one of acceleration, such as g or cm/s2");
-    unit.ok_or_else(refusal)
+    let expected = "one of acceleration, such as g or cm/s2";
+    unit.ok_or_else(|| RecordFileError::value(line, "unit", text, expected))
 }
 
 /// Returns the given unit, for a file without one.
@@ -49,6 +54,17 @@ pub fn expect_unit(options: &ReadOptions, unit: Unit, line: usize) -> Result<(),
         }
         None => Ok(()),
     }
+}
+
+/// Finds the value of a key at the start of a line, with the number of the line.
+pub fn field<'a>(header: &[&'a str], key: &str) -> Option<(usize, &'a str)> {
+    let values = header.iter().map(|line| line.trim_start().strip_prefix(key).unwrap_or_default().trim());
+    (1..).zip(values).find(|(_, value)| !value.is_empty())
+}
+
+/// Finds the number of a key, with the number of its line.
+pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
+    field(header, key).and_then(|(line, value)| Some((line, leading_number(value)?)))
 }
 
 /// Reads the peak acceleration at the start of a text.
@@ -90,34 +106,28 @@ pub fn leading_number(text: &str) -> Option<f64> {
     let text = text.trim_start();
     let end =
         text.find(|c: char| !c.is_ascii_digit() && !"+-.eEdD".contains(c)).unwrap_or(text.len()).min(40);
-    (1..=end).rev().find_map(|end| number(&text[..end]))
+    (1..=end).rev().find_map(|end| plain_number(&text[..end]))
 }
 
 /// Reads the first number in a text.
 pub fn first_number(text: &str) -> Option<f64> {
-    let starts = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.');
-    text.match_indices(starts).find_map(|(at, _)| leading_number(&text[at..]))
+    let starts = text.match_indices(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
+    starts.map(|(at, _)| &text[at..]).find_map(leading_number)
 }
 
 /// Splits a line into numbers: at blanks, and before a sign that Fortran left no room to separate.
 pub fn numbers(line: &str) -> impl Iterator<Item = &str> {
     let mut rest = line.trim_start();
     std::iter::from_fn(move || {
-        let is_end = |&(at, c): &(usize, char)| {
+        let end = rest.char_indices().find(|&(at, c)| {
             let is_sign = matches!(c, '+' | '-') && at > 0;
             c.is_whitespace() || is_sign && !rest[..at].ends_with(['e', 'E', 'd', 'D'])
-        };
-        let end = rest.char_indices().find(is_end).map_or(rest.len(), |(at, _)| at);
+        });
+        let end = end.map_or(rest.len(), |(at, _)| at);
         let (number, later) = rest.split_at(end);
         rest = later.trim_start();
         (!number.is_empty()).then_some(number)
     })
-}
-
-/// Reads a number, whose exponent Fortran may write with a D.
-fn number(cell: &str) -> Option<f64> {
-    let value = cell.parse().or_else(|_| cell.replace(['D', 'd'], "E").parse()).ok();
-    value.filter(|value: &f64| value.is_finite())
 }
 
 /// Reads `announced` samples from the lines after the first `header` ones; `cells` splits a line. Further
@@ -132,8 +142,8 @@ pub fn samples<'a, I: Iterator<Item = &'a str>>(
     for (at, line) in lines.iter().enumerate().skip(header) {
         let before = values.len();
         for cell in cells(line) {
-            let refusal = || RecordFileError::value(at + 1, "sample", cell, "a number");
-            values.push(number(cell).ok_or_else(refusal)?);
+            let value = plain_number(cell);
+            values.push(value.ok_or_else(|| RecordFileError::value(at + 1, "sample", cell, "a number"))?);
         }
         if values.len() > before {
             on_last_line = values.len() - before;

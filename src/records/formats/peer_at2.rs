@@ -21,12 +21,14 @@ pub fn recognises(lines: &[&str]) -> bool {
 fn line_of_counts(lines: &[&str]) -> Option<usize> {
     let header = &lines[..lines.len().min(HEADER)];
     let named = header.iter().position(|line| after(line, "NPT").is_some());
-    let below = || header.iter().position(|line| after(line, "UNITS OF").is_some()).map(|at| at + 1);
-    let is_bare = |at: &usize| {
-        let words = header.get(*at).map_or(Vec::new(), |line| line.split_ascii_whitespace().collect());
-        matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
-    };
-    named.or_else(|| below().filter(is_bare))
+    let unit = header.iter().position(|line| after(line, "UNITS OF").is_some());
+    named.or(unit.map(|at| at + 1).filter(|at| header.get(*at).is_some_and(|line| are_counts(line))))
+}
+
+/// Whether a line has a number of samples and a time step, and nothing else.
+fn are_counts(line: &str) -> bool {
+    let words: Vec<&str> = line.split_ascii_whitespace().collect();
+    matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
 }
 
 /// Reads the motion of an AT2 file.
@@ -36,14 +38,10 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let (header, counts) = (&lines[..at], lines[at]);
     let unit = unit(header, options)?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
-    let named = |key| {
-        let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
-        first_number(value.strip_prefix(['=', ':'])?)
-    };
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
-    let announced = named("NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
-    let dt_s = named("DT").or(second).or(options.dt_s);
+    let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
+    let dt_s = named(counts, "DT").or(second).or(options.dt_s);
     let expected = "one such as 'DT= .0050 SEC'";
     let dt_s = dt_s.ok_or(RecordFileError::NoTimeStep { line: at + 1, expected })?;
     let values = samples(lines, at + 1, announced, numbers)?;
@@ -55,8 +53,10 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         [ref before @ .., component] => (component, before),
         [] => ("", &[][..]),
     };
-    let is_date = |part: &&str| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic());
-    let event_parts = before.iter().position(is_date).map_or(1, |date| date + 1).min(before.len());
+    let date = before
+        .iter()
+        .position(|part| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic()));
+    let event_parts = date.map_or(1, |date| date + 1).min(before.len());
     let (event, station) = before.split_at(event_parts);
     let pga = header.iter().find_map(|line| after(line, "PGA"));
     Ok(RecordedMotion {
@@ -69,10 +69,17 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     })
 }
 
+/// The number behind a name: of `NPTS=  7818`.
+fn named(counts: &str, key: &str) -> Option<f64> {
+    let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
+    first_number(value.strip_prefix(['=', ':'])?)
+}
+
 /// Finds the unit in the header. The first two lines are the database and the record.
 fn unit(header: &[&str], options: &ReadOptions) -> Result<Unit, RecordFileError> {
-    let find = |key| header.iter().zip(1..).skip(2).find(|(line, _)| after(line, key).is_some());
-    if let Some((text, line)) = find("VELOCITY").or(find("DISPLACEMENT")) {
+    let mut others = header.iter().zip(1..).skip(2);
+    let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
+    if let Some((text, line)) = other {
         return Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() });
     }
     let stated = header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number)));

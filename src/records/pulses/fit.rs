@@ -43,7 +43,7 @@ impl FittedPulse {
     /// Fits a pulse to a velocity (m/s) at steps of `dt_s`, from period and time (s) of a wavelet. None of
     /// zeros.
     pub fn fit(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
-        let series = Series::of(velocity, dt_s, period_s);
+        let series = Series::new(velocity, dt_s, period_s);
         let mut starts = Vec::new();
         for gamma in START_GAMMAS {
             for share in START_PERIODS {
@@ -54,12 +54,12 @@ impl FittedPulse {
             }
         }
         starts.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let search = |(explained, place): &(f64, Place)| series.search(place, *explained);
-        let found = starts.iter().take(SEARCHES).filter_map(search);
+        let found = starts.iter().take(SEARCHES);
+        let found = found.filter_map(|(explained, place)| series.search(place, *explained));
         let best = found.max_by(|a, b| series.nearest(a).1.total_cmp(&series.nearest(b).1))?;
         let ((pulse, _), t0_s) = (series.nearest(&best), best.0.z);
-        let left = |(k, v): (usize, &f64)| (v - pulse.velocity_m_s(k as f64 * dt_s - t0_s)).powi(2);
-        let residual: f64 = velocity.iter().enumerate().map(left).sum();
+        let left = velocity.iter().enumerate().map(|(k, v)| v - pulse.velocity_m_s(k as f64 * dt_s - t0_s));
+        let residual: f64 = left.map(|left| left.powi(2)).sum();
         let r2 = 1.0 - residual / velocity.iter().map(|v| v * v).sum::<f64>();
         r2.is_finite().then_some(FittedPulse { pulse, t0_s, r2 })
     }
@@ -82,10 +82,10 @@ struct Series {
 
 impl Series {
     /// Averages a velocity (m/s) at steps of `dt_s` for pulses of about `period_s`.
-    fn of(velocity: &[f64], dt_s: f64, period_s: f64) -> Series {
+    fn new(velocity: &[f64], dt_s: f64, period_s: f64) -> Series {
         let samples = ((period_s / PARTS_OF_PERIOD / dt_s) as usize).max(1);
-        let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
-        let means = velocity.chunks_exact(samples).map(mean).collect();
+        let sums = velocity.chunks_exact(samples).map(|part| part.iter().sum::<f64>());
+        let means = sums.map(|sum| sum / samples as f64).collect();
         Series { means, first_s: 0.5 * (samples - 1) as f64 * dt_s, step_s: samples as f64 * dt_s }
     }
 

@@ -4,6 +4,7 @@
 use super::wavelet::{Wavelet, WaveletTransform};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
+use crate::records::rotation::Parts;
 
 /// Range of pulse periods, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
@@ -80,10 +81,11 @@ pub fn indicator(pgv_ratio: f64, energy_ratio: f64) -> f64 {
 
 /// Finds the direction in which two velocities (m/s) at right angles have the largest wavelet coefficient
 /// (Shahi & Baker 2014): its parts along both. None if they are zero.
-pub fn strongest_direction(velocities: [&[f64]; 2], dt_s: f64) -> Option<[f64; 2]> {
+pub fn strongest_direction(velocities: [&[f64]; 2], dt_s: f64) -> Option<Parts> {
     let (period_s, centre) = strongest_wavelet(&velocities, dt_s)?;
     let wavelet = Wavelet::new(period_s, dt_s);
-    Some(velocities.map(|velocity| wavelet.coefficient(velocity, centre)))
+    let [first, second] = velocities.map(|velocity| wavelet.coefficient(velocity, centre));
+    Some(Parts { first, second })
 }
 
 /// Finds the period (s) and central sample of the wavelet with the largest sum of squared coefficients over
@@ -95,22 +97,25 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     let period_s = |place: f64| (shortest * ratio.powf(place)).clamp(shortest, longest);
     let every = samples_in_step(dt_s);
     let dt_s = dt_s * every as f64;
-    let decimated = |velocity: &&[f64]| velocity.iter().step_by(every).copied().collect();
-    let velocities: Vec<Vec<f64>> = velocities.iter().map(decimated).collect();
+    let velocities: Vec<Vec<f64>> =
+        velocities.iter().map(|velocity| velocity.iter().step_by(every).copied().collect()).collect();
     let transform = WaveletTransform::new(&velocities, dt_s, longest);
-    // Largest sum of squares at a period, and its sample.
-    let strongest = |k: usize| {
-        let squares = transform.squares(period_s(k as f64)).into_iter().zip(0..);
-        squares.fold((0.0, 0), |best, (square, at)| if square > best.0 { (square, at) } else { best })
-    };
-    let scan: Vec<(f64, i64)> = (0..PERIODS).map(strongest).collect();
+    // Largest sum of squares at each period, and its sample.
+    let mut scan = vec![(0.0, 0_i64); PERIODS];
+    for (k, best) in scan.iter_mut().enumerate() {
+        for (square, at) in transform.squares(period_s(k as f64)).into_iter().zip(0..) {
+            if square > best.0 {
+                *best = (square, at);
+            }
+        }
+    }
     let largest = scan.iter().map(|(square, _)| *square).fold(0.0, f64::max);
     let square = |k: usize| scan.get(k).map_or(0.0, |(square, _)| *square);
-    let is_peak = |k: &usize| {
+    let peaks = (0..PERIODS).filter(|&k| {
         let beside = square(k.wrapping_sub(1)).max(square(k + 1));
-        square(*k) > 0.0 && square(*k) >= beside.max(LEAST_PEAK * largest)
-    };
-    let refined = (0..PERIODS).filter(is_peak).flat_map(|k| {
+        square(k) > 0.0 && square(k) >= beside.max(LEAST_PEAK * largest)
+    });
+    let refined = peaks.flat_map(|k| {
         let places = (0..=2 * REFINED).map(move |step| k as f64 + step as f64 / REFINED as f64 - 1.0);
         places.map(move |place| (period_s(place), k))
     });
@@ -153,9 +158,9 @@ fn energy(velocity: &[f64]) -> f64 {
 fn sample_of_share(velocity: &[f64], share: f64) -> usize {
     let target = share * energy(velocity);
     let mut sum = 0.0;
-    let has_passed = |v: &f64| {
+    let passed = velocity.iter().position(|v| {
         sum += v * v;
         sum >= target
-    };
-    velocity.iter().position(has_passed).unwrap_or(0)
+    });
+    passed.unwrap_or(0)
 }

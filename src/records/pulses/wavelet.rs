@@ -39,8 +39,8 @@ impl Wavelet {
         let scale_s = period_s * CENTRE_FREQUENCY;
         let middle = 0.5 * SUPPORT as f64;
         let reach = (middle * scale_s / dt_s).floor() as usize;
-        let at = |k: usize| mother((k as f64 - reach as f64) * dt_s / scale_s + middle) / scale_s.sqrt();
-        Wavelet { dt_s, values: (0..=2 * reach).map(at).collect(), reach }
+        let places = (0..=2 * reach).map(|k| (k as f64 - reach as f64) * dt_s / scale_s + middle);
+        Wavelet { dt_s, values: places.map(|x| mother(x) / scale_s.sqrt()).collect(), reach }
     }
 
     /// Computes the coefficient of a series, the integral of its product with the wavelet centred at a
@@ -76,7 +76,6 @@ fn mother(x: f64) -> f64 {
 
 /// Tabulates the scaling function, at the integers and then at finer levels, and the wavelet from it.
 fn tabulate() -> Vec<f64> {
-    let filter = |k: isize| usize::try_from(k).ok().and_then(|k| FILTER.get(k)).copied().unwrap_or(0.0);
     // Refinement keeps the sum of the values at the integers, 1; the other eigenvalues are at most 1/2.
     let mut scaling = vec![1.0 / (SUPPORT + 1) as f64; SUPPORT + 1];
     for _ in 0..60 {
@@ -92,11 +91,17 @@ fn tabulate() -> Vec<f64> {
     (0..=SUPPORT * per_unit).map(|i| refine(&scaling, 2 * i, per_unit, mirrored)).collect()
 }
 
+fn filter(k: isize) -> f64 {
+    usize::try_from(k).ok().and_then(|k| FILTER.get(k)).copied().unwrap_or(0.0)
+}
+
 /// Computes sqrt 2 sum_k c_k phi(2 x - k). `i` is 2 x in steps of the table of phi, `per_unit` to a unit.
 fn refine(scaling: &[f64], i: usize, per_unit: usize, coefficient: impl Fn(isize) -> f64) -> f64 {
-    let at = |k: usize| i.checked_sub(k * per_unit).and_then(|place| scaling.get(place)).copied();
-    let term = |k: usize| coefficient(k as isize) * at(k).unwrap_or(0.0);
-    std::f64::consts::SQRT_2 * (0..FILTER.len()).map(term).sum::<f64>()
+    let terms = (0..FILTER.len()).map(|k| {
+        let value = i.checked_sub(k * per_unit).and_then(|place| scaling.get(place));
+        coefficient(k as isize) * value.copied().unwrap_or(0.0)
+    });
+    std::f64::consts::SQRT_2 * terms.sum::<f64>()
 }
 
 /// Continuous wavelet transform of series of equal length, at periods up to a longest one.
@@ -114,13 +119,12 @@ impl WaveletTransform {
         let samples = series.first().map_or(0, Vec::len);
         let length = even_smooth_at_least(samples + 2 * Wavelet::new(longest_s, dt_s).reach + 1);
         let transform = Transform::new(length);
-        let spectrum = |series: &Vec<f64>| {
-            let (mut padded, mut spectrum) = (series.clone(), Vec::new());
+        let mut spectra = vec![Vec::new(); series.len()];
+        for (series, spectrum) in series.iter().zip(&mut spectra) {
+            let mut padded = series.clone();
             padded.resize(length, 0.0);
-            transform.forward(&mut padded, &mut spectrum, &mut Vec::new());
-            spectrum
-        };
-        let spectra = series.iter().map(spectrum).collect();
+            transform.forward(&mut padded, spectrum, &mut Vec::new());
+        }
         WaveletTransform { samples, dt_s, length, transform, spectra }
     }
 

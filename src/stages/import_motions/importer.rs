@@ -8,8 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use rayon::prelude::*;
 
-use super::about::About;
-use crate::inputs::{Member, unpack};
+use crate::inputs::{About, Known, Member, unpack};
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
@@ -169,7 +168,11 @@ impl Importer {
         let motions = read_records(bytes, &self.reading).map_err(|error| unread(path, &error))?;
         let several = motions.len() > 1;
         let records = (1..).zip(motions).map(|(number, mut motion)| {
-            self.about.add(path, &mut motion);
+            if let Some(Known { mw, re_km, earthquake }) = self.about.get(path).cloned() {
+                motion.mw = mw.or(motion.mw);
+                motion.re_km = re_km.or(motion.re_km);
+                motion.event = earthquake.or(motion.event.take());
+            }
             if several && motion.event.is_none() && motion.station.is_none() {
                 // The columns of a table are of one instrument.
                 motion.station = Some(name.clone());

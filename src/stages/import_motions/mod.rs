@@ -1,7 +1,6 @@
 //! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions
 //! that simulate reads.
 
-mod about;
 mod columns;
 mod importer;
 mod summary;
@@ -13,10 +12,10 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use self::about::About;
 use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
+use crate::inputs::About;
 use crate::motion::MeasurePlan;
 use crate::number::significant;
 use crate::pipeline::call::Planned;
@@ -128,7 +127,8 @@ impl Stage for ImportMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let processing = self.processing()?;
         let periods = processing.plan.sa_periods_s.clone();
-        let about = self.about.as_deref().map_or(Ok(About::default()), About::read)?;
+        let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
+        let about = about.map_err(|error| UsageError::because(error.to_string()))?;
         let unused = about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone()));
         context.warn(unused.collect());
         let reading =
@@ -147,7 +147,7 @@ impl Stage for ImportMotions {
         if let Some(path) = &self.about {
             let about = std::path::absolute(&**path)?;
             importer.files.retain(|file| std::path::absolute(&file.path).is_ok_and(|file| file != about));
-            if !importer.files.iter().any(|file| importer.about.has(&file.path)) {
+            if !importer.files.iter().any(|file| importer.about.get(&file.path).is_some()) {
                 let problem = format!("{}: no row is about any of the files", path.display());
                 return Err(UsageError::because(problem));
             }

@@ -6,18 +6,12 @@ use anyhow::{Context, bail};
 
 use crate::fragility::{ObservedOutcome, Peak};
 use crate::inputs::hazard::peak;
+use crate::inputs::words::means;
 use crate::inputs::{Grid, InputError, objects};
 use crate::motion::Peaks;
 use crate::plausibility::{MAGNITUDES, at_rim, judge_medians};
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
-
-/// Headings of what happened.
-const OUTCOME: [&str; 6] = ["fell", "fallen", "toppled", "overturned", "outcome", "state"];
-const FELL: &str = "1 yes y true fell fallen toppled overturned overturning";
-const STOOD: &str = "0 no n false stood standing stands upright";
-const MAGNITUDE: [&str; 3] = ["mw", "m", "magnitude"];
-const EARTHQUAKE: [&str; 2] = ["earthquake", "event"];
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {
@@ -41,17 +35,20 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<ObservedOutcome>> {
 }
 
 fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
-    let objects = objects::of_rows(sheet)?;
-    let [pga, pgv] = [Peak::Pga, Peak::Pgv].map(|wanted| {
-        let mut peaks = sheet.headings.iter().map(peak).enumerate();
-        peaks.find_map(|(column, found)| {
-            found.filter(|found| found.0 == wanted).map(|(_, unit)| (column, unit))
-        })
-    });
-    let (Some(pga), Some(pgv), Some(fell)) = (pga, pgv, sheet.column(&OUTCOME)) else {
+    let objects = objects::in_rows(sheet)?;
+    let peaks: Vec<_> = sheet.headings.iter().map(peak).collect();
+    let [pga, pgv] = [Peak::Pga, Peak::Pgv]
+        .map(|wanted| peaks.iter().position(|found| found.is_some_and(|(peak, _)| peak == wanted)));
+    let (Some(pga), Some(pgv), Some(fell)) = (pga, pgv, sheet.about("outcome")) else {
         bail!("expected objects with pga_g, pgv_m_s and fell (yes or no), each");
     };
-    let (magnitude, earthquake) = (sheet.column(&MAGNITUDE), sheet.column(&EARTHQUAKE));
+    let peak_in = |row: usize, column: usize| {
+        let unit = peaks[column].map_or(1.0, |(_, unit)| unit);
+        sheet
+            .within(row, column, &(f64::MIN_POSITIVE..=f64::MAX), "a number above 0")
+            .map(|value| unit * value)
+    };
+    let (magnitude, earthquake) = (sheet.about("magnitude"), sheet.about("earthquake"));
     let mut earthquakes: Vec<&str> = Vec::new();
     let mut read = Vec::new();
     for (row, object) in objects.into_iter().enumerate() {
@@ -59,8 +56,7 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let structure = sides[0].structure.clone();
-        let (pga_m_s2, pgv_m_s) = (peak_in(sheet, row, pga)?, peak_in(sheet, row, pgv)?);
-        let peaks = at_rim(Peaks { pga_m_s2, pgv_m_s });
+        let peaks = at_rim(Peaks { pga_m_s2: peak_in(row, pga)?, pgv_m_s: peak_in(row, pgv)? });
         let fell = has_fallen(sheet, row, fell)?;
         if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
@@ -77,7 +73,7 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         read.push(ObservedOutcome {
             structure,
             peaks,
-            mw: mw.map(|column| magnitude_in(sheet, row, column)).transpose()?,
+            mw: mw.map(|at| sheet.within(row, at, &MAGNITUDES, "a magnitude from 1 to 9.9")).transpose()?,
             earthquake: known.unwrap_or(earthquakes.len() - 1) as u32,
             fell,
         });
@@ -86,22 +82,10 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
     Ok(read)
 }
 
-fn peak_in(sheet: &Grid, row: usize, (column, unit): (usize, f64)) -> Result<f64, InputError> {
-    let value = unit * sheet.number(row, column)?;
-    if value > 0.0 { Ok(value) } else { Err(sheet.refusal(row, column, "a number above 0")) }
-}
-
-fn magnitude_in(sheet: &Grid, row: usize, column: usize) -> Result<f64, InputError> {
-    let mw = sheet.number(row, column)?;
-    let is_known = MAGNITUDES.contains(&mw);
-    if is_known { Ok(mw) } else { Err(sheet.refusal(row, column, "a magnitude from 1 to 9.9")) }
-}
-
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
-    let word = sheet.cell(row, column).to_lowercase();
-    match [FELL, STOOD].map(|words| words.split(' ').any(|other| other == word)) {
-        [true, _] => Ok(true),
-        [_, true] => Ok(false),
+    match sheet.cell(row, column) {
+        cell if means(cell, "fell") => Ok(true),
+        cell if means(cell, "stood") => Ok(false),
         _ => Err(sheet.refusal(row, column, "fell or stood, or yes or no")),
     }
 }

@@ -1,0 +1,119 @@
+//! What a table says about records: magnitude, distance and earthquake, which few files have.
+
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use super::words::means;
+use super::{Grid, Heading, InputError, decode};
+use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
+use crate::source;
+
+/// The line above the table of records in PEER's search results, which have others.
+const PEER: &str = "Summary of Metadata of Selected Records";
+/// PEER's numbers below this stand for values that are not known.
+const UNKNOWN: f64 = -99.0;
+
+/// What a table says about records.
+#[derive(Debug, Default)]
+pub struct About {
+    /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
+    known: HashMap<String, Known>,
+    /// Headings of other columns.
+    pub unused: Vec<String>,
+}
+
+/// What is known of a record.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Known {
+    pub mw: Option<f64>,
+    pub re_km: Option<f64>,
+    pub earthquake: Option<String>,
+}
+
+impl About {
+    /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or
+    /// PEER's search results or flatfile.
+    pub fn read(path: &Path) -> Result<About, InputError> {
+        grid(path).and_then(|grid| About::from_grid(&grid)).map_err(|error| error.in_file(path))
+    }
+
+    fn from_grid(grid: &Grid) -> Result<About, InputError> {
+        let [magnitude, distance, earthquake, number] =
+            ["magnitude", "distance", "earthquake", "record-number"].map(|meaning| grid.about(meaning));
+        let files = grid.headings.iter().enumerate().filter(|(_, Heading { name, .. })| {
+            name.replace('_', "").contains("filename") || means(name, "record")
+        });
+        let files: Vec<usize> = files.map(|(at, _)| at).collect();
+        let of_records = [magnitude, distance, earthquake];
+        if files.is_empty() && number.is_none() || of_records == [None; 3] {
+            let expected = "a column 'file' or 'name', and 'magnitude', 'distance' or 'earthquake'";
+            return Err(InputError::missing(grid.found(), expected));
+        }
+        if let Some(heading) = distance.map(|at| &grid.headings[at])
+            && heading.unit.is_some_and(|unit| unit.name != "km")
+        {
+            return Err(InputError::missing(format!("column '{}'", heading.text), "km"));
+        }
+        let mut all = HashMap::new();
+        for (row, &line) in grid.lines.iter().enumerate() {
+            let known = Known {
+                mw: value(grid, row, magnitude, (&MAGNITUDES, "a moment magnitude"))?,
+                re_km: value(grid, row, distance, (&DISTANCES_KM, "a distance from 0 to 1000 km"))?,
+                earthquake: earthquake
+                    .map(|at| grid.cell(row, at).to_string())
+                    .filter(|name| !name.is_empty()),
+            };
+            let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
+            let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
+            for name in names.chain(number.map(|at| format!("rsn{}", grid.cell(row, at)))) {
+                if all.insert(name.clone(), known.clone()).is_some_and(|before| before != known) {
+                    let found = format!("line {line}: {name} again, with other values");
+                    return Err(InputError::missing(found, "one row of each record"));
+                }
+            }
+        }
+        let unused = (0..grid.headings.len())
+            .filter(|at| !files.contains(at) && number != Some(*at) && !of_records.contains(&Some(*at)));
+        Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
+    }
+
+    /// What the table says of a file.
+    pub fn get(&self, file: &Path) -> Option<&Known> {
+        let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
+        // RSN6_IMPVALL.I_I-ELC180.AT2
+        let number = stem.as_deref().and_then(|stem| stem.split('_').next());
+        let number = number.filter(|word| word.starts_with("rsn")).map(str::to_string);
+        [name, stem, number].into_iter().flatten().find_map(|name| self.known.get(&name))
+    }
+}
+
+/// The table, of which other tables in a file of PEER are no part.
+fn grid(path: &Path) -> Result<Grid, InputError> {
+    let text = source::read(path).ok().and_then(|bytes| Some(decode(&bytes).ok()?.into_owned()));
+    let Some((before, after)) = text.as_deref().and_then(|text| text.split_once(PEER)) else {
+        return Grid::read(path);
+    };
+    let table = after.split_once('\n').map_or("", |(_, table)| table);
+    let table = table.split("\n\n").next().unwrap_or_default();
+    // Lines keep their numbers.
+    Grid::parse(("\n".repeat(before.matches('\n').count() + 1) + table).as_bytes(), None)
+}
+
+/// The number in a cell within a range, if it is known.
+fn value(
+    grid: &Grid,
+    row: usize,
+    column: Option<usize>,
+    (range, expected): (&RangeInclusive<f64>, &str),
+) -> Result<Option<f64>, InputError> {
+    match column.filter(|at| !grid.cell(row, *at).is_empty()) {
+        Some(at) if grid.number(row, at)? > UNKNOWN => grid.within(row, at, range, expected).map(Some),
+        _ => Ok(None),
+    }
+}
+
+fn key(name: &str) -> String {
+    name.trim().to_lowercase()
+}
