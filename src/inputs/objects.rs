@@ -210,13 +210,10 @@ impl List<'_> {
                 }
                 given => given,
             };
-            let object = match object {
-                Ok(object) => Object { refused: self.held(row), ..object },
-                Err(why) => Object { refused: Some(Reason::Implausible(why)), ..Object::default() },
-            };
+            let refused = self.held(row).or(object.as_ref().err().cloned().map(Reason::Implausible));
             let is_unique = uses[name.as_str()] == 1;
             let name = if is_unique { name.clone() } else { format!("{name} (line {})", grid.lines[row]) };
-            objects.push(Object { name, ..object });
+            objects.push(Object { name, refused, ..object.unwrap_or_default() });
         }
         objects
     }

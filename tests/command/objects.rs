@@ -95,8 +95,8 @@ Tag;Equipment;Brand;Qty;Width (cm);Depth (cm);Height (cm);Anchored;Castors;Level
 A1;Drug cabinet;Acme;3;60;45;190;no;;0.5;0.6
 A2;Server rack;;2;60;100;210;yes;;1;0,6
 A3;Bed;;40;90;200;60;;yes;;
-A4;Shelf;;1;30;90;180;-;no;;
-;;;5;40;40;160;;;;
+A4;Shelf;;1;30;90;180;-;no;0;
+;;;5;40;40;160;;;0;
 A6;Shelf;;1;100;90;180;;;3;0,6
 ";
 

@@ -129,7 +129,7 @@ fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
 
 const LIST: &str = "name,width (m),height (m),anchored,level,period
 Autoclave,0.6,1.5,yes,,
-Bookcase,0.4,2.0,no,,
+Bookcase,0.4,2.0,no,0,
 Upstairs,0.4,2.0,no,0.5,0.6
 ";
 
