@@ -21,7 +21,7 @@ use crate::warning::Warning;
 
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
 /// the uplift term g of the [predictor](Predictor), and the magnitude M.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Calibration {
     pub suite: Option<String>,
@@ -102,7 +102,6 @@ impl Calibration {
         let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
         let peaks = surface::peaks(kind);
         Calibration {
-            suite: None,
             kind,
             structure: structure.name.clone(),
             p_rad_s: structure.p_rad_s,
@@ -114,18 +113,9 @@ impl Calibration {
             m,
             covariance: DMatrix::from_diagonal(&variances).as_slice().to_vec(),
             tau,
-            n: 0,
-            n_events: 0,
-            expected: 0.0,
-            n_clusters: 0,
-            pga_low: None,
-            pga_high: None,
-            pgv_low: None,
-            pgv_high: None,
-            ratio_low: None,
-            ratio_high: None,
             ratio_given_pga: peaks.given_pga.to_numbers(),
             ratio_given_pgv: peaks.given_pgv.to_numbers(),
+            ..Calibration::default()
         }
     }
 

@@ -11,8 +11,10 @@ use crate::statistics::Range;
 
 keywords! {
     /// Kinds of motion that the surface knows.
+    #[derive(Default)]
     pub enum Kind {
         /// Recorded motions.
+        #[default]
         Recorded = "recorded",
         /// Combined synthetic motions on rock: pulse and high frequencies.
         Csgm = "csgm",
@@ -75,8 +77,8 @@ impl Section {
         let fixed = [(domain.eta.held(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
         let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
         coefficients[0][0][0] = c;
-        for Term { coefficient, powers: [x, w, r], others } in &curve.terms {
-            let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power));
+        for Term { coefficient, powers: [x, w, r, others @ ..] } in &curve.terms {
+            let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power as i32));
             coefficients[*x][*w][*r] += s * coefficient * others.product::<f64>();
         }
         let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
@@ -219,8 +221,7 @@ const REFERENCE_MAGNITUDE: f64 = 6.9;
 /// L is a polynomial in x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l and r = ln(PGA / (p PGV)), whose
 /// coefficients are such in (eta - 0.85)/0.1, ln(p/2), l = ln(c/0.2) and ln(1.1 - c) of a limit state c, of
 /// P_ro 0. p, eta and c are held within the domain.
-const VARIABLES: [&str; 3] = ["x", "w", "r"];
-const FIXED: [&str; 4] = ["eta", "p", "limit", "end"];
+const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
 /// Powers of w and of r, from 0 to the third of both together; powers of x.
 const POWERS: usize = 4;
 const POWERS_OF_X: usize = 3;
@@ -288,31 +289,24 @@ struct Uplift {
     k: f64,
 }
 
-/// A product of powers of [`VARIABLES`] and of [`FIXED`].
+/// A product of powers of [`FEATURES`].
 struct Term {
     coefficient: f64,
-    powers: [usize; VARIABLES.len()],
-    others: [i32; FIXED.len()],
+    powers: [usize; FEATURES.len()],
 }
 
 impl Term {
     /// Reads a product such as `x*w^2`; 1 is the empty one.
     fn parse(product: &str, coefficient: f64) -> Term {
-        let mut term = Term { coefficient, powers: Default::default(), others: Default::default() };
+        let mut powers = [0; FEATURES.len()];
         for factor in product.split('*').filter(|name| *name != "1") {
             let (name, power) = factor.split_once('^').unwrap_or((factor, "1"));
-            let power: usize = power.parse().expect(product);
-            match VARIABLES.iter().position(|variable| *variable == name) {
-                Some(place) => term.powers[place] += power,
-                None => {
-                    let place = FIXED.iter().position(|fixed| *fixed == name).expect(product);
-                    term.others[place] += power as i32;
-                }
-            }
+            let place = FEATURES.iter().position(|feature| *feature == name).expect(product);
+            powers[place] += power.parse::<usize>().expect(product);
         }
-        let [x, w, r] = term.powers;
+        let [x, w, r, ..] = powers;
         assert!(x < POWERS_OF_X && w + r < POWERS, "{product}: of a higher degree than a section has");
-        term
+        Term { coefficient, powers }
     }
 }
 
