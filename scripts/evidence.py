@@ -79,7 +79,7 @@ def one_sines():
 def left_out():
     """Observed and expected of each earthquake, by the calibration to all others."""
     surface = Surface(open(ROOT / "data/universal.csv"))
-    records = of.read([FOLDER / "records.parquet"]).filter(pl.col("scale").is_in(of.FITTED))
+    records = of.read([FOLDER / "records.parquet"])
     figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2))
     for event, axes, name in (("pro", both[0], "overturning"), ("pex", both[1], "demand above 0.1")):
         cases = make.of_records_left_out(surface, event, records)

@@ -55,7 +55,7 @@ def calibration(surface, event, cases):
 path, study, records, folder = sys.argv[1:]
 surface = Surface(open(path))
 points(surface).write_csv(f"{folder}/universal_answers.csv")
-recorded = of.read([records]).filter(pl.col("scale").is_in(of.FITTED) & (pl.col("structure") == 5))
+recorded = of.read([records]).filter(structure=5)
 parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded.gather_every(9)]
 written = pl.concat(parts).select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
 written.write_csv(f"{folder}/calibration_cases.csv")

@@ -177,8 +177,7 @@ def own_responses(event):
     show(title, means.drop("share"))
 
 
-of_records = of.read([f"{FOLDER}/records.parquet"])
-RECORDS = of_records.filter(pl.col("scale").is_in(of.FITTED))
+RECORDS = of.read([f"{FOLDER}/records.parquet"])
 TABLES = earthquakes_left_out, few_records, between_structures, cells_left_out, own_responses
 demand_left_out()
 for event in TERMS:

@@ -143,7 +143,7 @@ def magnitude_line(motions, low, high):
 
 def main():
     out, motions, records_responses, *studies = sys.argv[1:6]
-    recorded = of.read([records_responses]).filter(pl.col("scale").is_in(of.FITTED))
+    recorded = of.read([records_responses])
     cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
     synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
     of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")

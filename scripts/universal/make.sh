@@ -12,15 +12,13 @@ motions() { # NAME SEED SAMPLES SUITES
     call sample-scenarios --seed "$2" --samples "$3" --out "$1.scenarios.parquet"
     call synthesize-motions --in "$1.scenarios.parquet" --suite "$4" --seed "$2" --out "$1.motions.parquet"
 }
-for list in training test study blocks records; do python3 "$here/cases.py" $list $list.csv; done
+for list in training study blocks records; do python3 "$here/cases.py" $list $list.csv; done
 
 motions training 1 80 pulse,csgm,hfc
 for part in 0 1 2 3 4; do
     sed -n "1p;$((64 * part + 2)),$((64 * part + 65))p" training.csv > part.csv
     call simulate --in training.motions.parquet --structures part.csv --out "training_$part.parquet"
 done
-motions test 777 40 pulse,csgm,hfc
-call simulate --in test.motions.parquet --structures test.csv --out test.parquet
 for seed in 101 102 103; do
     motions "study_$seed" "$seed" 100 pulse,csgm,hfc
     call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
