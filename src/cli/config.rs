@@ -10,9 +10,9 @@ use serde_json::{Map, Value};
 
 use super::yaml;
 use crate::keyword::hint;
+use crate::pipeline::UsageError;
 use crate::pipeline::paths::{PathKind, path_kind, split_list};
-use crate::pipeline::{InRun, UsageError};
-use crate::stages::Stages;
+use crate::stages::run;
 use crate::table::provenance::text_of;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -80,8 +80,7 @@ impl Config {
     pub fn section_of_run(&self, command: &Command, folder: &Path) -> anyhow::Result<Vec<OsString>> {
         let mut arguments = self.section(command, None)?;
         let section = &self.sections[command.get_name()];
-        let run = InRun { sections: &self.sections, section };
-        let stated = Stages::in_run(command.get_name(), &run);
+        let stated = run::files(command.get_name(), &self.sections);
         for arg in command.get_arguments() {
             let (Some(kind), Some(flag)) = (path_kind(arg), arg.get_long()) else { continue };
             let default = arg.get_default_values().first().and_then(|default| default.to_str());

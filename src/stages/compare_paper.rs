@@ -40,10 +40,6 @@ pub struct ComparePaper {
 }
 
 impl Stage for ComparePaper {
-    fn is_answer(&self) -> bool {
-        true
-    }
-
     fn inputs(&self) -> Vec<Read> {
         let fits = [("pex", &self.pex), ("pro", &self.pro)].map(|(flag, file)| Read::new(flag, [&**file]));
         let beside = BEFORE.map(|name| self.pex.with_file_name(name)).to_vec();

@@ -16,7 +16,7 @@ use crate::keyword::keywords;
 use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
-use crate::pipeline::{InRun, Stage, UsageError};
+use crate::pipeline::{Stage, UsageError};
 use crate::table::marks::xml_mark;
 use crate::warning::Warnings;
 
@@ -52,15 +52,11 @@ keywords! {
 }
 
 /// The file, without its ending, if none is given.
-const UNNAMED: &str = "fragility";
+pub const UNNAMED: &str = "fragility";
 /// Largest error of straight lines between the levels for OpenQuake.
 const TOLERANCE: f64 = 4e-6;
 
 impl Stage for Export {
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        [vec![("out", UNNAMED)], ModelArgs::in_run(run)].concat()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![self.model.input(), self.structures.input()]
     }

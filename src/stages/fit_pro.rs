@@ -46,10 +46,6 @@ impl Stage for FitPro {
         vec![Read::new("in", [&*self.input])]
     }
 
-    fn is_answer(&self) -> bool {
-        true
-    }
-
     fn outputs(&self) -> Vec<PathBuf> {
         vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.to_path_buf()]
     }

@@ -15,7 +15,7 @@ use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::paths::{Input, Output, Read, part};
-use crate::pipeline::{InRun, Stage, UsageError};
+use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::MOST_SCALED;
 use crate::rocking::{
     Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
@@ -103,16 +103,8 @@ struct Case<'a> {
 }
 
 impl Stage for Ida {
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        vec![("in", run.motions())]
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&*self.input]), self.structures.input()]
-    }
-
-    fn is_answer(&self) -> bool {
-        true
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

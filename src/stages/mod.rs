@@ -11,7 +11,7 @@ use clap::{Command, FromArgMatches, Subcommand};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::pipeline::{InRun, Stage};
+use crate::pipeline::Stage;
 
 /// Declares the stages, in the order of a run: the file and the struct of each.
 macro_rules! stages {
@@ -32,14 +32,6 @@ macro_rules! stages {
                 match self {
                     $(Stages::$stage(stage) => Box::new(stage)),*
                 }
-            }
-
-            /// The files of a stage in a run.
-            pub fn in_run(stage: &str, run: &InRun) -> Vec<(&'static str, &'static str)> {
-                let files = [$(<$module::$stage as Stage>::in_run),*];
-                let names = Stages::augment_subcommands(Command::new("stages"));
-                let place = names.get_subcommands().position(|command| command.get_name() == stage);
-                place.map_or(Vec::new(), |place| files[place](run))
             }
         }
     };

@@ -16,7 +16,7 @@ use crate::paper;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Input, Output, Read};
-use crate::pipeline::{InRun, Stage, UsageError};
+use crate::pipeline::{Stage, UsageError};
 use crate::rocking::Structure;
 use crate::studies::{RankedSet, RankingRules, Target, rank_measures};
 use crate::table::file::Table;
@@ -66,11 +66,6 @@ pub struct RankIms {
 }
 
 impl Stage for RankIms {
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        let has_motions = run.has("synthesize-motions") || run.has("import-motions");
-        has_motions.then(|| ("motions", run.motions())).into_iter().collect()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
     }

@@ -1,12 +1,14 @@
 //! run: all stages of a pipeline file, one after the other.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::io::Write as _;
 use std::time::Instant;
 
 use anyhow::Context as _;
+use serde_json::{Map, Value};
 
+use super::export::UNNAMED;
 use crate::pipeline::cache;
 use crate::pipeline::call::{Call, Planned};
 use crate::pipeline::context::Context;
@@ -14,13 +16,15 @@ use crate::pipeline::paths::Read;
 use crate::table::provenance::text_of;
 use crate::warning::Warnings;
 
+/// Stages whose text is what people make a folder for.
+const ANSWERS: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];
 /// Warnings that are printed.
 const SHOWN: usize = 3;
 
 /// Runs the stages that are not up to date. Returns the text of the last answer, or else of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), HashMap::new());
-    let answer = calls.iter().rposition(|call| call.stage.is_answer()).unwrap_or(calls.len() - 1);
+    let answer = calls.iter().rposition(|call| ANSWERS.contains(&&*call.name)).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
         let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
@@ -51,6 +55,30 @@ pub fn warn(warnings: &Warnings) {
     for (place, line) in lines.iter().take(SHOWN).enumerate() {
         let _ = writeln!(std::io::stderr(), "warning: {line}{}", if place + 1 == SHOWN { &more } else { "" });
     }
+}
+
+/// Returns the files of options that the section of a stage does not give, by flag, in the folder of the run.
+/// Options with a default have it there too, and need no word.
+pub fn files(
+    stage: &str,
+    sections: &BTreeMap<String, Map<String, Value>>,
+) -> Vec<(&'static str, &'static str)> {
+    let has = |stage: &str| sections.contains_key(stage);
+    let motions = if has("floor-motions") { "floor.parquet" } else { "motions.parquet" };
+    let fits = has("fit-pro").then_some(("fits", "."));
+    let files = match stage {
+        "simulate" | "ida" => vec![Some(("in", motions))],
+        "rank-ims" if has("synthesize-motions") || has("import-motions") => vec![Some(("motions", motions))],
+        "evaluate" => {
+            let counts = has("simulate") && sections[stage].contains_key("hazard");
+            let responses = counts.then_some(("responses", "responses.parquet"));
+            vec![fits, responses, Some(("out", "evaluated.parquet"))]
+        }
+        "export" => vec![fits, Some(("out", UNNAMED))],
+        "validate" => vec![fits],
+        _ => Vec::new(),
+    };
+    files.into_iter().flatten().collect()
 }
 
 /// Lists what each stage would do, with its options, and why.

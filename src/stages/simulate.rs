@@ -13,10 +13,10 @@ use super::shared::objects::StructureArgs;
 use crate::motion::MeasureScratch;
 use crate::number;
 use crate::number::listed;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
-use crate::pipeline::{InRun, Stage};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion};
@@ -64,10 +64,6 @@ pub struct Simulate {
 }
 
 impl Stage for Simulate {
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        vec![("in", run.motions())]
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::partition("in", &self.input, self.partition), self.structures.input()]
     }

@@ -8,9 +8,9 @@ use serde::Serialize;
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::fragility::{Case, Cases, Event, Kind, Model, Scenarios};
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{Input, Output, Read, part};
-use crate::pipeline::{InRun, Stage};
 use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
 use crate::table::keys::key_of;
@@ -38,10 +38,6 @@ pub struct Validate {
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        ModelArgs::in_run(run)
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&*self.input]), self.fits.input()]
     }

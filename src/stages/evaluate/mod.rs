@@ -39,7 +39,7 @@ use crate::object::{Object, Restitution};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, split_lists};
-use crate::pipeline::{InRun, Stage, UsageError};
+use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
 use crate::records::implausibility::rarity;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
@@ -136,17 +136,6 @@ pub struct Evaluate {
 }
 
 impl Stage for Evaluate {
-    fn is_answer(&self) -> bool {
-        true
-    }
-
-    fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        let counts = run.has("simulate") && run.section.contains_key("hazard");
-        let responses = counts.then_some(("responses", "responses.parquet"));
-        let own = responses.into_iter().chain([("out", "evaluated.parquet")]);
-        own.chain(ModelArgs::in_run(run)).collect()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![
             Read::new("in", self.input.iter().map(|path| &**path)),

@@ -9,9 +9,9 @@ use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kin
 use crate::keyword::{Keyword, keywords};
 use crate::number::{counted, listed};
 use crate::object::{Object, Subject};
+use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{FitsFolder, Read};
-use crate::pipeline::{InRun, UsageError};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
@@ -75,11 +75,6 @@ impl ModelArgs {
             self.fits.iter().flat_map(|folder| self.files().iter().map(move |name| folder.join(name)));
         // Fits to what stood and what fell have none of demands.
         Read { optional: true, ..Read::new("fits", files) }
-    }
-
-    /// The fits of a run that makes some.
-    pub fn in_run(run: &InRun) -> Vec<(&'static str, &'static str)> {
-        run.has("fit-pro").then_some(("fits", ".")).into_iter().collect()
     }
 
     /// Reads the fits, if there are any.
