@@ -372,12 +372,14 @@ pub fn limits_in_words(sds: &[(Part, f64)]) -> Option<String> {
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
     let row = &rated.row;
     let states = [
-        ("rocks".to_string(), Limited::value(row.p_rocking), Limited::default()),
-        (format!("{}, or overturns", rated.object.too_far()), row.p_failure, Limited::default()),
-        ("overturns".to_string(), row.p_overturning, row.overturning_per_year),
+        ("rocks".to_string(), Limited::value(row.p_rocking), row.rocking_per_year),
+        (format!("{}, or overturns", rated.object.too_far()), row.p_failure, row.failure_per_year.value),
+        ("overturns".to_string(), row.p_overturning, row.overturning_per_year.value),
     ];
-    let rows =
-        states.map(|(name, p, rate)| vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(rate)]);
+    let rows = states.map(|(name, p, rate)| {
+        let rate = rate.map_or(String::new(), |rate| RATE.one(rate));
+        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), rate]
+    });
     Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], rows.into())
 }
 

@@ -51,7 +51,9 @@ surface, calibrated where there are responses.";
 /// of responses.
 pub fn head(tables: &Tables) -> anyhow::Result<Page> {
     let mut head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
-        ([], [], []) if !tables.fragilities.is_empty() => fragility::page(&tables.fragilities, None, None),
+        ([], [], []) if !tables.fragilities.is_empty() => {
+            return Ok(fragility::page(&tables.fragilities, None, None));
+        }
         ([], [], []) => responses_page(tables)?,
         ([], [], traces) => return Ok(response::page(traces)),
         ([], compared, _) => paper_page(tables, compared),
@@ -62,6 +64,8 @@ pub fn head(tables: &Tables) -> anyhow::Result<Page> {
         },
     };
     head.figures.extend(tables.traces.iter().map(response::figure));
+    head.figures.push(fragility::figure(&tables.fragilities, None));
+    head.figures.retain(|figure| !figure.panels.is_empty());
     Ok(head)
 }
 
