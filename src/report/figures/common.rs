@@ -3,10 +3,13 @@
 use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::keyword::Keyword;
 use crate::motion::Suite;
+use crate::number;
 use crate::report::text::literal;
 use crate::report::{Mark, Span};
+use crate::rocking::Structure;
 use crate::studies::observed_share;
 use crate::table::capacities::ScaledMeasure;
+use crate::warning::UNNAMED;
 
 /// The fits that figures show.
 #[derive(Default)]
@@ -32,16 +35,25 @@ impl Fits {
     }
 }
 
-/// Structure and, of synthetic motions, suite; marked text.
+/// The name of a structure; without one, the block that rocks like it. Marked text.
+pub fn called(structure: &Structure) -> String {
+    if structure.name != UNNAMED {
+        return literal(&structure.name);
+    }
+    let (sin, cos) = structure.alpha_rad.sin_cos();
+    let [width, height] = [sin, cos].map(|side| number::length(side * structure.block_diagonal_m()));
+    format!("block of {width} × {height} m")
+}
+
+/// Joins a structure, marked text, with the suite of synthetic motions.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
     let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
-    let structure = literal(structure);
-    synthetic.map_or(structure.clone(), |suite| format!("{structure}, {suite}"))
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
 }
 
 /// Names the structure and suite of some cases; marked text.
 pub fn name(cases: &Cases) -> String {
-    title(&cases.structure.name, cases.suite.as_deref())
+    title(&called(&cases.structure), cases.suite.as_deref())
 }
 
 /// Label of the demand (Eq. 7).

@@ -1,9 +1,8 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use super::common::{Fits, name, ratios, rocked};
+use super::common::{Fits, called, name, ratios, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
 use crate::motion::{IntensityMeasures, Peaks};
-use crate::report::text::literal;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
@@ -39,7 +38,7 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
         layers.push(Layer::new(&format!("probability {level}"), Ink::Text, Shape::Line(dash), line));
     }
     for (number, other) in (2..).zip(others) {
-        let label = format!("{}, 0.5", literal(&other.structure.name));
+        let label = format!("{}, 0.5", called(&other.structure));
         layers.push(Layer::line(&label, Ink::Data(number), line(fits, other, 0.5, pga, pgv)));
     }
     Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)

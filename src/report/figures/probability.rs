@@ -1,11 +1,10 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{Fits, by, compare, demand_fits, demands, equal_ratios, label};
+use super::common::{Fits, by, called, compare, demand_fits, demands, equal_ratios, label};
 use super::common::{observed_shares, ratios, rocked};
 use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
-use crate::report::text::literal;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::statistics::Estimate;
 use crate::statistics::scores::sample_quantile;
@@ -76,7 +75,7 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
         for Drawn { cases, curves, .. } in structures {
             for (place, ((_, marks), dash)) in curves.iter().zip(DASHES).enumerate() {
                 // The legend names the structure by its first curve.
-                let label = if place == 0 { literal(&cases.structure.name) } else { String::new() };
+                let label = if place == 0 { called(&cases.structure) } else { String::new() };
                 layers.push(Layer::new(&label, ink(cases), Shape::Line(dash), marks.clone()));
             }
         }

@@ -2,6 +2,7 @@
 
 use super::common::{by, observed_shares, ratios, scaled_label, title};
 use crate::fragility::{Z_95, p_overturning};
+use crate::report::text::literal;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::rocking::CapacityStatus;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
@@ -66,15 +67,16 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
         Layer::new("at the intensity", Ink::Data(0), Shape::Estimates, shares),
     ];
     let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::probability("fraction that overturns"));
-    Panel::new(&title(&fit.structure, fit.suite.as_deref()), x, y, layers)
+    Panel::new(&title(&literal(&fit.structure), fit.suite.as_deref()), x, y, layers)
 }
 
 /// Validation: mean predicted probabilities against observed shares in bins; a panel a structure and suite, a
 /// series an event and model.
 pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let mut panels = Vec::new();
-    for bins in by(bins, |bin| title(&bin.structure, bin.suite.as_deref())).into_iter().take(PANELS) {
-        let name = title(&bins[0].structure, bins[0].suite.as_deref());
+    for bins in by(bins, |bin| title(&literal(&bin.structure), bin.suite.as_deref())).into_iter().take(PANELS)
+    {
+        let name = title(&literal(&bins[0].structure), bins[0].suite.as_deref());
         let mut ideal = Layer::guide(Ink::Muted, [Mark::new(0.0, 0.0), Mark::new(1.0, 1.0)]);
         ideal.label = "predicted = observed".to_string();
         let mut layers = vec![ideal];
@@ -108,7 +110,7 @@ pub fn ranking(sets: &[RankedSet]) -> Figure {
 
 fn heading(set: &RankedSet) -> String {
     let target = if set.target == Target::Demand { "demand" } else { "overturning" };
-    format!("{}: {target}", title(&set.structure, set.suite.as_deref()))
+    format!("{}: {target}", title(&literal(&set.structure), set.suite.as_deref()))
 }
 
 fn ranking_panel(sets: Vec<&RankedSet>) -> Panel {

@@ -6,10 +6,9 @@ use serde_json::{Value, json};
 use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
-use crate::number::listed;
-use crate::number::{self, Limited, TWO_DIGITS};
-use crate::report::figures::common::{by, name, scaled_label};
-use crate::report::text::{literal, minus};
+use crate::number::{self, Limited, TWO_DIGITS, listed};
+use crate::report::figures::common::{by, called, name, scaled_label};
+use crate::report::text::{literal, minus, words};
 use crate::report::{Column, Figure, Page, Section, Table, compare, fragility, list, object, response};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::{both, coefficient};
@@ -133,14 +132,14 @@ fn facts(tables: &Tables) -> Vec<String> {
         facts.push(format!("Motions: {}.", literal(answer)));
     }
     let structures: Vec<&Structure> = tables.groups.iter().map(|cases| &cases.structure).collect();
-    let mut words: Vec<String> = Vec::new();
+    let mut all: Vec<String> = Vec::new();
     for same in by(structures, |structure| structure) {
-        let Structure { name, p_rad_s, alpha_rad, eta } = same[0];
+        let Structure { p_rad_s, alpha_rad, eta, .. } = same[0];
         let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
-        words.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", literal(name)));
+        all.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", called(same[0])));
     }
-    if !words.is_empty() {
-        facts.push(format!("Structures: {}.", listed(&words, MOST_NAMED)));
+    if !all.is_empty() {
+        facts.push(format!("Structures: {}.", listed(&all, MOST_NAMED)));
     }
     facts
 }
@@ -235,7 +234,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
             None => curve_parameters(tables, cases),
         };
         rows.push(json!({
-            "structure": cases.structure.name, "motions": cases.suite, "number": cases.all.len(),
+            "structure": words(&called(&cases.structure)), "motions": cases.suite, "number": cases.all.len(),
             "rock": cases.all.len() - cases.count(Outcome::NoRocking),
             "overturn": cases.count(Outcome::Overturned),
             "as often as the surface predicts":
