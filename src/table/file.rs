@@ -41,9 +41,8 @@ impl FromStr for Partition {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Partition, String> {
-        let parts =
-            text.split_once('/').and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?)));
-        match parts {
+        let parts = text.split_once('/');
+        match parts.and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?))) {
             Some((index, of)) if index < of => Ok(Partition { index, of }),
             _ => Err("expected i/n with i from 0 to n - 1, such as 0/4".to_string()),
         }
@@ -108,7 +107,8 @@ impl Table {
     /// Opens a file, or a folder with the parts of one table.
     pub fn open(path: &Path) -> Result<Table, TableError> {
         let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
-        let files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
+        let mut files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
+        files.sort_by_cached_key(|file| file.partition().map(|partition| partition.index));
         if path.is_dir()
             && let Some(problem) = unlike_partitions(&files)
         {
@@ -326,17 +326,14 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
             files[other].name()
         ));
     }
-    if let Some(part) =
-        (0..of).map(|index| Partition { index, of }).find(|part| !parts.contains(&Some(*part)))
-    {
-        return Some(format!("partition {part} is missing; make it with --partition {part}"));
+    let mut all = (0..of).map(|index| Partition { index, of });
+    match all.find(|part| !parts.contains(&Some(*part))) {
+        Some(part) => Some(format!("partition {part} is missing; make it with --partition {part}")),
+        None if files.len() > of => {
+            Some(format!("{} files; expected the {of} partitions of one table", files.len()))
+        }
+        None => None,
     }
-    if files.len() > of {
-        return Some(format!("{} files; expected the {of} partitions of one table", files.len()));
-    }
-    let place = (0..of).find(|index| parts[*index] != Some(Partition { index: *index, of }))?;
-    let (name, part) = (files[place].name(), Partition { index: place, of });
-    Some(format!("{name} is not partition {part}; the order of names is that of rows"))
 }
 
 /// Checks that the `wanted` columns of a row group are not too large.

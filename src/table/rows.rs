@@ -1,7 +1,9 @@
 //! Structs as rows of a table: the struct is the schema, the dictionary has unit and meaning.
 
+use std::any::TypeId;
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use arrow_array::cast::AsArray;
 use arrow_array::{
@@ -20,11 +22,21 @@ use super::file::Table;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
 /// it. A value with its limits ([`crate::number::Limited`]) is named by its field.
-pub trait Row: Serialize + DeserializeOwned {}
+pub trait Row: Serialize + DeserializeOwned + 'static {}
 
-impl<T: Serialize + DeserializeOwned> Row for T {}
+impl<T: Serialize + DeserializeOwned + 'static> Row for T {}
 
-fn fields<R: Row>() -> Vec<FieldRef> {
+/// The fields of a row, and the schema of its columns.
+type Layout = (Vec<FieldRef>, SchemaRef);
+
+/// Returns the layout of a row, which is found once: that takes as long as some motions.
+fn layout<R: Row>() -> Layout {
+    static KNOWN: LazyLock<Mutex<HashMap<TypeId, Layout>>> = LazyLock::new(Mutex::default);
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    known.entry(TypeId::of::<R>()).or_insert_with(find_layout::<R>).clone()
+}
+
+fn find_layout<R: Row>() -> Layout {
     let options = TracingOptions::default()
         .strings_as_large_utf8(false)
         .sequence_as_large_list(false)
@@ -37,7 +49,11 @@ fn fields<R: Row>() -> Vec<FieldRef> {
         }
         _ => field,
     });
-    fields.collect()
+    let fields: Vec<FieldRef> = fields.collect();
+    let columns = fields.iter().flat_map(columns);
+    let columns = columns.map(|column| dictionary::with_meaning(column.as_ref().clone()));
+    let schema = Schema::new(columns.collect::<Vec<_>>());
+    (fields, Arc::new(schema))
 }
 
 fn columns(field: &FieldRef) -> Vec<FieldRef> {
@@ -55,19 +71,18 @@ fn columns(field: &FieldRef) -> Vec<FieldRef> {
 
 /// Returns the schema of a row, with unit and meaning.
 pub fn schema<R: Row>() -> SchemaRef {
-    let columns = fields::<R>().iter().flat_map(columns).collect::<Vec<FieldRef>>();
-    let columns = columns.iter().map(|column| dictionary::with_meaning(column.as_ref().clone()));
-    Arc::new(Schema::new(columns.collect::<Vec<_>>()))
+    layout::<R>().1
 }
 
 pub fn batch<'a, R: Row + 'a>(rows: impl IntoIterator<Item = &'a R>) -> anyhow::Result<RecordBatch> {
     let rows: Vec<&R> = rows.into_iter().collect();
-    let arrays = serde_arrow::to_arrow(&fields::<R>(), &rows)?;
+    let (fields, schema) = layout::<R>();
+    let arrays = serde_arrow::to_arrow(&fields, &rows)?;
     let columns = arrays.into_iter().flat_map(|array| match array.as_struct_opt() {
         Some(limited) => limited.columns().to_vec(),
         None => vec![array],
     });
-    Ok(RecordBatch::try_new(schema::<R>(), columns.collect())?)
+    Ok(RecordBatch::try_new(schema, columns.collect())?)
 }
 
 /// Reads all rows of a table. A column of optional values may be missing.
@@ -91,7 +106,7 @@ pub fn stream<'a, R: Row>(
 
 /// Reads the rows of a batch. A column of optional values may be missing.
 pub fn from_batch<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
-    let fields = fields::<R>();
+    let (fields, _) = layout::<R>();
     let arrays = fields.iter().map(|field| -> Result<ArrayRef, TableError> {
         let columns = columns(field);
         let parts = columns.iter().map(|column| checked(batch, column)).collect::<Result<Vec<_>, _>>()?;
