@@ -128,15 +128,14 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
     });
     let mut rated: Vec<(RankedSet, Option<Vec<f64>>)> = rated.collect();
     rated.sort_by(|(a, _), (b, _)| {
-        let by_score =
-            rounded(b.log_score, f64::NEG_INFINITY).total_cmp(&rounded(a.log_score, f64::NEG_INFINITY));
-        by_score.then(rounded(a.aic, f64::INFINITY).total_cmp(&rounded(b.aic, f64::INFINITY)))
+        let by_score = rounded(b.log_score, -1.0).total_cmp(&rounded(a.log_score, -1.0));
+        by_score.then(rounded(a.aic, 1.0).total_cmp(&rounded(b.aic, 1.0)))
     });
     let best = rated.first().and_then(|(_, scores)| scores.clone());
-    for at in 0..rated.len() {
+    for at in 1..rated.len() {
         // The measures of one power law have one rank.
-        let is_new = at == 0 || !rated[at].0.is_one_with(&rated[at - 1].0);
-        rated[at].0.rank = if at == 0 { 1 } else { rated[at - 1].0.rank + i64::from(is_new) };
+        let is_new = !rated[at].0.is_one_with(&rated[at - 1].0);
+        rated[at].0.rank = rated[at - 1].0.rank + i64::from(is_new);
     }
     for (set, scores) in &mut rated {
         if let (Some(best), Some(scores)) = (&best, scores) {
@@ -148,9 +147,10 @@ pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ran
     Ranking { sets: rated.into_iter().map(|(set, _)| set).collect(), incomplete }
 }
 
-/// Rounds a score, so that of equal power laws (IM4 = IM3 IM5) the first stays first.
-fn rounded(score: Option<f64>, worst: f64) -> f64 {
-    score.map_or(worst, |score| (score * 1e9).round())
+/// Rounds a score, so that of equal power laws (IM4 = IM3 IM5) the first stays first; without one it is
+/// infinite, of this sign.
+fn rounded(score: Option<f64>, sign: f64) -> f64 {
+    score.map_or(sign * f64::INFINITY, |score| (score * 1e9).round())
 }
 
 /// Returns all sets of up to `most` numbers below `count`, by size.
@@ -288,7 +288,7 @@ impl Contest {
             measures: names.join(":"),
             terms: set.len() as i64,
             n: n as i64,
-            rank: 0,
+            rank: 1,
             log_likelihood,
             aic: log_likelihood.map(|log_likelihood| 2.0 * (parameters as f64 - log_likelihood)),
             log_score: scores.map(|scores| scores.iter().sum::<f64>() / n as f64),
