@@ -95,8 +95,8 @@ const LIKE: f64 = 1.2;
 grouped!(Calibration);
 
 impl Calibration {
-    /// Makes that of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex, `None`
-    /// for P_ro.
+    /// Makes that of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex,
+    /// `None` for P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
         let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());

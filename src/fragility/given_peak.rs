@@ -66,8 +66,8 @@ impl<'a> GivenPeak<'a> {
         GivenPeak { directions, ready: ReadyObject::new(directions, mw), peak, ratio, bends }
     }
 
-    /// Returns the peaks of the motions of an intensity whose PGV / PGA is this many standard deviations above
-    /// its median.
+    /// Returns the peaks of the motions of an intensity whose PGV / PGA is this many standard deviations
+    /// above its median.
     pub fn peaks(&self, intensity: f64, deviations: f64) -> Peaks {
         let ratio = self.ratio.ratio(intensity, deviations);
         match self.peak {

@@ -68,8 +68,8 @@ impl Model {
         Some(self)
     }
 
-    /// Returns it with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of both
-    /// calibrations of the surface have the same causes.
+    /// Returns it with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of
+    /// both calibrations of the surface have the same causes.
     pub fn ends(&self) -> Vec<[Model; 2]> {
         match *self {
             Model::Calibrated { ref overturning, ref exceeding, floor } => {

@@ -98,8 +98,8 @@ impl RatioGiven {
         self.sd_below == 0.0 && self.sd_above == 0.0
     }
 
-    /// Returns PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above its
-    /// median.
+    /// Returns PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above
+    /// its median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         self.ln_ratio(intensity.ln(), deviations).exp()
     }

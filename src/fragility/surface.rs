@@ -61,9 +61,9 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Makes the section of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A magnitude that is
-    /// not known is that which PGV / PGA tells, which does not count where P would fall with it: P never
-    /// falls as PGV rises.
+    /// Makes the section of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A
+    /// magnitude that is not known is that which PGV / PGA tells, which does not count where P would fall
+    /// with it: P never falls as PGV rises.
     pub fn new(
         kind: Kind,
         structure: &Structure,
@@ -106,9 +106,9 @@ impl Section {
         self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
-    /// Returns the section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule
-    /// in w = ln IM4 - r - 0.4 l. PGA is held where IM4 ends in the domain: beyond, a polynomial means
-    /// nothing, and PGV alone counts, so that P does not fall as PGV / PGA falls.
+    /// Returns the section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by
+    /// Horner's rule in w = ln IM4 - r - 0.4 l. PGA is held where IM4 ends in the domain: beyond, a
+    /// polynomial means nothing, and PGV alone counts, so that P does not fall as PGV / PGA falls.
     pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
         let Surface { ln_im4: range, ln_ratio, .. } = &*SURFACE;
         let held = range.held(ln_im4);
@@ -167,8 +167,8 @@ pub(super) fn held_pga_m_s2(structure: &Structure) -> f64 {
     structure.uplift_acceleration_m_s2() * SURFACE.domain.im4.high
 }
 
-/// Returns the values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the magnitude
-/// is not known, of the magnitudes of the data.
+/// Returns the values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the
+/// magnitude is not known, of the magnitudes of the data.
 pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
     let by_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
@@ -226,8 +226,8 @@ const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
 const POWERS: usize = 4;
 const POWERS_OF_X: usize = 3;
 
-/// Returns, of a limit state c held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where nothing
-/// is left below overturning; 0 of P_ro.
+/// Returns, of a limit state c held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where
+/// nothing is left below overturning; 0 of P_ro.
 fn limits(limit_state: Option<f64>) -> [f64; 2] {
     limit_state.map_or([0.0; 2], |limit_state| {
         let held = SURFACE.domain.limit.held(limit_state);

@@ -31,7 +31,8 @@ pub enum HazardError {
     #[error("point {}, by intensity: expected a larger intensity than before, and no larger rate", .point + 1)]
     Unordered { point: usize },
     #[error(
-        "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more often than strong motions come; check that the two columns are not exchanged"
+        "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more \
+         often than strong motions come; check that the two columns are not exchanged"
     )]
     Exchanged { rate: f64 },
 }
@@ -90,7 +91,8 @@ impl HazardCurve {
         HazardCurve { points: self.points.iter().map(|&(im, rate)| (other(im, rate), rate)).collect() }
     }
 
-    /// Returns the intensity that is exceeded at an annual rate; beyond the ends of the curve that of the end.
+    /// Returns the intensity that is exceeded at an annual rate; beyond the ends of the curve that of the
+    /// end.
     pub fn intensity(&self, rate: f64) -> f64 {
         let below = self.points.partition_point(|&(_, point)| point >= rate);
         if below == 0 || below == self.points.len() {
@@ -100,7 +102,8 @@ impl HazardCurve {
         low * (high / low).powf((at_low / rate).ln() / (at_low / at_high).ln())
     }
 
-    /// Returns the annual rate at which an intensity is exceeded; beyond the ends of the curve that of the end.
+    /// Returns the annual rate at which an intensity is exceeded; beyond the ends of the curve that of the
+    /// end.
     pub fn exceedance(&self, im: f64) -> f64 {
         let above = self.points.partition_point(|&(point, _)| point <= im);
         if above == 0 || above == self.points.len() {

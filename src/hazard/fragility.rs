@@ -220,7 +220,8 @@ fn probabilities(given: &GivenPeak, intensities: &[f64]) -> Vec<LimitStates<f64>
     intensities.iter().map(|intensity| given.limit_states(*intensity)).collect()
 }
 
-/// Finds the intensity from which on a probability is at least `level`, sought beside the first point that has it.
+/// Finds the intensity from which on a probability is at least `level`, sought beside the first point that
+/// has it.
 fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, level: f64) -> Option<f64> {
     let after = points.iter().position(|point| point.p.get(state).value >= level)?;
     let [low, high] = [after.saturating_sub(1), after].map(|k| points[k].intensity.ln());

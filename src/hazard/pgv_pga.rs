@@ -100,7 +100,8 @@ pub enum MatchError {
     #[error("the curves have no rates in common: {0:.1e} to {1:.1e} a year; expected three times as far")]
     NothingInCommon(f64, f64),
     #[error(
-        "PGV/PGA is {ratio_s:.3} s at {pga_g:.2} g; expected 0.01 to 0.5 s: curves of one site, in these units?"
+        "PGV/PGA is {ratio_s:.3} s at {pga_g:.2} g; expected 0.01 to 0.5 s: curves of one site, in these \
+         units?"
     )]
     ImpossibleRatio { ratio_s: f64, pga_g: f64 },
     #[error(
@@ -111,7 +112,8 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Returns the curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s (m/s2).
+/// Returns the curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s
+/// (m/s2).
 pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCurve {
     sa_1s.map(|sa, rate| {
         BY_SPECTRUM * sa.powf(1.0 - EXPONENT_OF_PGA) * pga.intensity(rate).powf(EXPONENT_OF_PGA)
@@ -151,8 +153,8 @@ impl PgvPgaRatio {
         }
     }
 
-    /// Finds PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its level
-    /// and slope by least squares in ln rate.
+    /// Finds PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its
+    /// level and slope by least squares in ln rate.
     ///
     /// # Errors
     /// If the curves cannot belong together.

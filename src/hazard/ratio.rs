@@ -21,9 +21,9 @@ impl RateByParts {
     }
 }
 
-/// Returns the rate after a change over the rate before, with 95 % limits. A part that is shared moves both rates
-/// alike: only the difference of what it does to either counts, sd^2 = (sd_after - sd_before)^2; another
-/// counts twice, sd_after^2 + sd_before^2.
+/// Returns the rate after a change over the rate before, with 95 % limits. A part that is shared moves both
+/// rates alike: only the difference of what it does to either counts, sd^2 = (sd_after - sd_before)^2;
+/// another counts twice, sd_after^2 + sd_before^2.
 pub fn ratio_of_rates(
     before: &RateByParts,
     after: &RateByParts,

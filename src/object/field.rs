@@ -53,8 +53,8 @@ const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?
 
 impl Field {
     /// Returns the least and the largest value that an object can have, and what is expected. No rocking
-    /// structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a semi-diagonal
-    /// below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
+    /// structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
+    /// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
     pub fn range(self) -> (RangeInclusive<f64>, &'static str) {
         match self {
