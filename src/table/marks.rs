@@ -1,6 +1,7 @@
 //! Marks of our own files, by which one is told from a file of another program before it is replaced, and
 //! found up to date: provenance in pages, pictures and workbooks; headings and keys of CSV and JSON.
 
+use std::collections::BTreeSet;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
@@ -16,6 +17,8 @@ const IN_PICTURE: &[u8] = b"iTXtrockfrag\0\0\0\0\0";
 const META: [&str; 2] = ["name=\"rockfrag\" content=\"", "\""];
 /// The start of a second line of XML.
 const XML: &str = "<!-- rockfrag ";
+/// How the names of structures begin in an export.
+const OWN_NAME: &str = "rockfrag_";
 /// Where a PNG has its first chunk behind the head, how a whole one ends, and where the file of a workbook has
 /// our properties.
 const BEHIND_HEAD: usize = 33;
@@ -83,11 +86,12 @@ fn heading(csv: &[u8]) -> &[u8] {
     csv.split(|byte| *byte == b'\n').next().unwrap_or_default().trim_ascii_end()
 }
 
-/// The keys of an object, or of the first of a list.
-fn keys(json: &[u8]) -> Option<Vec<String>> {
+/// The keys of an object, or of the first of a list; names of structures are all one.
+fn keys(json: &[u8]) -> Option<BTreeSet<String>> {
     let value: Value = serde_json::from_slice(json).ok()?;
     let object = value.as_array().map_or(Some(&value), |items| items.first())?;
-    Some(object.as_object()?.keys().cloned().collect())
+    let key = |key: &String| if key.starts_with(OWN_NAME) { OWN_NAME } else { key }.to_string();
+    Some(object.as_object()?.keys().map(key).collect())
 }
 
 fn between<'a>(text: &'a str, [before, after]: [&str; 2]) -> Option<&'a str> {
