@@ -65,8 +65,9 @@ impl Read {
             };
             let is_read =
                 |file: &Path| self.whole_folders || is_table(file) && file.parent() == Some(&folder);
-            let to_come = planned.keys().filter(|file| !file.exists() && **file != folder);
-            below.extend(to_come.filter(|file| file.starts_with(&folder) && is_read(file)).cloned());
+            let to_come = planned.keys().filter(|file| !file.exists() && **file != folder && is_read(file));
+            // Written as those that are there, they come in the same order.
+            below.extend(to_come.filter_map(|file| Some(path.join(file.strip_prefix(&folder).ok()?))));
             // What the stage itself wrote into the folder is not read.
             below.retain(|file| !outputs.contains(&resolved(file)));
             below.sort_unstable();

@@ -91,6 +91,10 @@ fn a_run_is_kept_where_it_goes_and_made_anew_where_a_file_is_missing() {
     }
     assert!(ran(&succeed(&moved, "run --threads 1").1).is_empty(), "moved");
     assert!(ran(&succeed(folder.path(), "run moved/pipeline.yaml").1).is_empty(), "from another folder");
+    fs::remove_file(moved.join("out/motions.parquet")).unwrap();
+    let (plan, _) = succeed(&moved, "run --dry-run");
+    assert_eq!(plan.matches(": run").count(), 1, "what is made again is the same: {plan}");
+    succeed(&moved, "run");
     let figure = fs::read_dir(moved.join("out/report")).unwrap().next().unwrap().unwrap().path();
     fs::remove_file(&figure).unwrap();
     assert_eq!(ran(&succeed(&moved, "run").1), ["report"], "a figure is missing");
