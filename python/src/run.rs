@@ -8,8 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::UsageError;
-use rockfrag::pipeline::context::{Context, Observed, THREADS};
+use rockfrag::pipeline::context::{Context, Observed, threads_of};
 use rockfrag::source::forget_pipes;
 
 use crate::error::to_python;
@@ -73,13 +72,8 @@ fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> anyhow::Result<T> + Send,
 ) -> anyhow::Result<T> {
-    match threads {
-        Some(threads) if !THREADS.contains(&threads) => Err(UsageError::because(format!(
-            "threads is {threads}; expected {} to {}",
-            THREADS.start(),
-            THREADS.end()
-        ))),
-        Some(threads) => rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work),
+    match threads_of(threads)? {
+        Some(threads) => threads.build()?.install(work),
         None => work(),
     }
 }

@@ -48,6 +48,12 @@ def test_a_wrong_option_is_told(motions, options, error, message):
         rockfrag.simulate(motions, **options)
 
 
+def test_too_many_threads_of_the_environment_are_refused(monkeypatch):
+    monkeypatch.setenv("RAYON_NUM_THREADS", "100000")
+    with pytest.raises(ValueError, match="RAYON_NUM_THREADS"):
+        rockfrag.sample_scenarios(samples=2)
+
+
 def test_a_damaged_file_is_named(tmp_path):
     (tmp_path / "bad.parquet").write_bytes(b"PAR1 no Parquet")
     with pytest.raises(rockfrag.Error, match="bad.parquet: not a readable Parquet file"):

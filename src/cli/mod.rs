@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use self::config::{Config, assigned};
 use crate::number::shown;
 use crate::pipeline::call::Call;
-use crate::pipeline::context::{COMMON, Common, Context, THREADS};
+use crate::pipeline::context::{COMMON, Common, Context, threads_of};
 use crate::pipeline::options::in_one_line;
 use crate::pipeline::paths::{Role, path_kind};
 use crate::pipeline::{UsageError, cache};
@@ -279,13 +279,8 @@ fn refuse(pipeline: &Path, problem: &str) -> anyhow::Error {
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let by_environment = std::env::var("RAYON_NUM_THREADS").ok().and_then(|threads| threads.parse().ok());
-    match common.threads.or(by_environment) {
-        Some(threads) if threads > *THREADS.end() => Err(UsageError::because(format!(
-            "RAYON_NUM_THREADS is {threads}; expected {} at most",
-            THREADS.end()
-        ))),
-        Some(threads) => Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?),
+    match threads_of(common.threads)? {
+        Some(threads) => Ok(threads.build_global()?),
         None => Ok(()),
     }
 }

@@ -9,7 +9,9 @@ use std::time::SystemTime;
 use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rayon::ThreadPoolBuilder;
 
+use super::UsageError;
 use super::options::number;
 use crate::keyword::keywords;
 use crate::table::TableError;
@@ -22,6 +24,19 @@ use crate::warning::Warnings;
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;
+
+/// Returns as many threads as are asked for, by a number or by the environment; none if neither asks.
+pub fn threads_of(asked: Option<usize>) -> anyhow::Result<Option<ThreadPoolBuilder>> {
+    let by_environment = std::env::var("RAYON_NUM_THREADS").ok().and_then(|threads| threads.parse().ok());
+    match asked.or(by_environment.filter(|threads| *threads > 0)) {
+        Some(threads) if !THREADS.contains(&threads) => Err(UsageError::because(format!(
+            "threads is {threads} (--threads or RAYON_NUM_THREADS); expected {} to {}",
+            THREADS.start(),
+            THREADS.end()
+        ))),
+        asked => Ok(asked.map(|threads| ThreadPoolBuilder::new().num_threads(threads))),
+    }
+}
 
 pub const COMMON: &str = "Common options";
 
