@@ -23,7 +23,7 @@
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
 //! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
-//! // PGA in m/s2, and how often a year it is exceeded; PGV / PGA is that of sites in general.
+//! // PGA in m/s2, and how often a year it is exceeded; PGV / PGA is that of generic sites.
 //! let curve = HazardCurve::new(vec![(0.5, 2e-2), (1.0, 7e-3), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 //! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
 //! let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("the curve ends early") };
@@ -34,8 +34,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The limits hold what is not known: of the model, the magnitude, PGV, the restitution, the object and its
-//! floor. An [`Object`](object::Object) has more to it:
+//! The limits account for the uncertainty of the model, magnitude, PGV, restitution, object and floor. An
+//! [`Object`](object::Object) can carry more detail:
 //!
 //! ```
 //! # use rockfrag::fragility::Kind;

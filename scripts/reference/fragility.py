@@ -1,4 +1,4 @@
-"""Probabilities at one peak, averaged over PGV/PGA of sites in general by scipy:
+"""Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy:
 python fragility.py > tests/reference/fits/fragility_answers.csv
 
 The surface is that of scripts/universal/surface.py; the lines of PGV/PGA and the usual magnitude are those of

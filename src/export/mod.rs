@@ -1,8 +1,8 @@
 //! Fragility in the files and units of other risk programs: limit states over one intensity.
 //!
 //! ```text
-//! levels     intensities at which to tabulate a curve, so that lines between them err no more than a
-//! tolerance openquake  NRML 0.5 of OpenQuake
+//! levels     intensities at which to tabulate a curve, so that lines between them err little
+//! openquake  NRML 0.5 of OpenQuake
 //! pelicun    the fragility parameters of pelicun, and their metadata
 //! ```
 

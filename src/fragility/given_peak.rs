@@ -2,6 +2,7 @@
 
 use super::level::{Level, Scenarios};
 use super::model::{Direction, Model};
+use super::on_floor::Uplift;
 use super::peaks::{Peak, RatioGiven};
 use super::ready::ReadyObject;
 use super::surface;
@@ -43,15 +44,6 @@ struct Bend {
     ln_seconds: f64,
     /// ln of the PGA (m/s2) beyond which PGV alone counts.
     ln_held_pga: f64,
-}
-
-/// Intensities that uplift an object.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Uplift {
-    /// The least that may: by the strongest floor, or with the smallest PGV / PGA.
-    pub least: f64,
-    /// What usually does: by a usual floor, with the median PGV / PGA.
-    pub usual: f64,
 }
 
 impl<'a> GivenPeak<'a> {

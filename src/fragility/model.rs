@@ -2,8 +2,7 @@
 
 use super::calibration::Calibration;
 use super::demand::DemandFit;
-use super::given_peak::Uplift;
-use super::on_floor;
+use super::on_floor::{self, Uplift};
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind};

@@ -1,7 +1,6 @@
 //! The motions of a floor, given that of the ground: its own peaks, averaged over what they may be, and how
 //! narrow its band is, which moves the probabilities.
 
-use super::given_peak::Uplift;
 use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
@@ -27,6 +26,15 @@ const NODES: [[f64; 3]; 7] = [
     [0.0, 0.0, 0.5],
 ];
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
+
+/// Intensities that uplift an object.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uplift {
+    /// The least that may: by the strongest floor, or with the smallest PGV / PGA.
+    pub least: f64,
+    /// What usually does: by a usual floor, with the median PGV / PGA.
+    pub usual: f64,
+}
 
 /// Returns the ground accelerations that uplift a structure on a floor, m/s2.
 pub(super) fn uplift_m_s2(structure: &Structure) -> Uplift {

@@ -1,4 +1,4 @@
-//! One budget of errors: how much each part of what is not known moves a result, and the limits that follow.
+//! The error budget: how much each source of uncertainty moves a result, and the limits that follow.
 
 use crate::fragility::Z_95;
 use crate::keyword::Keyword;
@@ -13,7 +13,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Gathers how far a result falls and rises between the quantiles of what is not known.
+    /// Gathers how far a result falls and rises between the quantiles of each unknown.
     pub fn new<T>(middle: &T, unknowns: &[Unknown<T>], result: impl Fn(&T) -> f64) -> Budget {
         let (mut budget, middle) = (Budget::default(), result(middle));
         for unknown in unknowns {

@@ -13,7 +13,7 @@ use crate::object::Subject;
 use crate::statistics::numerics::first;
 use crate::statistics::{Estimate, least_squares, normal};
 
-/// Motions of sites in general, of which one peak is given, and what narrows the other.
+/// Motions of generic sites, of which one peak is given, and what narrows the other.
 ///
 /// ```
 /// use rockfrag::fragility::{Kind, Peak};

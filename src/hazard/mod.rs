@@ -4,10 +4,10 @@
 //! curve     annual rate of exceedance of one intensity; the convolution integral
 //! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
 //! rates     annual rates of the limit states of a structure, over a curve or over pairs of PGA and PGV
-//! budget    what is not known exactly, and the limits that follow
+//! budget    the sources of uncertainty, and the limits that follow
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
-//! motions   the motions of which one peak is given, and what is not known of them
+//! motions   the motions of which one peak is given, and their uncertainty
 //! ratio     the rate after a change over that before
 //! share     the shares of a rate by intensity
 //! site      the rates of a structure at a site, with limits and warnings

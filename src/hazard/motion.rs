@@ -26,7 +26,7 @@ pub struct Motion {
 #[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
     pub states: LimitStates<Estimate>,
-    /// Standard deviations of the logit of the probability of overturning, by what is not known.
+    /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.
     pub errors: Budget,
 }
 

@@ -1,10 +1,10 @@
-//! Motions of which one peak is given: the other peak, the magnitude, and what is not known of either.
+//! Motions of which one peak is given: the other peak, the magnitude, and the uncertainty of both.
 
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use crate::fragility::{Direction, GivenPeak, Peak, Z_95};
 use crate::object::{Part, Subject, Unknown};
 
-/// Mean and standard deviation of the magnitude of the motions that matter, at sites in general.
+/// Mean and standard deviation of the magnitude of the motions that matter, at generic sites.
 const USUAL_MAGNITUDE: f64 = 6.35;
 const SD_OF_USUAL: f64 = 0.6;
 /// Standard deviation of their magnitude about a mean of the disaggregation of SA(1.0 s).
@@ -20,7 +20,7 @@ const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
 pub(super) struct Motions {
     pub peak: Peak,
     pub velocity: PgvPgaRatio,
-    /// Median of the mean magnitude by which PGV / PGA is estimated, and what is not known of it.
+    /// Median of the mean magnitude by which PGV / PGA is estimated, and its uncertainty.
     mean: f64,
     unknown: Unknown<f64>,
     /// How far the magnitude of the motions is above that mean; none where PGV / PGA tells their magnitude.
@@ -28,7 +28,7 @@ pub(super) struct Motions {
 }
 
 impl Motions {
-    /// Makes the motions of earthquakes of a magnitude, or of those that matter at sites in general.
+    /// Makes the motions of earthquakes of a magnitude, or of those that matter at generic sites.
     pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> Motions {
         let (mean, sd) = mw.map_or((USUAL_MAGNITUDE, SD_OF_USUAL), |mw| (mw, 0.0));
         let unknown = Unknown { part: Part::Magnitude, low: mean - Z_95 * sd, high: mean + Z_95 * sd };
@@ -51,7 +51,7 @@ impl Motions {
         Motions { unknown, above: Some(above), ..motions }
     }
 
-    /// Makes an object ready for these motions, of which this much is added to ln(PGV / PGA).
+    /// Makes an object ready for these motions, with `ln` added to ln(PGV / PGA).
     pub fn given<'a>(&self, directions: &'a [Direction], ln: f64) -> GivenPeak<'a> {
         self.with_mean(directions, self.mean, ln)
     }

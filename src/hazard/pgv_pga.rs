@@ -40,9 +40,9 @@ pub struct PgvPgaRatio {
     pub source: VelocitySource,
 }
 
-/// The magnitude that lines of sites in general are for.
+/// The magnitude that lines of generic sites are for.
 const MIDDLE: f64 = 6.3;
-/// The line of sites in general given a peak, ln(PGV / PGA) in s.
+/// The line of generic sites given a peak, ln(PGV / PGA) in s.
 struct LineOfSites {
     /// Where it has its level: m/s2 or m/s.
     at: f64,

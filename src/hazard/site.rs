@@ -38,7 +38,7 @@ pub struct PeakHazard {
 }
 
 impl Hazard {
-    /// Makes the hazard of a curve of one peak; PGV / PGA is that of sites in general.
+    /// Makes the hazard of a curve of one peak; PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
         Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity: None })
     }
@@ -46,7 +46,7 @@ impl Hazard {
 
 /// Fraction of a rate that stronger motions than the last may add before it is no value.
 const NEGLIGIBLE: f64 = 0.1;
-/// Rates a year of less count as this, once in 1e12 years, where errors are measured.
+/// The least annual rate whose logarithm the error budget takes: once in 1e12 years.
 const LEAST: f64 = 1e-12;
 /// The seed of the resamples of a count.
 const SEED: u64 = 1;
@@ -83,7 +83,7 @@ pub struct SiteRates {
     pub rocking: Option<AnnualRate>,
     pub failure: Option<AnnualRate>,
     pub overturning: Option<AnnualRate>,
-    /// Standard deviations of ln of the rate of overturning, by what is not known.
+    /// Standard deviations of ln of the rate of overturning, by source of uncertainty.
     pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub velocity: Option<VelocitySource>,

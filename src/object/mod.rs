@@ -1,5 +1,5 @@
-//! Objects: what is known of one and where it stands, the directions in which it falls, and what is not known
-//! of them.
+//! Objects: their properties and location, the directions in which they can fall, and the uncertainty of
+//! each.
 //!
 //! ```text
 //! changes    what would change how likely an object is to overturn

@@ -21,7 +21,7 @@ pub struct Side {
 /// 1.8 times as much (ElGawady et al. 2006), concrete and stone members less, down to 0.6 (Kalliontzis et al.
 /// 2016, Ther & Kollar 2017).
 const SD_OF_LOSS: f64 = 0.4;
-/// Least coefficient of restitution at the ends of what is not known.
+/// Least coefficient of restitution at the ends of its uncertainty.
 const LEAST_ETA: f64 = 0.01;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
@@ -30,7 +30,7 @@ const FARTHEST: f64 = 0.98;
 const LONGEST: f64 = 20.0;
 
 impl Object {
-    /// Finds the directions in which it rocks, the weaker first; of those in which it would slide none.
+    /// Finds the directions in which it rocks, the weaker first, without those in which it would slide.
     ///
     /// # Errors
     /// Why there is none.

@@ -1,4 +1,4 @@
-//! An object with the models that predict for it, and what is not known of it: changes that are made when
+//! An object with the models that predict for it, and its uncertainty: changes that are made when
 //! they are asked for.
 
 use super::given::{Object, Reason};
@@ -44,7 +44,7 @@ impl Part {
     }
 }
 
-/// An object in its directions, and what is not known of it.
+/// An object in its directions, and its uncertainties.
 ///
 /// ```
 /// use rockfrag::fragility::Kind;
@@ -182,7 +182,7 @@ impl Subject {
         directions
     }
 
-    /// Lists what is not known of the models: the same error moves all directions.
+    /// Lists the uncertainties of the models: the same error moves all directions.
     pub fn model_errors(&self) -> Vec<Unknown> {
         let fewest = self.directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
         let ends = Unknown { part: Part::Fit, low: false, high: true };

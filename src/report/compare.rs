@@ -111,8 +111,7 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         true => (before.hazard.clone(), "the same hazard, that is all but what only one of them has"),
         false => (format!("{}; {}", before.hazard, after.hazard), "different hazards, PGV/PGA does not"),
     };
-    let cancels =
-        format!("Ratio: what is not known of both, and moves both alike, cancels; under {cancels}.");
+    let cancels = format!("Ratio: uncertainties that move both alike cancel; under {cancels}.");
     let [file_before, file_after, hazards] = [&before.file, &after.file, &hazards].map(|name| literal(name));
     let facts =
         [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.doubts.part_sds())];

@@ -74,7 +74,7 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
         title,
         place: match hazard {
             Some(hazard) => format!("Fragility over {what}; hazard: {}", literal(hazard)),
-            None => format!("Fragility over {what}, of sites in general"),
+            None => format!("Fragility over {what}, of generic sites"),
         },
         sentence: format!("Half of the motions overturn {name} at a {what} {of}{half}."),
         facts: model_in_words(weakest).into_iter().collect(),
