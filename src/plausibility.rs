@@ -3,9 +3,8 @@
 
 use std::ops::RangeInclusive;
 
-use crate::motion::Peaks;
 use crate::number::{period, significant};
-use crate::units::{G_M_S2, Unit};
+use crate::units::Unit;
 
 /// A range within which a quantity can be right, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +95,7 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{0}")]
-pub struct ImplausibleHazard(String);
+pub struct ImplausibleHazard(pub(crate) String);
 
 /// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
 pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
@@ -121,35 +120,6 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
     let (value, years) = (significant(value, 3), period(1.0 / rate));
     let hazard = format!("{peak} of {value} {unit} once in {years} years");
     Err(ImplausibleHazard(format!("{hazard} exceeds any known hazard: {guess}")))
-}
-
-/// Peaks, g and m/s, that the typical motion of a table does not reach, and its PGV/PGA, s.
-const STRONGEST_MEDIAN: f64 = 3.0;
-const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
-
-/// Judges the motions of a table by the medians of their peaks, which show a wrong unit.
-pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), ImplausibleHazard> {
-    let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / G_M_S2));
-    let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));
-    let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
-    let refuse = |name: &str, value: f64, expected: &str| {
-        let value = significant(value, 3);
-        Err(ImplausibleHazard(format!("half of the rows have {name} above {value}; {expected}")))
-    };
-    match (pga_g, pgv, ratio_s) {
-        (Some(pga), ..) if pga > STRONGEST_MEDIAN => {
-            refuse("PGA in g", pga, "expected up to 3 g: is it in m/s2?")
-        }
-        (_, Some(pgv), _) if pgv > STRONGEST_MEDIAN => {
-            refuse("PGV in m/s", pgv, "expected up to 3 m/s: is it in cm/s?")
-        }
-        (.., Some(ratio)) if !MEDIAN_PGV_PGA_S.contains(&ratio) => refuse(
-            "PGV/PGA in s",
-            ratio,
-            "expected 0.015 to 0.6 s, of PGA in m/s2 and PGV in m/s: a wrong unit?",
-        ),
-        _ => Ok(()),
-    }
 }
 
 /// Spectral acceleration at 1 s over PGA, each exceeded as often, of any site.
@@ -185,30 +155,8 @@ pub fn judge_lengths(
 }
 
 /// The median of values that are above 0 and finite.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
-}
-
-/// Moves peaks beyond any record to the rim of what was recorded: tails of ground-motion models have such
-/// motions.
-pub fn at_rim(peaks: Peaks) -> Peaks {
-    let pga_m_s2 = peaks.pga_m_s2.min(STRONGEST_PGA_G * G_M_S2);
-    let pgv = peaks.pgv_m_s.min(STRONGEST_PGV_M_S);
-    let is_possible = pga_m_s2 == 0.0 || PGV_PGA_S.contains(&(pgv / pga_m_s2));
-    let [least, most] = [PGV_PGA_S.start(), PGV_PGA_S.end()].map(|ratio_s| ratio_s * pga_m_s2);
-    Peaks { pga_m_s2, pgv_m_s: if is_possible { pgv } else { pgv.clamp(least, most) } }
-}
-
-/// Why PGA (m/s2) and PGV (m/s) cannot be of one motion.
-pub fn judge_peaks(pga_m_s2: f64, pgv_m_s: f64) -> Result<(), String> {
-    let ratio_s = pgv_m_s / pga_m_s2;
-    match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
-        true => Ok(()),
-        false => Err(format!(
-            "PGV/PGA is {} s; expected 0.005 to 3 s, of PGA in g and PGV in m/s: a wrong unit?",
-            significant(ratio_s, 3)
-        )),
-    }
 }

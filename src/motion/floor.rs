@@ -4,8 +4,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::intensity_measures::Peaks;
 use super::measures::Oscillator;
+use super::peaks::Peaks;
 
 /// A floor of a building, or the ground: level 0.
 ///

@@ -5,17 +5,9 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use super::peaks::Peaks;
 use crate::rocking::Structure;
 use crate::units::G_M_S2;
-
-/// The peaks of a ground motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peaks {
-    /// Peak ground acceleration, m/s2.
-    pub pga_m_s2: f64,
-    /// Peak ground velocity, m/s.
-    pub pgv_m_s: f64,
-}
 
 /// The dimensionless intensity measures of Eq. 13: the last columns of responses.parquet. Those of a period
 /// are missing where the period is.

@@ -9,6 +9,7 @@
 //! combine             high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis           all of these for one scenario, on one time axis
 //! floor               motions of floors of buildings, and their peaks
+//! peaks               PGA and PGV, and whether they can be those of a motion
 //! measures            measures of a motion with units: peaks, mean period, Arias intensity, duration
 //! intensity_measures  IM1 to IM6 (Eq. 13) of a motion and a structure, and other measures without units
 //! fourier             transforms of real series
@@ -21,6 +22,7 @@ pub mod floor;
 pub mod fourier;
 mod intensity_measures;
 pub mod measures;
+mod peaks;
 pub mod pulse;
 pub mod scenario;
 pub mod site;
@@ -30,8 +32,9 @@ mod synthesis;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use floor::{Amplified, Floor};
-pub use intensity_measures::{Dimension, IntensityMeasures, Peaks};
+pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MeasureScratch, Measured, MotionMeasures};
+pub use peaks::{Peaks, judge_medians};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite, SyntheticSuite};
 pub use site::SiteAmplification;

@@ -14,8 +14,8 @@ use super::{Grid, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
-use crate::motion::Peaks;
-use crate::plausibility::{MAGNITUDES, at_rim, judge_hazard, judge_medians, judge_spectrum};
+use crate::motion::{Peaks, judge_medians};
+use crate::plausibility::{MAGNITUDES, judge_hazard, judge_spectrum};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
@@ -200,7 +200,7 @@ impl Found {
         judge_medians(bins.iter().map(|bin| bin.peaks))?;
         let mut beyond = 0;
         for bin in &mut bins {
-            let peaks = at_rim(bin.peaks);
+            let peaks = bin.peaks.at_rim();
             beyond += usize::from(peaks != bin.peaks);
             bin.peaks = peaks;
         }

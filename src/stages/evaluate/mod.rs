@@ -34,13 +34,14 @@ use super::shared::responses;
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use crate::inputs::{Rename, Renames, hazard};
+use crate::motion::Peaks;
 use crate::number::listed;
 use crate::object::{Object, Restitution};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, split_lists};
 use crate::pipeline::{Stage, UsageError};
-use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, judge_peaks};
+use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::records::implausibility::rarity;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
 use crate::table::answers::{Answer, FragilityRow, RatesRow};
@@ -199,7 +200,9 @@ impl Evaluate {
             (Some(_), Some(_)) if self.vs30.is_some() => {
                 return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
             }
-            (Some(pga), Some(pgv)) => judge_peaks(pga, pgv).map_err(UsageError::because)?,
+            (Some(pga_m_s2), Some(pgv_m_s)) => {
+                Peaks { pga_m_s2, pgv_m_s }.judge().map_err(UsageError::because)?;
+            }
             _ => {}
         }
         Ok(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })

@@ -15,12 +15,11 @@ use crate::hazard::Motion;
 use crate::inputs::hazard::peak;
 use crate::inputs::objects::describes_object;
 use crate::inputs::{Grid, Heading, Renames};
-use crate::motion::Peaks;
+use crate::motion::{Peaks, judge_medians};
 use crate::number::counted;
 use crate::object::{Object, Place, Restitution, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::plausibility::{at_rim, judge_medians};
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
 use crate::stages::shared::objects::StructureArgs;
@@ -108,7 +107,7 @@ fn with_probabilities<'a>(
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, about_model) = subject(row);
-        let peaks = at_rim(given[row]);
+        let peaks = given[row].at_rim();
         let mut warnings = [about_model.clone(), subject.warnings(peaks)].concat();
         warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
         warnings.sort();

@@ -8,8 +8,8 @@ use crate::fragility::{ObservedOutcome, Peak};
 use crate::inputs::hazard::peak;
 use crate::inputs::words::means;
 use crate::inputs::{Grid, InputError, objects};
-use crate::motion::Peaks;
-use crate::plausibility::{MAGNITUDES, at_rim, judge_medians};
+use crate::motion::{Peaks, judge_medians};
+use crate::plausibility::MAGNITUDES;
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
 
@@ -56,7 +56,7 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let structure = sides[0].structure.clone();
-        let peaks = at_rim(Peaks { pga_m_s2: peak_in(row, pga)?, pgv_m_s: peak_in(row, pgv)? });
+        let peaks = Peaks { pga_m_s2: peak_in(row, pga)?, pgv_m_s: peak_in(row, pgv)? }.at_rim();
         let fell = has_fallen(sheet, row, fell)?;
         if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
