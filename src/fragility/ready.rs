@@ -105,7 +105,6 @@ impl<'a> ReadyDirection<'a> {
 }
 
 /// A direction under motions of one PGA of the ground.
-#[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
 enum DirectionAtPga<'a> {
     Still,
     Ground(&'a [Branch<'a>; 2], [Cut; 2]),

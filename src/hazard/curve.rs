@@ -114,8 +114,8 @@ impl HazardCurve {
     }
 
     /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
-    /// |dH(im)|, over [nodes](Self::nodes). Motions above the last intensity count with the probability at
-    /// it; those below the first are not counted.
+    /// |dH(im)|. Motions above the last intensity count with the probability at it; those below the first are
+    /// not counted.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],
