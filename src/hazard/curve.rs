@@ -141,6 +141,8 @@ impl HazardCurve {
         let mut edges = vec![first.ln(), last.ln()];
         edges.extend(breaks.iter().filter(|im| first < **im && **im < last).map(|im| im.ln()));
         edges.sort_by(f64::total_cmp);
+        // Both directions of a square base jump at one intensity: a panel without width has no polynomial.
+        edges.dedup_by(|a, b| *a - *b < 1e-12);
         let panels = edges.windows(2).flat_map(|edge| panels(edge[0], edge[1], widest));
         let nodes = panels.flat_map(|panel| panel.nodes_of(self.masses(panel)));
         nodes.map(|(ln_im, annual_rate)| Node { intensity: ln_im.exp(), annual_rate }).collect()
