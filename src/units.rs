@@ -101,7 +101,7 @@ impl Unit {
     ///
     /// # Errors
     /// With the known units, if it is not one of them.
-    pub fn of_acceleration(text: &str) -> Result<Unit, String> {
+    pub fn parse_acceleration(text: &str) -> Result<Unit, String> {
         let known = UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration);
         let known: Vec<&str> = known.map(|(name, ..)| *name).collect();
         let found = Unit::parse(text).filter(|unit| unit.quantity == Acceleration);

@@ -46,8 +46,8 @@ impl About {
             name.replace('_', "").contains("filename") || means(name, "record")
         });
         let files: Vec<usize> = files.map(|(at, _)| at).collect();
-        let of_records = [magnitude, distance, earthquake];
-        if files.is_empty() && number.is_none() || of_records == [None; 3] {
+        let columns = [magnitude, distance, earthquake];
+        if files.is_empty() && number.is_none() || columns == [None; 3] {
             let expected = "a column 'file' or 'name', and 'magnitude', 'distance' or 'earthquake'";
             return Err(InputError::missing(grid.found(), expected));
         }
@@ -75,7 +75,7 @@ impl About {
             }
         }
         let unused = (0..grid.headings.len())
-            .filter(|at| !files.contains(at) && number != Some(*at) && !of_records.contains(&Some(*at)));
+            .filter(|at| !files.contains(at) && number != Some(*at) && !columns.contains(&Some(*at)));
         Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
     }
 

@@ -79,7 +79,7 @@ pub fn ground_floor(storeys: &[Storey]) -> Result<u32, u32> {
 /// How a building resists earthquakes, and its first period by ASCE 7: factor x (height in m)^exponent, s.
 #[derive(Debug, PartialEq)]
 pub struct Building {
-    /// Of the words in data/headings.csv.
+    /// A meaning of data/headings.csv.
     meaning: &'static str,
     factor: f64,
     exponent: f64,

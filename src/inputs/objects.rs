@@ -31,7 +31,7 @@ enum Column {
     Storeys,
     /// The type of its building.
     Building,
-    /// It speaks of the object, and is not understood.
+    /// A property of the object that is not understood.
     Unclear,
     Unused,
 }

@@ -180,10 +180,10 @@ impl Synthesizer {
         made.epoch_s = self.epoch_s(&earthquake.window, onset, &made.high_frequency);
         made.pulse = pulse.sample(made.dt_s, made.epoch_s, samples);
         if self.combined {
-            let mut of_pulse = Vec::new();
+            let mut pulse_spectrum = Vec::new();
             made.combined = made.pulse.clone();
-            transform.forward(&mut made.combined, &mut of_pulse, &mut self.scratch);
-            combine(&mut spectrum, &of_pulse, self.model.difference);
+            transform.forward(&mut made.combined, &mut pulse_spectrum, &mut self.scratch);
+            combine(&mut spectrum, &pulse_spectrum, self.model.difference);
             transform.inverse(&mut spectrum, &mut made.combined, &mut self.scratch);
         }
         self.earthquake = Some(earthquake);

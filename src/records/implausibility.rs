@@ -70,8 +70,8 @@ impl Implausibility {
 pub fn rarity(pga_m_s2: Option<f64>, pgv_m_s: Option<f64>) -> Option<Implausibility> {
     let pga_g = pga_m_s2.map(|pga| pga / G_M_S2).filter(|pga| *pga > RARE_PGA_G);
     let pgv_m_s = pgv_m_s.filter(|pgv| *pgv > RARE_PGV_M_S);
-    let of_pgv = pgv_m_s.map(|pgv_m_s| Implausibility::RarePgv { pgv_m_s });
-    pga_g.map(|pga_g| Implausibility::RarePga { pga_g }).or(of_pgv)
+    let rare_pgv = pgv_m_s.map(|pgv_m_s| Implausibility::RarePgv { pgv_m_s });
+    pga_g.map(|pga_g| Implausibility::RarePga { pga_g }).or(rare_pgv)
 }
 
 /// Checks an acceleration (m/s2) at steps of `dt_s`. Returns the first warning.

@@ -124,11 +124,12 @@ impl Processing {
         &self,
         [first, second]: [NamedRecord; 2],
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let ((first, of_first), (second, of_second)) = (self.corrected(first)?, self.corrected(second)?);
+        let ((first, first_doubts), (second, second_doubts)) =
+            (self.corrected(first)?, self.corrected(second)?);
         let (record, rotd) = self.rotated(first, second);
         let doubts = Doubts {
-            implausibility: of_first.implausibility.or(of_second.implausibility),
-            lost_pga: of_first.lost_pga.into_iter().chain(of_second.lost_pga).reduce(f64::max),
+            implausibility: first_doubts.implausibility.or(second_doubts.implausibility),
+            lost_pga: first_doubts.lost_pga.into_iter().chain(second_doubts.lost_pga).reduce(f64::max),
         };
         self.scaled(record, doubts, Some(rotd))
     }

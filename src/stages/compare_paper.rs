@@ -114,8 +114,8 @@ fn other_options(fits: &Path) -> Vec<String> {
     let (mut differences, mut child) = (Vec::new(), Provenance::read(fits).ok().flatten());
     for file in BEFORE {
         let made = Provenance::read(&fits.with_file_name(file)).ok().flatten();
-        let (Some(made), Some(of_child)) = (made, child) else { break };
-        if of_child.input("in") != Some(made.key()) {
+        let (Some(made), Some(reader)) = (made, child) else { break };
+        if reader.input("in") != Some(made.key()) {
             break;
         }
         let paper = Stages::defaults(&made.stage);

@@ -88,8 +88,8 @@ impl Fits<'_> {
             }
             // 1/2 (1 + erf(ln IM)): Eq. 24 with mu and beta sqrt 2 left out gives what is printed.
             "example_half_erf" => Some(normal::cdf(SQRT_2 * self.example_hybrid(EXAMPLE_LAMBDA)?.ln())),
-            of_plane => {
-                let (side, coefficient) = of_plane.split_once('_')?;
+            coefficient_name => {
+                let (side, coefficient) = coefficient_name.split_once('_')?;
                 let fit = self.plane(side)?;
                 match ["ln_a", "b1", "b2"].iter().position(|name| *name == coefficient) {
                     Some(place) => fit.coefficients.get(place).copied(),

@@ -185,7 +185,7 @@ impl Contest {
             is_low: rows.iter().map(|case| case.measures.im4 < transition).collect(),
             clusters: rows.iter().map(|case| case.cluster).collect(),
         };
-        let of_paper = Measure::SCALAR.iter().map(|measure| {
+        let published = Measure::SCALAR.iter().map(|measure| {
             let values = rows.iter().map(|case| measure.raw_value_of(&case.measures));
             (measure.as_str(), values.collect::<Vec<_>>())
         });
@@ -193,7 +193,7 @@ impl Contest {
             (name.as_str(), places.iter().map(|place| values[*place]).collect::<Vec<_>>())
         });
         let mut incomplete = Vec::new();
-        for (name, values) in of_paper.chain(candidates) {
+        for (name, values) in published.chain(candidates) {
             let ln: Vec<f64> =
                 values.into_iter().flatten().map(f64::ln).filter(|ln| ln.is_finite()).collect();
             if ln.len() == rows.len() {

@@ -25,7 +25,7 @@ fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), RecordFileError> {
     let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
     let options = ReadOptions {
         dt_s: of("dt").map(|dt| dt.parse().unwrap()),
-        unit: of("unit").map(|unit| Unit::of_acceleration(unit).unwrap()),
+        unit: of("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
         column: of("column").map(str::to_string),
         ..ReadOptions::default()
     };
@@ -116,5 +116,5 @@ fn what_is_wrong_is_refused_for_its_reason() {
     }
     // Padding of the last line.
     assert_eq!(read(&at2(IN_G, "NPTS= 101, DT= .01"), "").unwrap().1.len(), 101);
-    assert!(Unit::of_acceleration("furlong").is_err() && Unit::of_acceleration("cm").is_err());
+    assert!(Unit::parse_acceleration("furlong").is_err() && Unit::parse_acceleration("cm").is_err());
 }

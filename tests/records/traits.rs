@@ -137,11 +137,11 @@ fn units_are_read_in_every_notation() {
         ("Gal", 0.01),
         ("mg", 0.001 * G),
     ] {
-        let unit = Unit::of_acceleration(text).unwrap_or_else(|why| panic!("{text}: {why}"));
+        let unit = Unit::parse_acceleration(text).unwrap_or_else(|why| panic!("{text}: {why}"));
         assert!((unit.si / si - 1.0).abs() < 1e-12, "{text}: {}", unit.si);
     }
     for text in ["m\u{b7}s\u{207b}\u{b9}", "km/s", "Gal/s", "um"] {
-        assert!(Unit::of_acceleration(text).is_err(), "{text}");
+        assert!(Unit::parse_acceleration(text).is_err(), "{text}");
     }
 }
 
@@ -150,7 +150,7 @@ fn read_csv(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFile
     let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
     let options = ReadOptions {
         dt_s: of("dt").map(|dt| dt.parse().unwrap()),
-        unit: of("unit").map(|unit| Unit::of_acceleration(unit).unwrap()),
+        unit: of("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
         column: of("column").map(str::to_string),
         ..ReadOptions::default()
     };

@@ -42,7 +42,7 @@ pub struct PulseIndicator {
 keywords! {
     /// Whether a record has a pulse.
     pub enum Verdict {
-        /// It has an early pulse.
+        /// There is an early pulse.
         Pulse = "pulse",
         /// The indicator is too low.
         NoPulse = "no_pulse",

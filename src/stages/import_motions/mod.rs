@@ -55,7 +55,7 @@ pub struct ImportMotions {
     dt: Option<f64>,
     /// Unit of acceleration, where files do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
     /// or in/s2
-    #[arg(long, value_parser = Unit::of_acceleration)]
+    #[arg(long, value_parser = Unit::parse_acceleration)]
     unit: Option<Unit>,
     /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
