@@ -109,15 +109,21 @@ impl List<'_> {
         let columns: Vec<Column> = grid.headings.iter().map(meaning).collect();
         let mut list = List { grid, columns, name: grid.about("name"), ground_floor: 0, place: common.place };
         list.check()?;
-        let Some(at) = list.column(Column::Storey) else {
-            // Without a floor, the building says nothing.
-            for column in &mut list.columns {
-                if matches!(column, Column::Storeys | Column::Building) {
-                    *column = Column::Unused;
-                }
+        let has_storey = list.column(Column::Storey).is_some();
+        let has_units = list.column(Column::Unit).is_some_and(|at| {
+            let mut units = (0..grid.lines.len()).filter_map(|row| Unit::parse(grid.cell(row, at)));
+            units.any(|unit| unit.quantity == Quantity::Length)
+        });
+        for column in &mut list.columns {
+            match column {
+                // A ward, perhaps.
+                Column::Unit if !has_units => *column = Column::Unused,
+                // Without a floor, the building says nothing.
+                Column::Storeys | Column::Building if !has_storey => *column = Column::Unused,
+                _ => {}
             }
-            return Ok(list);
-        };
+        }
+        let Some(at) = list.column(Column::Storey) else { return Ok(list) };
         let storeys: Vec<Storey> = (0..grid.lines.len())
             .filter(|row| list.cell(*row, Column::Known(Field::Level)).is_none())
             .filter_map(|row| Storey::parse(grid.cell(row, at)))

@@ -32,32 +32,29 @@ impl FromStr for Rename {
 #[derive(Debug)]
 pub struct Renames<'a> {
     all: &'a [Rename],
-    used: Vec<bool>,
     /// Headings of files that were seen.
     seen: Vec<String>,
 }
 
 impl<'a> Renames<'a> {
     pub fn new(all: &'a [Rename]) -> Renames<'a> {
-        Renames { all, used: vec![false; all.len()], seen: Vec::new() }
+        Renames { all, seen: Vec::new() }
     }
 
     /// Renames the columns of a table that has the headings. A unit or a percent sign of the heading stays.
     pub fn apply(&mut self, grid: &mut Grid) -> Result<(), InputError> {
         for heading in &mut grid.headings {
             self.seen.push(heading.text.clone());
-            let Some(at) = self.all.iter().position(|rename| rename.heading == heading.text) else {
+            let Some(rename) = self.all.iter().find(|rename| rename.heading == heading.text) else {
                 continue;
             };
-            let column = &self.all[at].column;
-            let wanted = Heading::new(column);
+            let wanted = Heading::new(&rename.column);
             if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old.quantity != new.quantity) {
-                let (heading, unit) = (heading.text.clone(), column.clone());
+                let (heading, unit) = (heading.text.clone(), rename.column.clone());
                 return Err(InputError::Units { heading, unit });
             }
             let unit = wanted.unit.or(heading.unit);
             *heading = Heading { unit, is_percent: heading.is_percent, ..wanted };
-            self.used[at] = true;
         }
         Ok(())
     }
@@ -65,20 +62,15 @@ impl<'a> Renames<'a> {
     /// The name of a column of a table of others, as it is to be called.
     pub fn name(&mut self, name: &str) -> String {
         self.seen.push(name.to_string());
-        match self.all.iter().position(|rename| rename.heading == name) {
-            Some(at) => {
-                self.used[at] = true;
-                self.all[at].column.clone()
-            }
-            None => name.to_string(),
-        }
+        let renamed = self.all.iter().find(|rename| rename.heading == name);
+        renamed.map_or(name, |rename| &rename.column).to_string()
     }
 
     /// Refuses a heading that no file has.
     pub fn expect_used(self) -> Result<(), InputError> {
-        match self.used.iter().position(|used| !used) {
-            Some(at) => {
-                let found = format!("no heading '{}'", self.all[at].heading);
+        match self.all.iter().find(|rename| !self.seen.contains(&rename.heading)) {
+            Some(rename) => {
+                let found = format!("no heading '{}'", rename.heading);
                 Err(InputError::Renamed { found, seen: self.seen.join(", ") })
             }
             None => Ok(()),

@@ -146,7 +146,7 @@ fn ground_motion_fields_are_motions_with_a_rate() {
     assert!(near(number(&row, "overturning_per_year"), number(&same, "overturning_per_year"), 1e-12));
     let two_sites = fields.replace("3,0.5,60,0", "3,0.5,60,1");
     refused(&[("gmf.csv", fields)], "", &["gmf.csv", "--effective-years"]);
-    refused(&[("two.csv", &two_sites)], "--effective-years 9", &["two.csv", "several sites"]);
+    refused(&[("two.csv", &two_sites)], "--effective-years 9", &["two.csv", "one site"]);
 }
 
 #[test]
@@ -170,8 +170,8 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         (&curve("pga_g,monthly_rate", 1.0), ["a.csv", "monthly_rate"]),
         (&curve("pga_g,rate per 10 years", 1.0), ["a.csv", "per 10 years"]),
         (&curve("vertical PGA (g),AFE", 1.0), ["a.csv", "vertical"]),
-        ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "several sites"]),
-        ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["line 4", "contradict"]),
+        ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "one site"]),
+        ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["a.csv", "contradict"]),
         ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 2"]),
         ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", ["a.csv", "intensity of 0 or more"]),
         (&curve("PGA rock (g),AFE", 1.0), ["a.csv", "PGA rock (g)"]),

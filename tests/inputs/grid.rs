@@ -75,16 +75,6 @@ fn tables_are_read_as_they_are_meant() {
 }
 
 #[test]
-fn latin_1_is_text_and_a_workbook_is_not() {
-    let text: Vec<u8> = "Beschl. 90\u{b0} (m/s\u{b2});t\n1;2\n".chars().map(|c| c as u8).collect();
-    let sheet = Grid::parse(&text, None).unwrap();
-    assert_eq!((&*sheet.headings[0].name, sheet.headings[0].unit.unwrap().si), ("beschl_90", 1.0));
-    let workbook = [b"PK\x03\x04".as_slice(), &[0; 60]].concat();
-    assert!(matches!(Grid::parse(&workbook, None), Err(InputError::Damaged(_))));
-    assert_eq!(Grid::parse(b"", None).unwrap().lines.len(), 0);
-}
-
-#[test]
 fn notes_keep_what_stands_above_and_in_comments() {
     let agency = CASES.iter().find(|(text, ..)| text.contains("OpenQuake")).unwrap();
     let sheet = Grid::parse(agency.0.as_bytes(), None).unwrap();

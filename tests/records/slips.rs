@@ -1,6 +1,6 @@
 //! Files of records with common mistakes: each is read as intended, or refused for the right reason.
 
-use rockfrag::records::{ReadOptions, RecordFileError, read_records};
+use rockfrag::records::{RecordFileError, read_records};
 use rockfrag::units::Unit;
 
 use crate::writers::*;
@@ -22,14 +22,7 @@ fn csv(heading: &str, unit: f64) -> String {
 
 /// Reads with options such as `unit=g dt=0.01 column=acc`.
 fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), RecordFileError> {
-    let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
-    let options = ReadOptions {
-        dt_s: of("dt").map(|dt| dt.parse().unwrap()),
-        unit: of("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
-        column: of("column").map(str::to_string),
-        ..ReadOptions::default()
-    };
-    let motion = read_records(text.as_bytes(), &options)?.remove(0);
+    let motion = read_records(text.as_bytes(), &crate::writers::options(options))?.remove(0);
     Ok((motion.dt_s, motion.acceleration_m_s2))
 }
 

@@ -98,7 +98,7 @@ fn vertical_components_have_many_names() {
     let horizontals =
         [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
     assert!(horizontals.iter().all(|text| read(text)[0].azimuth_deg == Some(360.0)));
-    for name in ["DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "Up", "vertical", "V", "HNZ"] {
+    for name in ["DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "Up", "U-D", "vertical", "V", "HNZ", "HGZ"] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
         assert!(read(&text)[0].is_vertical(), "{name}");
     }
@@ -147,14 +147,7 @@ fn units_are_read_in_every_notation() {
 
 /// Reads a table with options such as `unit=g dt=0.01 column=all`.
 fn read_csv(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    let of = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
-    let options = ReadOptions {
-        dt_s: of("dt").map(|dt| dt.parse().unwrap()),
-        unit: of("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
-        column: of("column").map(str::to_string),
-        ..ReadOptions::default()
-    };
-    read_records(text.as_bytes(), &options)
+    read_records(text.as_bytes(), &crate::writers::options(options))
 }
 
 /// A table of times and two or three columns, of the samples, half of them, and a third.

@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+use rockfrag::records::ReadOptions;
+use rockfrag::units::Unit;
+
 pub const G: f64 = 9.81;
 pub const DT: f64 = 0.01;
 
@@ -92,4 +95,15 @@ pub fn knet(samples: &[f64]) -> String {
         peak(samples) * 100.0,
         rows(&counts, 8, |count| format!("{count:9.0}"))
     )
+}
+
+/// Options such as `unit=g dt=0.01 column=acc`.
+pub fn options(text: &str) -> ReadOptions {
+    let value = |key: &str| text.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
+    ReadOptions {
+        dt_s: value("dt").map(|dt| dt.parse().unwrap()),
+        unit: value("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
+        column: value("column").map(str::to_string),
+        ..ReadOptions::default()
+    }
 }

@@ -15,6 +15,7 @@ use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
 use crate::hazard::{exceedance, velocity_of_spectrum};
 use crate::motion::{Peaks, judge_medians};
+use crate::number::period;
 use crate::plausibility::{MAGNITUDES, judge_hazard, judge_spectrum};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
@@ -184,15 +185,20 @@ impl Found {
             self.curves.push(curve);
             return Ok(());
         };
+        let (measure, first, second) = (curve.measure, &known.file, &curve.file);
         let mut points = curve.curve.points().iter();
-        let agree = points.all(|(value, rate)| (known.curve.exceedance(*value) / rate).ln().abs() < SAME);
-        match known.file == curve.file && agree {
-            true => Ok(()),
-            false => {
-                let found = format!("two curves of {}: {} and {}", known.measure, known.file, curve.file);
-                Err(InputError::missing(found, "one"))
+        let other = points.find(|(value, rate)| (known.curve.exceedance(*value) / rate).ln().abs() > SAME);
+        let found = match other {
+            None if first == second => return Ok(()),
+            Some((_, rate)) if first == second => {
+                format!(
+                    "two columns of {measure} that contradict, one of them once in {} years",
+                    period(1.0 / rate)
+                )
             }
-        }
+            _ => format!("two curves of {measure}: {first} and {second}"),
+        };
+        Err(InputError::missing(found, "one"))
     }
 
     /// Adds motions with both peaks; those beyond any record count at the rim.
