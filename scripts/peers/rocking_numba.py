@@ -1,60 +1,24 @@
-"""The rocking problem by numba: python rocking_numba.py MOTIONS.parquet
+"""The rocking problem by numba: RK4 at the record's time step, bisection on impacts, all in machine code.
 
-RK4 at the record's time step and bisection on impacts, all in machine code, as a careful Python programmer would write
-it for speed, for the paper's electrical equipment. One thread, strict floating-point arithmetic (no fastmath). Prints
-the time of the solver alone, once it is compiled, and the outcomes.
+    python rocking_numba.py MOTIONS.parquet
+
+One thread, strict floating-point arithmetic (no fastmath); the time is that of the solver alone, once it is
+compiled.
 """
 
-import collections
-import json
 import math
 import sys
-import time
 
 import numba
-import pyarrow.parquet as pq
+import numpy as np
 
-G = 9.81  # m/s2
-P, ALPHA, ETA = 2.5, 0.20, 0.92  # rad/s, rad
-REST_VELOCITY = 1e-6  # after an impact, a velocity below this share of p counts as none
-HALF_PI = 0.5 * math.pi
+from common import ALPHA, ETA, HALF_PI, P, REST_VELOCITY, free_rocking, peak_between, read_motions, report
+
 HALVINGS = 34  # of the step in which an impact lies: to 6e-11 of it
 OUTCOMES = ("no_rocking", "safe_rocking", "overturning")
 
-
-@numba.njit
-def free_rocking(rotation, velocity, alpha, eta):
-    """Whether a structure that leaves the record in this state overturns, and its largest rotation to come.
-
-    The velocity is per unit of p t. Between impacts v^2/2 + cos(alpha - r) is constant; an impact leaves
-    eta^2 of the kinetic energy.
-    """
-    energy = 0.5 * velocity**2 + 2.0 * math.sin(alpha - 0.5 * rotation) * math.sin(0.5 * rotation)
-    barrier = 2.0 * math.sin(0.5 * alpha) ** 2
-    if rotation > alpha and (velocity >= 0.0 or energy <= barrier):
-        return True, HALF_PI
-    if velocity < 0.0:
-        energy *= eta**2
-    if energy > barrier:
-        return True, HALF_PI
-    # cos(alpha - r) = cos(alpha) + energy, without cancellation for small r.
-    a = math.sin(0.5 * alpha)
-    b = math.sqrt(max(a * a - 0.5 * energy, 0.0))
-    sine = 0.5 * energy / (a * math.sqrt(1.0 - b * b) + b * math.sqrt(1.0 - a * a))
-    return False, 2.0 * math.asin(min(sine, 1.0))
-
-
-@numba.njit
-def peak_between(r0, v0, r1, v1, h):
-    """The largest rotation over a step of length h, of the states at its ends (cubic Hermite)."""
-    largest = max(r0, r1)
-    if v0 > 0.0 > v1:
-        # The root of the derivative v0 h + 2 c s + 3 d s^2 in s, 0 to 1, without cancellation.
-        c = 3.0 * (r1 - r0) - (2.0 * v0 + v1) * h
-        d = 2.0 * (r0 - r1) + (v0 + v1) * h
-        s = v0 * h / (math.sqrt(max(c * c - 3.0 * d * v0 * h, 0.0)) - c)
-        largest = max(largest, r0 + s * (v0 * h + s * (c + s * d)))
-    return largest
+free_rocking = numba.njit(free_rocking)
+peak_between = numba.njit(peak_between)
 
 
 @numba.njit(inline="always")
@@ -139,11 +103,11 @@ def respond(ground, step, alpha, eta):
     return 1, peak
 
 
-table = pq.read_table(sys.argv[1], columns=["dt_s", "acceleration_m_s2"])
-samples = (motion.values.to_numpy(zero_copy_only=False).astype(float) / G for motion in table["acceleration_m_s2"])
-motions = list(zip(table["dt_s"].to_pylist(), samples))
-respond(motions[0][1], P * motions[0][0], ALPHA, ETA)  # compiles
-start = time.process_time()
-outcomes = collections.Counter(OUTCOMES[respond(ground, P * dt, ALPHA, ETA)[0]] for dt, ground in motions)
-seconds = time.process_time() - start
-json.dump({"ms_a_motion": 1e3 * seconds / len(motions), **outcomes}, sys.stdout)
+def answer(dt, ground):
+    outcome, peak = respond(ground, P * dt, ALPHA, ETA)
+    return OUTCOMES[outcome], peak / ALPHA
+
+
+motions = read_motions(sys.argv[1])
+answer(*motions[0])  # compiles
+report(answer, motions)

@@ -1,6 +1,6 @@
 """The table of speeds, rockfrag beside its peers, as Markdown: python scripts/peers/table.py ROCKFRAG
 
-Needs numpy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers and the
+Needs numpy, scipy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers and the
 solver run on one core, the solver by `cargo bench --bench speed`.
 """
 
@@ -17,14 +17,6 @@ HERE = pathlib.Path(__file__).parent
 ROCKFRAG = pathlib.Path(sys.argv[1]).resolve()
 ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 REPEAT = 5
-# The first read in a process, which pays for the memory that it gets from the system.
-READ = """
-import json, sys, time
-import pyarrow.dataset, pyarrow.parquet
-start = time.perf_counter()
-pyarrow.parquet.read_table(sys.argv[1])
-print(json.dumps({"read_s": time.perf_counter() - start}))
-"""
 
 
 def run(*command, environment=None):
@@ -35,9 +27,9 @@ def run(*command, environment=None):
     return time.perf_counter() - start, done.stdout, int(done.stderr.split()[-1]) / 1e3
 
 
-def peer(*arguments):
+def peer(name, *arguments):
     """The figures of a peer."""
-    return json.loads(run("taskset", "-c", 0, sys.executable, *arguments, environment=ONE_THREAD)[1])
+    return json.loads(run("taskset", "-c", 0, sys.executable, HERE / f"{name}.py", *arguments, environment=ONE_THREAD)[1])
 
 
 def row(work, ours, against, theirs, ratio):
@@ -55,15 +47,16 @@ with tempfile.TemporaryDirectory() as folder:
     )
     make(100, "motions")
     print("| work | rockfrag | against | theirs | ratio |\n|---|---|---|---|---|")
-    pairs = [(simulate("motions")[0], peer("-c", READ, at("motions"))["read_s"]) for _ in range(REPEAT)]
+    pairs = [(simulate("motions")[0], peer("read_pyarrow", at("motions"))["read_s"]) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
     row("simulate 3500 motions, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
     solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
-    theirs = peer(HERE / "rocking_numba.py", at("motions"))["ms_a_motion"]
-    row("solver, one core, a motion", f"{solver_us / 1e3:.4f} ms", "numba", f"{theirs:.3f} ms", 1e3 * theirs / solver_us)
+    for name, arguments in [("scipy", [60]), ("numba", [])]:
+        theirs = peer(f"rocking_{name}", at("motions"), *arguments)["ms_a_motion"]
+        row("solver, one core, a motion", f"{solver_us / 1e3:.4f} ms", name, f"{theirs:.3f} ms", 1e3 * theirs / solver_us)
     run(ROCKFRAG, "simulate", "--structures", "paper", "--in", at("motions"), "--out", at("paper"))
     fit = lambda stage: run(ROCKFRAG, stage, "--all", "--threads", 1, "--in", at("paper"), "--out", at(stage), "--force")[0]
-    pairs = [(fit("fit-pex") + fit("fit-pro"), peer(HERE / "fits_statsmodels.py", at("paper"))["fits_s"]) for _ in range(REPEAT)]
+    pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits_statsmodels", at("paper"))["fits_s"]) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
     row("fits, whole commands, one core", f"{ours:.3f} s", "statsmodels, the fits alone", f"{theirs:.3f} s", theirs / ours)
     small = simulate("motions")[2]
