@@ -18,7 +18,7 @@ def test_partitions_are_the_rows_of_one_machine(tmp_path):
         before = [file.stat().st_mtime_ns for file in sorted((tmp_path / "responses").iterdir())]
         rockfrag.ray.simulate(tmp_path / "motions", tmp_path / "responses", structures="paper")
         assert before == [file.stat().st_mtime_ns for file in sorted((tmp_path / "responses").iterdir())]
-        with pytest.raises(ValueError, match="alpha is 15"):
+        with pytest.raises(ValueError, match="15.*alpha"):
             rockfrag.ray.simulate(tmp_path / "motions", tmp_path / "no", partitions=3, p=1, alpha=15, eta=0.9)
     finally:
         ray.shutdown()

@@ -80,7 +80,8 @@ def simulate_motion(
     words = ",".join(["name=structure", *(f"{name}={value}" for name, value in structure.items())])
     solved = _rockfrag.simulate_motion(samples.tobytes(), dt, words, tail)
     _bridge.warn(solved.pop("warnings"))
-    return Response(**{name: np.frombuffer(of) if isinstance(of, bytes) else of for name, of in solved.items()})
+    array = {name: np.frombuffer(value) for name, value in solved.items() if isinstance(value, bytes)}
+    return Response(**{**solved, **array})
 
 
 @dataclass(frozen=True, eq=False)
