@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::UsageError;
 use super::call::{Call, Planned};
 use super::context::{Context, Plan};
+use super::options::UsageError;
 use crate::source::is_pipe;
 use crate::table::TableError;
 use crate::table::marks::is_ours;

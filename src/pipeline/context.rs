@@ -11,8 +11,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::ThreadPoolBuilder;
 
-use super::UsageError;
-use super::options::number;
+use super::options::{UsageError, number};
 use crate::keyword::keywords;
 use crate::table::TableError;
 use crate::table::keys::{read_file, resolved};

@@ -6,7 +6,7 @@
 //! cache     runs a call unless its files are up to date
 //! context   what a call would make, and output, progress and warnings of the running stage
 //! stream    concurrent reading, work and writing
-//! options   option types of several stages
+//! options   option types of several stages, and mistakes in options
 //! ```
 
 pub mod cache;
@@ -19,6 +19,7 @@ pub mod stream;
 use std::path::PathBuf;
 
 use self::context::Context;
+pub use self::options::UsageError;
 use self::paths::Read;
 
 /// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the
@@ -37,15 +38,4 @@ pub trait Stage {
 
     /// Runs the stage. Returns the text to print.
     fn run(&self, context: &Context) -> anyhow::Result<String>;
-}
-
-/// A mistake in a call, rather than in a file: the command exits with 2.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct UsageError(String);
-
-impl UsageError {
-    pub fn because(message: impl Into<String>) -> anyhow::Error {
-        UsageError(message.into()).into()
-    }
 }

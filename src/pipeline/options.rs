@@ -1,4 +1,4 @@
-//! Option types of several stages.
+//! Option types of several stages, and mistakes in options.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -7,6 +7,17 @@ use std::str::FromStr;
 use serde::Serialize;
 
 use crate::number::count;
+
+/// A mistake in a call, rather than in a file: the command exits with 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct UsageError(String);
+
+impl UsageError {
+    pub fn because(message: impl Into<String>) -> anyhow::Error {
+        UsageError(message.into()).into()
+    }
+}
 
 /// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
 pub fn number<T: FromStr + PartialOrd + Clone>(
