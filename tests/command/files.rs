@@ -133,8 +133,8 @@ fn foreign_texts_are_not_replaced_and_own_ones_are() {
     for height in ["2", "1.8"] {
         succeed(folder.path(), &format!("export --to openquake --width 0.5 --height {height} --out own.xml"));
     }
-    for im in ["pga", "pgv"] {
-        succeed(folder.path(), &format!("export --to pelicun {BLOCK} --im {im} --out other.csv"));
+    for peak in ["pga", "pgv"] {
+        succeed(folder.path(), &format!("export --to pelicun {BLOCK} --over {peak} --out other.csv"));
     }
 }
 
