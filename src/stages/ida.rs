@@ -31,8 +31,9 @@ use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are
-/// bisected.
-const CHUNK: usize = 8;
+/// bisected, and few enough to hear an interrupt within a second.
+const MOTIONS: usize = 8;
+const ANALYSES: usize = 400;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
 
@@ -134,7 +135,7 @@ impl Stage for Ida {
         each(
             context,
             &motions,
-            CHUNK,
+            (ANALYSES / self.steps).clamp(1, MOTIONS),
             |path, some, scratch| self.analyse(&scan, &structures, path, some, scratch),
             |some| {
                 stripes.append(&some.stripes)?;
