@@ -33,7 +33,7 @@ use crate::warning::{Warning, Warnings};
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are
 /// bisected, and few enough to hear an interrupt within a second.
 const MOTIONS: usize = 8;
-const ANALYSES: usize = 400;
+const ANALYSES: usize = 480;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
 
