@@ -122,10 +122,11 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         },
         place: format!("Before: {file_before}. After: {file_after}. Hazard: {hazards}."),
         sentence: format!(
-            "{} overturns with a probability of {} before and {} after, {when}{ratio}.",
+            "{} overturns with a probability of {} before and {} after, {when}{ratio}.{}",
             worst.name(),
             p[0],
-            p[1]
+            p[1],
+            worst_after(&pairs)
         ),
         tiles: tiles(&pairs, when),
         facts: facts.into_iter().flatten().collect(),
@@ -133,6 +134,17 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         notes: unpaired(before, after, &pairs),
         figures: vec![figure(&pairs, when, before.target.or(after.target))],
         ..Page::default()
+    }
+}
+
+/// The object that is the worst after, where it is another one than before.
+fn worst_after(pairs: &[Pair]) -> String {
+    let after = |pair: &&Pair| pair.after.row.p_overturning.value.unwrap_or(0.0);
+    match pairs.iter().rev().max_by(|a, b| after(a).total_cmp(&after(b))) {
+        Some(worst) if !std::ptr::eq(worst, &pairs[0]) => {
+            format!(" Now the worst is {}: {}.", worst.name(), PERCENT.value(worst.after.row.p_overturning))
+        }
+        _ => String::new(),
     }
 }
 
