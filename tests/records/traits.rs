@@ -98,11 +98,14 @@ fn vertical_components_have_many_names() {
     let horizontals =
         [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
     assert!(horizontals.iter().all(|text| read(text)[0].azimuth_deg == Some(360.0)));
-    for name in ["DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "Up", "U-D", "vertical", "V", "HNZ", "HGZ"] {
+    for name in [
+        "DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "Up", "U-D", "vertical", "V", "HNZ", "CHY101-V",
+        "Vert.", "UP1", "U-D2",
+    ] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
         assert!(read(&text)[0].is_vertical(), "{name}");
     }
-    for name in ["N", "090", "N90E", "H1", "TR", "LN", "E-W"] {
+    for name in ["N", "090", "N90E", "H1", "TR", "LN", "E-W", "H-Z14000", "U1"] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
         assert!(!read(&text)[0].is_vertical(), "{name}");
     }
