@@ -148,7 +148,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         let _ = refused.print();
         return u8::from(refused.use_stderr()) * 2;
     }
-    let _ = writeln!(std::io::stderr(), "error: {}", shown(&format!("{error:#}"), LONGEST_ERROR));
+    let text = format!("{error:#}");
+    let lines: Vec<_> = text.lines().map(|line| shown(line, LONGEST_ERROR)).collect();
+    let _ = writeln!(std::io::stderr(), "error: {}", lines.join("\n"));
     if error.is::<UsageError>() { 2 } else { 1 }
 }
 
