@@ -1,7 +1,7 @@
 //! How often a cabinet overturns at a site, and with what probability in one motion.
 
 use rockfrag::fragility::{Kind, Peak};
-use rockfrag::hazard::{AnnualRate, Hazard, HazardCurve, Motion, Site};
+use rockfrag::hazard::{Hazard, HazardCurve, Motion, Site};
 use rockfrag::object::{Object, Subject};
 use rockfrag::units::G_M_S2;
 
@@ -14,14 +14,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let points = [(0.1, 1e-2), (0.2, 3e-3), (0.5, 5e-4), (1.0, 8e-5), (2.0, 8e-6), (4.0, 4e-7)];
     let curve = HazardCurve::new(points.map(|(pga_g, rate)| (pga_g * G_M_S2, rate)).to_vec())?;
     let site = Site { mw: Some(6.5), ..Site::new(Hazard::over(Peak::Pga, curve)) };
-    match site.rates(&subject).overturning {
-        Some(AnnualRate::Estimate(rate)) => {
-            println!("overturns {:.1e} times a year ({:.1e} to {:.1e})", rate.value, rate.low, rate.high);
+    let rate = site.rates(&subject).overturning;
+    match (rate.value, rate.low, rate.high) {
+        (Some(value), Some(low), Some(high)) => {
+            println!("overturns {value:.1e} times a year ({low:.1e} to {high:.1e})");
         }
-        Some(AnnualRate::Range { low, high }) => {
+        (None, Some(low), Some(high)) => {
             println!("overturns {low:.1e} to {high:.1e} times a year: the curve ends early");
         }
-        None => println!("has no rate of overturning"),
+        _ => println!("has no rate of overturning"),
     }
 
     // PGA 0.5 g and PGV 0.6 m/s.

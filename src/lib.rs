@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use rockfrag::fragility::{Kind, Peak};
-//! use rockfrag::hazard::{AnnualRate, Hazard, HazardCurve, Site, probability_in_years};
+//! use rockfrag::hazard::{Hazard, HazardCurve, Site, probability_in_years};
 //! use rockfrag::object::{Object, Subject};
 //!
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
@@ -26,7 +26,7 @@
 //! // PGA in m/s2, and how often a year it is exceeded; PGV / PGA is that of generic sites.
 //! let curve = HazardCurve::new(vec![(0.5, 2e-2), (1.0, 7e-3), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 //! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
-//! let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("the curve ends early") };
+//! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };
 //! let in_50_years = rate.map(|rate| probability_in_years(rate, 50.0));
 //! println!("{:.1} % ({:.1} to {:.1} %)", 100.0 * in_50_years.value, 100.0 * in_50_years.low, 100.0 *
 //! in_50_years.high);

@@ -4,36 +4,7 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 
-use serde::{Deserialize, Serialize};
-
-use crate::statistics::Estimate;
-
-/// A value with its limits as it is stored and printed: of what is not known there is none, and limits alone
-/// are bounds.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Limited {
-    pub value: Option<f64>,
-    pub low: Option<f64>,
-    pub high: Option<f64>,
-}
-
-impl Limited {
-    /// Makes a value without limits.
-    pub fn value(value: Option<f64>) -> Limited {
-        Limited { value, low: None, high: None }
-    }
-
-    /// Applies a rising function to what is there.
-    pub fn map(self, f: impl Fn(f64) -> f64) -> Limited {
-        Limited { value: self.value.map(&f), low: self.low.map(&f), high: self.high.map(&f) }
-    }
-}
-
-impl From<Estimate> for Limited {
-    fn from(Estimate { value, low, high }: Estimate) -> Limited {
-        Limited { value: Some(value), low: Some(low), high: Some(high) }
-    }
-}
+pub use crate::statistics::Limited;
 
 /// Writes a number with this many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {

@@ -6,23 +6,6 @@ use std::ops::RangeInclusive;
 use crate::number::{period, significant};
 use crate::units::Unit;
 
-/// A range within which a quantity can be right, in words.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Range {
-    range: RangeInclusive<f64>,
-    pub expected: &'static str,
-}
-
-impl Range {
-    const fn new(range: RangeInclusive<f64>, expected: &'static str) -> Range {
-        Range { range, expected }
-    }
-
-    pub fn contains(&self, value: f64) -> bool {
-        self.range.contains(&value)
-    }
-}
-
 /// Moment magnitudes: the largest was 9.5 (Valdivia 1960), and weaker earthquakes rock nothing.
 pub const MAGNITUDES: RangeInclusive<f64> = 1.0..=9.9;
 /// Distances from a rupture, km, within which the ground shakes strongly, with a wide margin.
@@ -64,29 +47,28 @@ pub const GIVEN_FREQUENCIES_RAD_S: RangeInclusive<f64> = 0.2..=50.0;
 /// Solid blocks of a smaller p (rad/s) are higher than about 18 m, as few monuments are.
 pub const LEAST_P_RAD_S: f64 = 0.9;
 
-/// Numbers of columns without a range of their own.
-static NUMBERS: Range = Range::new(f64::MIN..=f64::MAX, "a finite number");
-
-/// Ranges of columns, of motions up to those that solver and scaling bear.
-static COLUMNS: [(&[&str], Range); 13] = [
-    (&["mw"], Range::new(MAGNITUDES, "a moment magnitude, from 1 to 9.9")),
-    (&["re_km"], Range::new(DISTANCES_KM, "a distance from the rupture in km, from 0 to 1000")),
-    (&["vp_m_s"], Range::new(0.0..=20.0, "the amplitude of a velocity pulse in m/s, from 0 to 20")),
-    (&["tp_s"], Range::new(1e-3..=1000.0, "the period of a velocity pulse in s, from 0.001 to 1000")),
-    (&["gamma"], Range::new(1.0..=20.0, "the number of half cycles of a pulse, from 1 to 20")),
-    (&["nu_rad"], Range::new(-100.0..=100.0, "a phase in rad, from -100 to 100")),
-    (&["dt_s"], Range::new(TIME_STEPS_S, "a time step above 0 s, from 1e-6 to 10")),
-    (&["pga_m_s2"], Range::new(0.0..=LARGEST_M_S2, "a peak acceleration in m/s2, from 0 to 10000")),
-    (&["pgv_m_s"], Range::new(0.0..=1e3, "a peak velocity in m/s, from 0 to 1000")),
-    (&["tm_s"], Range::new(1e-4..=1e4, "a mean period in s, from 0.0001 to 10000")),
-    (&["edp"], Range::new(0.0..=1e3, "a rotation over the slenderness, of 0 or more")),
-    (&["im1", "im2", "im3", "im4", "im5", "im6"], Range::new(0.0..=1e9, "a measure of 0 or more")),
-    (&["beta"], Range::new(0.0..=1e3, "a dispersion of 0 or more")),
+/// Columns with a range of their own, and what is expected of them; of motions those that solver and scaling
+/// bear.
+const COLUMNS: [(&[&str], RangeInclusive<f64>, &str); 13] = [
+    (&["mw"], MAGNITUDES, "a moment magnitude, from 1 to 9.9"),
+    (&["re_km"], DISTANCES_KM, "a distance from the rupture in km, from 0 to 1000"),
+    (&["vp_m_s"], 0.0..=20.0, "the amplitude of a velocity pulse in m/s, from 0 to 20"),
+    (&["tp_s"], 1e-3..=1000.0, "the period of a velocity pulse in s, from 0.001 to 1000"),
+    (&["gamma"], 1.0..=20.0, "the number of half cycles of a pulse, from 1 to 20"),
+    (&["nu_rad"], -100.0..=100.0, "a phase in rad, from -100 to 100"),
+    (&["dt_s"], TIME_STEPS_S, "a time step above 0 s, from 1e-6 to 10"),
+    (&["pga_m_s2"], 0.0..=LARGEST_M_S2, "a peak acceleration in m/s2, from 0 to 10000"),
+    (&["pgv_m_s"], 0.0..=1e3, "a peak velocity in m/s, from 0 to 1000"),
+    (&["tm_s"], 1e-4..=1e4, "a mean period in s, from 0.0001 to 10000"),
+    (&["edp"], 0.0..=1e3, "a rotation over the slenderness, of 0 or more"),
+    (&["im1", "im2", "im3", "im4", "im5", "im6"], 0.0..=1e9, "a measure of 0 or more"),
+    (&["beta"], 0.0..=1e3, "a dispersion of 0 or more"),
 ];
 
-/// The range of the numbers in a column.
-pub fn range_of_column(name: &str) -> &'static Range {
-    COLUMNS.iter().find(|(names, _)| names.contains(&name)).map_or(&NUMBERS, |(_, range)| range)
+/// The range of the numbers in a column, and what is expected.
+pub fn range_of_column(name: &str) -> (RangeInclusive<f64>, &'static str) {
+    let own = COLUMNS.into_iter().find(|(names, ..)| names.contains(&name));
+    own.map_or((f64::MIN..=f64::MAX, "a finite number"), |(_, range, expected)| (range, expected))
 }
 
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.

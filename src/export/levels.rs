@@ -2,11 +2,11 @@
 
 use super::GAP;
 use crate::fragility::LimitStates;
-use crate::statistics::numerics::first;
+use crate::statistics::numerics::{equal_ratios, first};
 
 /// Number of steps, equal in logarithm, with which every interval between two edges begins, so that no bend
 /// hides in one.
-const FIRST_STEPS: i32 = 16;
+const FIRST_STEPS: usize = 16;
 /// Upper bound of the halvings of a step.
 const MOST_HALVINGS: u32 = 20;
 
@@ -18,9 +18,9 @@ pub fn levels(edges: &[f64], tolerance: f64, f: impl Fn(f64) -> LimitStates<f64>
     for (index, interval) in edges.windows(2).enumerate() {
         let is_last = index + 2 == edges.len();
         let (from, to) = (interval[0], if is_last { interval[1] } else { interval[1] * (1.0 - GAP) });
-        let step = |k: i32| from * (to / from).powf(f64::from(k) / f64::from(FIRST_STEPS));
-        for k in 0..FIRST_STEPS {
-            let (low, high) = (table.level(step(k)), table.level(step(k + 1)));
+        let steps: Vec<Level> =
+            equal_ratios(from, to, FIRST_STEPS).map(|intensity| table.level(intensity)).collect();
+        for (&low, &high) in steps.iter().zip(&steps[1..]) {
             table.levels.push(low.intensity);
             table.refine(low, high, MOST_HALVINGS);
         }

@@ -31,19 +31,6 @@ impl Measure {
     pub const SCALAR: [Measure; 6] =
         [Measure::Im1, Measure::Im2, Measure::Im3, Measure::Im4, Measure::Im5, Measure::Im6];
 
-    /// Returns what it is, in the words of the dictionary of columns.
-    pub fn formula(self) -> &'static str {
-        match self {
-            Measure::Im1 => "wp / p (Eq. 13)",
-            Measure::Im2 => "wm / p (Eq. 13)",
-            Measure::Im3 => "PGA / (p PGV) (Eq. 13)",
-            Measure::Im4 => "PGA / (g tan alpha) (Eq. 13)",
-            Measure::Im5 => "p PGV / (g tan alpha) (Eq. 13)",
-            Measure::Im6 => "wm PGV / (g tan alpha) (Eq. 13)",
-            Measure::Im3Inverse => "p PGV / PGA: 1 / IM3",
-        }
-    }
-
     /// Returns its value for a motion; none where it is missing.
     pub fn raw_value_of(self, measures: &IntensityMeasures) -> Option<f64> {
         match self {

@@ -8,10 +8,10 @@ use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
 use crate::fragility::{Direction, GivenPeak, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
-use crate::number::{Limited, plain, significant};
+use crate::number::{plain, significant};
 use crate::object::Subject;
-use crate::statistics::numerics::first;
-use crate::statistics::{Estimate, least_squares, normal};
+use crate::statistics::numerics::{equal_ratios, first};
+use crate::statistics::{Estimate, Limited, least_squares, normal};
 
 /// Motions of generic sites, of which one peak is given, and what narrows the other.
 ///
@@ -87,14 +87,14 @@ pub struct Lognormal {
     pub largest_error: Option<f64>,
 }
 
-/// Points of a curve.
-const POINTS: i32 = 120;
+/// Steps of a curve.
+const STEPS: usize = 119;
 /// The least intensity over the strongest.
 const LEAST: f64 = 1e-3;
-/// Probabilities between which the slope is fitted, and at how many intensities.
+/// Probabilities between which the slope is fitted, and steps between them.
 const LEAST_FITTED: f64 = 0.05;
 const MOST_FITTED: f64 = 0.95;
-const STEPS: i32 = 40;
+const STEPS_FITTED: usize = 39;
 
 impl SitesInGeneral {
     /// Computes the fragility of an object.
@@ -144,7 +144,7 @@ impl Fragility {
         let middle = motions.given(&subject.directions, 0.0);
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
-        let intensities = spaced(start, end, POINTS);
+        let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
         let values = probabilities(&middle, &intensities);
         let ends = motions.ends(subject, &subject.model_errors(), |given| probabilities(given, &intensities));
         let budget = |k: usize, state: LimitState| {
@@ -191,7 +191,7 @@ impl Lognormal {
         };
         let end = points[points.len() - 1].intensity;
         let to = reaching(given, points, state, MOST_FITTED).unwrap_or(end);
-        let intensities = spaced(from, to, STEPS);
+        let intensities: Vec<f64> = equal_ratios(from, to, STEPS_FITTED).collect();
         let p: Vec<f64> = probabilities(given, &intensities).iter().map(|p| p.get(state)).collect();
         let x: Vec<f64> = intensities.iter().map(|intensity| intensity.ln()).collect();
         let z: Vec<f64> = p.iter().map(|p| normal::quantile(*p)).collect();
@@ -200,11 +200,6 @@ impl Lognormal {
         let errors = x.iter().zip(&p).map(|(x, p)| (normal::cdf((x - median.ln()) / beta) - p).abs());
         Lognormal { beta: Some(beta), largest_error: Some(errors.fold(0.0, f64::max)), ..lognormal }
     }
-}
-
-/// Returns this many intensities at equal ratios.
-fn spaced(from: f64, to: f64, count: i32) -> Vec<f64> {
-    (0..count).map(|k| from * (to / from).powf(f64::from(k) / f64::from(count - 1))).collect()
 }
 
 /// Writes an intensity (m/s2 or m/s) with its unit; that which is beyond all that was recorded by that.

@@ -32,7 +32,7 @@ pub use curve::{HazardCurve, HazardError};
 pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
 pub use motion::{Motion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
-pub use rates::{AnnualRate, PairOfPeaks, Rate, exceedance, mean_annual_rates, rates_over_curve};
+pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
 pub use ratio::{RateByParts, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};

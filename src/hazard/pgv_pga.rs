@@ -9,6 +9,7 @@ use crate::keyword::keywords;
 use crate::object::{Part, Unknown};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::statistics::normal;
+use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
 keywords! {
@@ -169,7 +170,7 @@ impl PgvPgaRatio {
         if most < 3.0 * least {
             return Err(MatchError::NothingInCommon(least, most));
         }
-        let rates = (0..LEVELS).map(|k| most * (least / most).powf(k as f64 / (LEVELS - 1) as f64));
+        let rates = equal_ratios(most, least, LEVELS - 1);
         let levels: Vec<(f64, f64)> = rates.map(|rate| (pgv.intensity(rate), rate)).collect();
         let at_equal_rates = levels.iter().map(|(v, rate)| (v / pga.intensity(*rate)).ln());
         let start = Vector2::new(at_equal_rates.sum::<f64>() / LEVELS as f64, 0.0);

@@ -4,8 +4,6 @@
 use super::curve::HazardCurve;
 use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
 use crate::motion::Peaks;
-use crate::number::Limited;
-use crate::statistics::Estimate;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,21 +31,6 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
     values
 }
 
-/// Sums the mean annual rates of events that have these probabilities at a PGA and PGV: the sum over the bins
-/// of rate times probability.
-pub fn mean_annual_rates<const N: usize>(
-    bins: &[PairOfPeaks],
-    mut probabilities: impl FnMut(&PairOfPeaks) -> [f64; N],
-) -> [f64; N] {
-    let mut rates = [0.0; N];
-    for bin in bins {
-        for (sum, p) in rates.iter_mut().zip(probabilities(bin)) {
-            *sum += p * bin.annual_rate;
-        }
-    }
-    rates
-}
-
 /// A mean annual rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -71,36 +54,6 @@ impl Rate {
     }
 }
 
-/// An annual rate of an object at a site, with 95 % limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AnnualRate {
-    /// A value with its limits.
-    Estimate(Estimate),
-    /// Where the hazard ends too early for a value: the lower limit of what it is if no stronger motion than
-    /// the last has the effect, and the upper limit of what it is if each has.
-    #[expect(missing_docs, reason = "the names say it")]
-    Range { low: f64, high: f64 },
-}
-
-impl AnnualRate {
-    /// Returns the value; none of a range.
-    pub fn value(&self) -> Option<f64> {
-        match self {
-            AnnualRate::Estimate(rate) => Some(rate.value),
-            AnnualRate::Range { .. } => None,
-        }
-    }
-}
-
-impl From<AnnualRate> for Limited {
-    fn from(rate: AnnualRate) -> Limited {
-        match rate {
-            AnnualRate::Estimate(rate) => rate.into(),
-            AnnualRate::Range { low, high } => Limited { value: None, low: Some(low), high: Some(high) },
-        }
-    }
-}
-
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
     let sums = curve.mean_annual_rates(&given_peak.breaks(), given_peak.widest_panel(), |intensity| {
@@ -114,21 +67,21 @@ pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitSta
     })
 }
 
-/// Sums the probabilities of an object in its directions over bins of PGA and PGV.
+/// Sums the probabilities of an object in its directions, times the rates, over bins of PGA and PGV.
 pub(super) fn rates_over_pairs(
     directions: &[Direction],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
 ) -> LimitStates<Rate> {
-    let mut ready = ReadyObject::new(directions, mw);
-    let sums = mean_annual_rates(bins, |bin| {
+    let (mut ready, mut rates) = (ReadyObject::new(directions, mw), LimitStates::all(0.0));
+    for bin in bins {
         let mw = bin.mw.or(mw);
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
-        ready.limit_states(bin.peaks, Level::Estimate).into_array()
-    });
-    LimitStates::from(sums).map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })
+        rates = rates.zip(ready.limit_states(bin.peaks, Level::Estimate), |sum, p| sum + p * bin.annual_rate);
+    }
+    rates.map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })
 }
 
 /// Finds the intensity above which half of the annual rate of overturning comes from.

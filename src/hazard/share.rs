@@ -3,6 +3,7 @@
 use super::site::{Hazard, Site};
 use crate::fragility::{Level, ReadyObject};
 use crate::object::Subject;
+use crate::statistics::numerics::equal_ratios;
 
 /// Widest panel within a bin, in ln of the intensity.
 const PANEL: f64 = 0.1;
@@ -54,7 +55,7 @@ impl Site {
 impl RateByIntensity {
     /// Begins with bins of equal ratio in which nothing happens.
     fn new(low: f64, high: f64, bins: usize) -> RateByIntensity {
-        let edges = (0..=bins).map(|k| low * (high / low).powf(k as f64 / bins as f64)).collect();
+        let edges = equal_ratios(low, high, bins).collect();
         RateByIntensity { edges, rates: vec![0.0; bins], beyond: 0.0 }
     }
 

@@ -6,12 +6,13 @@ use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::motions::Motions;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
-use super::rates::{AnnualRate, PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
+use super::rates::{PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
 use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::rocking::Outcome;
+use crate::statistics::Limited;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -76,13 +77,15 @@ pub struct Site {
     pub responses: Vec<Cases>,
 }
 
-/// Annual rates of an object; none where the model has no probability.
+/// Annual rates of an object, with 95 % limits; nothing of one where the model has no probability. Where the
+/// hazard ends too early for a value there are limits alone: the lower one of what it is if no stronger motion
+/// than the last has the effect, and the upper one of what it is if each has.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct SiteRates {
-    pub rocking: Option<AnnualRate>,
-    pub failure: Option<AnnualRate>,
-    pub overturning: Option<AnnualRate>,
+    pub rocking: Limited,
+    pub failure: Limited,
+    pub overturning: Limited,
     /// Standard deviations of ln of the rate of overturning, by source of uncertainty.
     pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
@@ -234,24 +237,23 @@ impl Varied {
         }
     }
 
-    /// Gives one rate its limits. Where the hazard ends too early, either no stronger motion than its last
-    /// has the effect, or each: the rate lies within the lower limit of the one and the upper limit of the
-    /// other.
-    fn limited(&self, state: LimitState, ends_early: bool) -> Option<AnnualRate> {
+    /// Gives one rate its limits.
+    fn limited(&self, state: LimitState, ends_early: bool) -> Limited {
         let (rate, rocking) = (self.rates.get(state), self.rates.rocking);
         if rate.value.is_nan() {
-            return None;
+            return Limited::default();
         }
         if !ends_early {
             let budget = self.budget(|rates| rates.get(state).value);
-            return Some(AnnualRate::Estimate(budget.limit_rate(rate.value, rocking.value)));
+            return budget.limit_rate(rate.value, rocking.value).into();
         }
         let (least, most) =
             (self.budget(|rates| rates.get(state).least()), self.budget(|rates| rates.get(state).most()));
-        Some(AnnualRate::Range {
-            low: least.limit_rate(rate.least(), rocking.most()).low,
-            high: most.limit_rate(rate.most(), rocking.most()).high,
-        })
+        Limited {
+            value: None,
+            low: Some(least.limit_rate(rate.least(), rocking.most()).low),
+            high: Some(most.limit_rate(rate.most(), rocking.most()).high),
+        }
     }
 
     /// Returns the standard deviations of ln of a rate.

@@ -1,5 +1,7 @@
 //! A value with limits, wherever one is known with an error.
 
+use serde::{Deserialize, Serialize};
+
 /// A value with its limits of confidence.
 ///
 /// ```
@@ -44,5 +46,38 @@ impl Estimate {
             low: join(self.low, other.low),
             high: join(self.high, other.high),
         }
+    }
+}
+
+/// A value with its limits of which something may be missing: all of what is not known, the value of what only
+/// has bounds.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Limited {
+    pub value: Option<f64>,
+    pub low: Option<f64>,
+    pub high: Option<f64>,
+}
+
+impl Limited {
+    /// Makes a value without limits.
+    pub fn value(value: Option<f64>) -> Limited {
+        Limited { value, low: None, high: None }
+    }
+
+    /// Returns the value with both limits; none where one of them is missing.
+    pub fn estimate(self) -> Option<Estimate> {
+        Some(Estimate { value: self.value?, low: self.low?, high: self.high? })
+    }
+
+    /// Applies a rising function to what is there.
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Limited {
+        Limited { value: self.value.map(&f), low: self.low.map(&f), high: self.high.map(&f) }
+    }
+}
+
+impl From<Estimate> for Limited {
+    fn from(Estimate { value, low, high }: Estimate) -> Limited {
+        Limited { value: Some(value), low: Some(low), high: Some(high) }
     }
 }

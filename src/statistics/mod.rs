@@ -12,7 +12,7 @@
 //! scores         AUC, Brier and log score of probabilities
 //! normal         standard normal distribution
 //! distributions  t, F and chi squared
-//! numerics       quadrature and bisection
+//! numerics       quadrature, bisection and steps of equal ratio
 //! ```
 
 mod binary;
@@ -32,7 +32,7 @@ pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::Folds;
-pub use estimate::Estimate;
+pub use estimate::{Estimate, Limited};
 pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};
 pub use range::Range;

@@ -1,4 +1,4 @@
-//! Quadrature and bisection.
+//! Quadrature, bisection and steps of equal ratio.
 
 /// Nodes of a panel.
 const ORDER: usize = 8;
@@ -63,6 +63,11 @@ fn legendre(place: f64) -> [f64; ORDER] {
         values[n + 1] = ((2.0 * k + 1.0) * x * values[n] - k * values[n - 1]) / (k + 1.0);
     }
     values
+}
+
+/// Returns the values from one to another in so many steps of equal ratio.
+pub fn equal_ratios(from: f64, to: f64, steps: usize) -> impl Iterator<Item = f64> {
+    (0..=steps).map(move |k| from * (to / from).powf(k as f64 / steps as f64))
 }
 
 /// Halvings of an interval to rounding.

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::fragility::{Kind, Peak};
 use crate::hazard::{Fragility, VelocitySource};
 use crate::keyword::Keyword;
-use crate::number::Limited;
 use crate::object::Part;
+use crate::statistics::Limited;
 use crate::warning::Warning;
 
 /// What is predicted for an object.

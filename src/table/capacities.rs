@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::responses::OutcomeWord;
 use crate::fragility::grouped;
 use crate::keyword::keywords;
-use crate::number::Limited;
 use crate::rocking::CapacityStatus;
-use crate::statistics::FitStatus;
+use crate::statistics::{FitStatus, Limited};
 
 keywords! {
     /// A measure that grows with a motion in proportion.

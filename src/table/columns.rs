@@ -29,11 +29,11 @@ impl Batch {
     pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, TableError> {
         let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
         let numbers = numbers(column).ok_or_else(|| self.other_type(name, column, "a number"))?;
-        let range = range_of_column(name);
-        match numbers.iter().position(|number| number.is_some_and(|number| !range.contains(number))) {
+        let (range, expected) = range_of_column(name);
+        match numbers.iter().position(|number| number.is_some_and(|number| !range.contains(&number))) {
             Some(row) => {
                 let found = numbers[row].unwrap_or_default();
-                Err(self.value_error(row, name, format!("{found:?}; expected {}", range.expected)))
+                Err(self.value_error(row, name, format!("{found:?}; expected {expected}")))
             }
             None => Ok(numbers),
         }

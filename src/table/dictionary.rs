@@ -5,8 +5,6 @@ use std::sync::LazyLock;
 
 use arrow_schema::Field;
 
-use crate::fragility::Measure;
-
 static COLUMNS: LazyLock<Vec<[String; 3]>> = LazyLock::new(|| {
     let text = include_str!("../../data/columns.csv");
     let rows = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).into_deserialize();
@@ -19,9 +17,6 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// Unit and meaning of a column; none where the dictionary lacks it.
 pub fn entry(column: &str) -> Option<(&'static str, &'static str)> {
-    if let Ok(measure) = column.parse::<Measure>() {
-        return Some(("1", measure.formula()));
-    }
     let is_spectral = column.starts_with("sa_") && column.ends_with("_m_s2");
     let name = if is_spectral { "sa_*_m_s2" } else { column };
     let [_, unit, meaning] = COLUMNS.iter().find(|[other, ..]| other == name)?;

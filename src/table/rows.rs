@@ -21,7 +21,7 @@ use super::dictionary;
 use super::file::Table;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
-/// it. A value with its limits ([`crate::number::Limited`]) is named by its field.
+/// it. A value with its limits ([`crate::statistics::Limited`]) is named by its field.
 pub trait Row: Serialize + DeserializeOwned + 'static {}
 
 impl<T: Serialize + DeserializeOwned + 'static> Row for T {}

@@ -71,7 +71,7 @@ fn the_fragility_at_a_site_integrates_to_its_rate() {
     let sums =
         curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
     for (sum, rate) in sums.into_iter().zip([rate.overturning, rate.failure]) {
-        assert!((sum / rate.unwrap().value().unwrap() - 1.0).abs() < 1e-3);
+        assert!((sum / rate.value.unwrap() - 1.0).abs() < 1e-3);
     }
 }
 
@@ -157,7 +157,7 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
         let rates = of_one_ratio().rates(&block(width));
         let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?));
         RateByParts {
-            rate: rates.overturning.unwrap().value().unwrap(),
+            rate: rates.overturning.value.unwrap(),
             sds: Part::ALL.iter().filter_map(known).collect(),
         }
     });

@@ -4,14 +4,13 @@ use rockfrag::fragility::{
     Direction, Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
 };
 use rockfrag::hazard::{
-    AnnualRate, Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio,
-    Site, VelocitySource, exceedance, mean_annual_rates, probability_in_years, rates_over_curve,
-    velocity_of_spectrum,
+    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio, Site,
+    VelocitySource, exceedance, probability_in_years, rates_over_curve, velocity_of_spectrum,
 };
 use rockfrag::motion::Peaks;
 use rockfrag::object::{Object, Part, Subject, Unknown};
 use rockfrag::rocking::Structure;
-use rockfrag::statistics::normal;
+use rockfrag::statistics::{Limited, normal};
 
 use crate::common::{cases, close, equipment, read};
 
@@ -57,25 +56,6 @@ fn motions_beyond_the_curve_count_as_its_last_one() {
     let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
     let [all, half] = curve.mean_annual_rates(&[], 0.02, |_| [1.0, 0.5]);
     assert!((all - 0.01).abs() < 1e-12 && (half - 0.005).abs() < 1e-12);
-}
-
-#[test]
-fn a_joint_hazard_of_lognormal_velocities_widens_the_curve() {
-    // At one PGA, with ln PGV normal: P(z <= (ln PGV - mu)/beta) has mean Phi((m - mu)/sqrt(beta^2 + s^2)).
-    let (m, s, mu, beta) = (-0.4, 0.5, 0.1, 0.3);
-    let n = 4000;
-    let bin = |k: usize| PairOfPeaks {
-        peaks: Peaks {
-            pga_m_s2: 5.0,
-            pgv_m_s: f64::exp(m + s * normal::quantile((k as f64 + 0.5) / n as f64)),
-        },
-        annual_rate: 0.02 / n as f64,
-        mw: None,
-    };
-    let bins: Vec<PairOfPeaks> = (0..n).map(bin).collect();
-    let [rate] = mean_annual_rates(&bins, |bin| [p_overturning(bin.peaks.pgv_m_s, mu, beta)]);
-    let expected = 0.02 * normal::cdf((m - mu) / beta.hypot(s));
-    assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }
 
 #[test]
@@ -135,6 +115,25 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
 }
 
 #[test]
+fn a_joint_hazard_of_lognormal_velocities_has_a_rate_in_closed_form() {
+    // At one PGA, with ln PGV normal (m, s): Phi(c + d ln PGV) has the mean Phi((c + d m) / sqrt(1 + d^2 s^2)).
+    let (model, structure) = lognormal_over_both_peaks([-15.0, 1.2, 1.6]);
+    let (pga_m_s2, m, s, n) = (5.0, 0.4, 0.5, 4000);
+    let ln_pgv = |k: usize| m + s * normal::quantile((k as f64 + 0.5) / n as f64);
+    let bin = |k| PairOfPeaks {
+        peaks: Peaks { pga_m_s2, pgv_m_s: ln_pgv(k).exp() },
+        annual_rate: 0.02 / n as f64,
+        mw: None,
+    };
+    let ln_uplift = structure.uplift_acceleration_m_s2().ln();
+    let z = -15.0 + 1.2 * (pga_m_s2.ln() - ln_uplift) + 1.6 * (m - ln_uplift);
+    let expected = 0.02 * normal::cdf(z / 1.0_f64.hypot(1.6 * s));
+    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&subject).unwrap();
+    assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
+}
+
+#[test]
 fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     // ln rate rises by k b2 / d for each unit of ln(PGV / PGA), d = b1 + b2 (1 + slope).
     let b = [-15.0, 1.2, 1.6];
@@ -154,7 +153,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
     assert!((errors.part_sd(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
     assert_eq!(errors.part_sd(Part::Magnitude), None);
-    let Some(AnnualRate::Estimate(rate)) = rates.overturning else { panic!("{rates:?}") };
+    let rate = rates.overturning.estimate().unwrap();
     assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
     assert!(rate.high > rate.value);
 }
@@ -212,9 +211,9 @@ fn squat() -> Subject {
     Subject::shipped(&Object::block("squat", 0.9, 1.4), Kind::Recorded, 0.1).unwrap()
 }
 
-fn range(rate: Option<AnnualRate>) -> [f64; 2] {
-    let Some(AnnualRate::Range { low, high }) = rate else { panic!("{rate:?}") };
-    [low, high]
+fn range(rate: Limited) -> [f64; 2] {
+    assert_eq!(rate.value, None);
+    [rate.low, rate.high].map(Option::unwrap)
 }
 
 #[test]
@@ -229,7 +228,7 @@ fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
     let early = to(0.8).rates(&squat());
     let [low, high] = range(early.overturning);
     let whole = to(8.0).rates(&squat());
-    let Some(AnnualRate::Estimate(rate)) = whole.overturning else { panic!("{whole:?}") };
+    let rate = whole.overturning.estimate().unwrap();
     assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
     // The errors widen it: without any it is what no and what each stronger motion would make of it.
     let certain = Subject { unknowns: vec![], ..squat() };

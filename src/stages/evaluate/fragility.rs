@@ -6,8 +6,8 @@ use super::object::Predicted;
 use super::words::{about_buildings, line, model, model_of_all, mostly_unknown, table, validity};
 use crate::fragility::Peak;
 use crate::hazard::{Fragility, FragilityPoint, Lognormal, intensity_in_words};
-use crate::number::{Limited, aligned, significant};
-use crate::statistics::Estimate;
+use crate::number::{aligned, significant};
+use crate::statistics::{Estimate, Limited};
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 use crate::units::G_M_S2;
 

@@ -260,8 +260,8 @@ impl Evaluate {
         let objects = self.objects(renames, models, context)?;
         let all = object::answers(&objects, models, self.explain, context, |object, subject| {
             let rates = site.rates(subject);
-            let target = self.target.map(|p| -(-p).ln_1p() / self.years).zip(rates.overturning);
-            let bases = target.map(|(target, rate)| target::bases(object, models, &site, rate, target));
+            let target = self.target.map(|p| -(-p).ln_1p() / self.years);
+            let bases = target.map(|target| target::bases(object, models, &site, rates.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
         })?;

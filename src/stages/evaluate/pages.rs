@@ -5,11 +5,11 @@ use serde_json::Value;
 use super::point::{self, TreeRow};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Site, exceedance, probability_in_years};
-use crate::number::Limited;
 use crate::object::{Object, Subject};
 use crate::report::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
 use crate::report::{Page, list, object};
 use crate::stages::shared::model_args::Models;
+use crate::statistics::Limited;
 use crate::table::answers::Answer;
 use crate::table::provenance::Provenance;
 
@@ -102,6 +102,5 @@ impl Alone<'_> {
 }
 
 fn overturning(subject: &Subject, site: &Site, years: f64) -> Limited {
-    let rate = site.rates(subject).overturning.map(Limited::from).unwrap_or_default();
-    rate.map(|rate| probability_in_years(rate, years))
+    site.rates(subject).overturning.map(|rate| probability_in_years(rate, years))
 }

@@ -11,9 +11,9 @@ use super::words::{
 use crate::fragility::{Direction, LimitStates, Scenarios};
 use crate::hazard::{Budget, Motion, MotionProbabilities};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
-use crate::number::{Limited, PERCENT, aligned, fixed, name, plain};
+use crate::number::{PERCENT, aligned, fixed, name, plain};
 use crate::object::Subject;
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, Limited};
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
 

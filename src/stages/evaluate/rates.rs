@@ -7,19 +7,16 @@ use super::target::{Base, Bases};
 use super::words::{about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
-use crate::number::{
-    self, Limited, PERCENT, RATE, aligned, count, counted, name, period, plain, significant,
-};
+use crate::number::{self, PERCENT, RATE, aligned, count, counted, name, period, plain, significant};
 use crate::report::answers::{Expected, NO_RATE, in_years};
+use crate::statistics::Limited;
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
 
 impl RatesRow {
     pub fn new(rates: &SiteRates, years: f64, bases: Bases) -> RatesRow {
         let counted = rates.counted.as_ref();
-        let rocking = rates.rocking.and_then(|rate| rate.value());
-        let [failure, overturning] =
-            [rates.failure, rates.overturning].map(|rate| rate.map(Limited::from).unwrap_or_default());
+        let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
         RatesRow {
             rocking_per_year: rocking,
             failure_per_year: failure,
@@ -29,7 +26,7 @@ impl RatesRow {
             p_rocking: rocking.map(|rate| probability_in_years(rate, years)),
             p_failure: failure.map(|rate| probability_in_years(rate, years)),
             p_overturning: overturning.map(|rate| probability_in_years(rate, years)),
-            is_range: rates.overturning.map(|rate| rate.value().is_none()),
+            is_range: overturning.low.map(|_| overturning.value.is_none()),
             velocity_by: rates.velocity,
             share_extrapolated: rates.beyond,
             counted_motions: counted.map(|rate| rate.motions as i64),

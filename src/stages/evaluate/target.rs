@@ -1,8 +1,9 @@
 //! The width of a base that meets a target: all else of the object the same.
 
-use crate::hazard::{AnnualRate, Site};
+use crate::hazard::Site;
 use crate::object::{Object, Subject};
 use crate::stages::shared::model_args::Models;
+use crate::statistics::Limited;
 
 /// Parses a probability of overturning in the time of exposure, such as 1%.
 pub fn parse(text: &str) -> Result<f64, String> {
@@ -59,7 +60,7 @@ impl Base {
 /// Finds the bases whose annual rate of overturning is the target, at the same height, rule of eta and
 /// relative offset; none where none within the domain of the surface meets it. `rate` is that of the object
 /// as it is.
-pub fn bases(object: &Object, models: &Models, site: &Site, rate: AnnualRate, target: f64) -> Bases {
+pub fn bases(object: &Object, models: &Models, site: &Site, rate: Limited, target: f64) -> Bases {
     let mut searches = vec![Search::new(object, models, site, false)];
     searches.extend(object.shape.depth.map(|_| Search::new(object, models, site, true)));
     let mut searches: Vec<Search> = searches.into_iter().flatten().collect();
@@ -121,7 +122,7 @@ impl Search<'_> {
 
     /// Finds where the upper limit meets the target. By how much it is above the estimate changes little
     /// with width: a line through the last two widths tells it.
-    fn by_upper_limit(&mut self, rate: AnnualRate, target: f64) -> Option<Base> {
+    fn by_upper_limit(&mut self, rate: Limited, target: f64) -> Option<Base> {
         let (mut at, mut above, mut per_ln) =
             (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
         for _ in 0..MOST_SPREADS {
@@ -138,7 +139,7 @@ impl Search<'_> {
 
     /// ln of the upper limit over the estimate.
     fn spread_at(&self, ln_width: f64) -> Option<f64> {
-        spread(self.site.rates(&self.subject(ln_width)?).overturning?)
+        spread(self.site.rates(&self.subject(ln_width)?).overturning)
     }
 
     /// Finds ln of the width at which ln rate is what is wanted of it, by secants. Where the hazard ends too
@@ -177,7 +178,6 @@ impl Search<'_> {
 }
 
 /// ln of the upper limit of a rate over the rate.
-fn spread(rate: AnnualRate) -> Option<f64> {
-    let AnnualRate::Estimate(rate) = rate else { return None };
-    Some((rate.high / rate.value).ln()).filter(|ln| ln.is_finite())
+fn spread(rate: Limited) -> Option<f64> {
+    Some((rate.high? / rate.value?).ln()).filter(|ln| ln.is_finite())
 }
