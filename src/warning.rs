@@ -38,6 +38,7 @@ keywords! {
         LeftOut = "left_out",
         OneDirection = "one_direction",
         NotCounted = "not_counted",
+        NotGiven = "not_given",
         UnusedColumns = "unused_columns",
     }
 }
@@ -73,6 +74,7 @@ impl Warning {
             LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
             OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
+            NotGiven => "NA or the like: answered as if nothing were said of it",
             NoPartner => "no perpendicular component: left out",
         }
     }

@@ -32,6 +32,8 @@ pub struct PeakHazard {
     pub peak: Peak,
     /// Annual rates of exceedance, over m/s2 or m/s.
     pub curve: HazardCurve,
+    /// Whether a curve is the median of several, not their mean.
+    pub is_median: bool,
     /// The 16 and 84 % fractiles, if they are given.
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it.
@@ -41,7 +43,7 @@ pub struct PeakHazard {
 impl Hazard {
     /// Makes the hazard of a curve of one peak; PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
-        Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity: None })
+        Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None })
     }
 }
 
@@ -178,6 +180,7 @@ impl Site {
         let warnings = [
             beyond.map(|_| Warning::HazardExtrapolated),
             ends_early.then_some(Warning::HazardEndsEarly),
+            hazard.is_median.then_some(Warning::MedianHazard),
             (first > middle.uplift().usual).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {

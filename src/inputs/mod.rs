@@ -1,19 +1,20 @@
 //! The files that people bring: from bytes to tables, and from tables to what they are about.
 //!
 //! ```text
-//! unpack    gzip and zip
-//! decode    bytes to text: UTF-8, UTF-16, Windows-1252, Shift JIS, any ends of lines
-//! workbook  sheets of .xlsx, .xls and .ods
-//! grid      text or a sheet to cells under headings, with the line of each
-//! heading   names and units
-//! numbers   which signs are decimal and which stand between thousands, settled for a whole table
-//! rename    headings that the user names
-//! hazard    the hazard of a site
-//! objects   lists of objects
-//! about     tables about records
-//! floors    floors as people write them: level and first period
-//! words     words of lists in several languages
-//! error     what is wrong with a file
+//! unpack       gzip and zip
+//! decode       bytes to text: UTF-8, UTF-16, Windows-1252, Shift JIS, any ends of lines
+//! workbook     sheets of .xlsx, .xls and .ods
+//! grid         text or a sheet to cells under headings, with the line of each
+//! heading      names and units
+//! numbers      which signs are decimal and which stand between thousands, settled for a whole table
+//! rename       headings that the user names
+//! hazard       the hazard of a site
+//! objects      lists of objects
+//! intensities  tables of motions by their peaks
+//! about        tables about records
+//! floors       floors as people write them: level and first period
+//! words        words of lists in several languages
+//! error        what is wrong with a file
 //! ```
 
 mod about;
@@ -23,6 +24,7 @@ mod floors;
 mod grid;
 pub mod hazard;
 mod heading;
+pub mod intensities;
 mod numbers;
 pub mod objects;
 mod rename;

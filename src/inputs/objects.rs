@@ -54,7 +54,7 @@ struct List<'a> {
     place: Place,
 }
 
-/// Reads a list: the objects of its rows, and the columns that are not used.
+/// Reads a list: the objects of its rows, and what of it is not used.
 pub fn read(
     path: &Path,
     renames: &mut Renames,
@@ -63,7 +63,7 @@ pub fn read(
     let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
     let read = grid.and_then(|grid| {
         let list = List::new(&grid, common)?;
-        Ok((list.objects(), list.unused()))
+        Ok((list.objects(), list.doubts()))
     });
     read.map_err(|error| error.in_file(path))
 }
@@ -193,11 +193,21 @@ impl List<'_> {
         self.column(column).map(|at| self.grid.cell(row, at)).filter(|cell| !has_no_value(cell))
     }
 
-    /// The columns that are not used, named once.
-    fn unused(&self) -> Warnings {
+    /// The columns that are not used, named once, and the words that are taken as no value.
+    fn doubts(&self) -> Warnings {
         let unused: Vec<&str> = self.headings(Column::Unused).filter(|text| !text.is_empty()).collect();
-        let one = (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", ")));
-        one.into_iter().collect()
+        let mut doubts: Warnings =
+            (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", "))).into_iter().collect();
+        for (at, column) in self.columns.iter().enumerate() {
+            for row in (0..self.grid.lines.len()).filter(|_| matches!(column, Column::Known(_))) {
+                let cell = self.grid.cell(row, at);
+                if has_no_value(cell) && cell.contains(char::is_alphanumeric) {
+                    let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
+                    doubts.add(Warning::NotGiven, about);
+                }
+            }
+        }
+        doubts
     }
 
     fn objects(&self) -> Vec<Object> {

@@ -16,11 +16,11 @@ pub fn is_vertical(component: &str) -> bool {
     let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));
     let is_word = |word: &str| {
         let word = word.trim_matches(['.', '-']);
-        let numbered = word.trim_end_matches(|sign: char| sign.is_ascii_digit());
-        let last = word.rsplit('-').next().unwrap_or_default();
+        let numbered = word.trim_matches(|sign: char| sign.is_ascii_digit());
+        let last = word.rsplit(['-', '_']).next().unwrap_or_default();
         VERTICAL.contains(&word)
             || VERTICAL.contains(&last)
-            || numbered.len() > 1 && VERTICAL.contains(&numbered)
+            || (numbered.len() > 1 || numbered == "V") && VERTICAL.contains(&numbered)
     };
     name.len() == 3 && name.ends_with('Z') || words.any(is_word)
 }

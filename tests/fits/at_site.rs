@@ -26,7 +26,7 @@ fn site(hazard: Hazard) -> Site {
 
 fn over_pga() -> Site {
     let (peak, curve) = (Peak::Pga, curve());
-    site(Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity: None }))
+    site(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None }))
 }
 
 fn block(width: f64) -> Subject {
@@ -148,7 +148,7 @@ const RATIO_S: f64 = 0.1;
 
 fn of_one_ratio() -> Site {
     let (peak, curve, velocity) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
-    site(Hazard::Curve(PeakHazard { peak, curve, fractiles: None, velocity }))
+    site(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
 }
 
 #[test]

@@ -140,6 +140,21 @@ fn what_is_not_known_to_be_a_mean_is_not_taken_for_it() {
     expect_curve(openquake(&header("quantile-0.5")).as_bytes(), "", "median");
     let median = table("pga_g,AFE median", |a| format!("{a},{}", rate(a)));
     expect_curve(median.as_bytes(), "", "median");
+    let plain = |notes: &str| notes.to_string() + &table("pga_g,AFE", |a| format!("{a},{}", rate(a)));
+    for text in [
+        plain("# median hazard curve\n"),
+        plain("statistic,median\n"),
+        plain("# 50th percentile\n"),
+        table("pga_g,AFE,statistic", |a| format!("{a},{},median", rate(a))),
+    ] {
+        expect_curve(text.as_bytes(), "", "median");
+        assert!(curves(&[text.as_bytes()], "", "median").is_median);
+    }
+    assert!(read(&[plain("# 84th percentile\n").as_bytes()], "").is_err());
+    let mixed =
+        table("pga_g,AFE,statistic", |a| format!("{a},{},{}", rate(a), if a < 1.0 { "mean" } else { "p84" }));
+    assert!(read(&[mixed.as_bytes()], "").is_err());
+    expect_curve(plain("# mean, not the median; 16 sites, Vs30 = 760\n").as_bytes(), "", "");
 }
 
 #[test]
@@ -163,6 +178,7 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
             "each level from 0.01 to 0.05",
         ),
         (curve("PGA (x10 m/s2),AFE"), "", "Heading { heading: \"PGA (x10 m/s2)\""),
+        (curve("pga_g,AFE (1/475 yr)"), "", "Heading { heading: \"AFE (1/475 yr)\""),
         (curve("pga_g,monthly rate"), "", "Heading { heading: \"monthly rate\""),
         (curve("pga_g,AFE"), "pgv_m_s=Speed", "Renamed"),
         (curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),

@@ -245,6 +245,11 @@ fn columns_that_are_not_used_are_all_named_once() {
         lines.len() == 1
             && ["No.", "Room", "Mass (kg)", "Value", "Remarks"].iter().all(|name| lines[0].contains(name))
     );
+    let missing = "name,width,depth,height,eta\na,0.5,NA,2,\nb,0.5,1,2,null\n";
+    std::fs::write(&path, missing).unwrap();
+    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let lines = warnings.lines();
+    assert!(lines.len() == 1 && lines[0].starts_with("depth of a, eta of b:"), "{lines:?}");
 }
 
 #[test]

@@ -59,6 +59,7 @@ fn what_is_meant_is_read() {
 #[test]
 fn what_is_wrong_is_refused_for_its_reason() {
     let at2 = |unit: &str, counts: &str| at2(&motion(103), unit, counts);
+    let wrapped = |between: &str| format!("{0}{between}\n{0}", "1.5 -2.5 3.5 -4.5\n".repeat(5));
     let gap = lines("time,acc_g", G, |k, a| format!("{:.2},{a:.6}", time(k + usize::from(k > 200))));
     for (text, options, kind) in [
         // Contradictory units, unknown units, and units of other quantities.
@@ -97,6 +98,28 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
         (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),
         (knet(&motion(100)).replace("/8388608", "/0"), "", "Value { line: 8"),
+        // Two series, two instruments, and a first line that says otherwise than the call.
+        (wrapped(""), "unit=m/s2 dt=0.01 column=all", "ShortLine { line: 6, found: 0"),
+        (wrapped("# velocity"), "unit=m/s2 dt=0.01 column=all", "ShortLine { line: 6, found: 0"),
+        (lines("0.1\n", G, |_, a| format!("{a:.6}")), "unit=g dt=0.01", "ShortLine { line: 2, found: 0"),
+        (
+            lines("time,Base N-S (g),Roof N-S (g)", G, |k, a| {
+                format!("{:.2},{a:.6},{:.6}", time(k), 2.0 * a)
+            }),
+            "",
+            "Column",
+        ),
+        (
+            lines("time,N-S1 (g),N-S2 (g)", G, |k, a| format!("{:.2},{a:.6},{:.6}", time(k), 2.0 * a)),
+            "",
+            "Column",
+        ),
+        (lines("0.005", G, |_, a| format!("{a:.6}")), "unit=g dt=0.01", "Contradiction { line: 1"),
+        (
+            lines("#SamplingFrequency(Hz)\n#200\ntime,acc_g", G, |k, a| format!("{:.2},{a:.6}", time(k))),
+            "",
+            "Contradiction { line: 4, field: \"time step\"",
+        ),
         // Not a record.
         ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),
         ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Input("),

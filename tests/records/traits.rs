@@ -99,8 +99,8 @@ fn vertical_components_have_many_names() {
         [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
     assert!(horizontals.iter().all(|text| read(text)[0].azimuth_deg == Some(360.0)));
     for name in [
-        "DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "Up", "U-D", "vertical", "V", "HNZ", "CHY101-V",
-        "Vert.", "UP1", "U-D2",
+        "DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "V1", "90V", "Up", "U-D", "vertical", "V", "HNZ",
+        "CHY101-V", "Vert.", "UP1", "U-D2",
     ] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
         assert!(read(&text)[0].is_vertical(), "{name}");

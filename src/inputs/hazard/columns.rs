@@ -178,28 +178,61 @@ fn take_measure(words: &mut Vec<&str>) -> Option<Measure> {
     None
 }
 
+/// Words beside the number of a fractile.
+const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
+
+/// Whether a word beside that at this place says that it is the number of a fractile.
+fn is_ranked(words: &[&str], at: usize) -> bool {
+    let before = at.checked_sub(1).map(|before| words[before]);
+    before.into_iter().chain(words.get(at + 1).copied()).any(|word| RANKS.contains(&word))
+}
+
 /// Takes the words that name a fractile out of a heading. A number of years is none.
 fn take_statistic(words: &mut Vec<&str>) -> Statistic {
-    const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
-    let mut found = None;
-    for (at, word) in words.iter().enumerate() {
-        let (before, next) = (at.checked_sub(1).map_or("", |before| words[before]), words.get(at + 1));
-        let are_years = next.is_some_and(|next| is(next, "years")) || is(before, "probability");
-        let is_ranked = RANKS.contains(&before) || next.is_some_and(|next| RANKS.contains(next));
-        let statistic = match *word {
-            "median" | "0.5" => Statistic::Median,
-            "50" if is_ranked => Statistic::Median,
-            "16" | "84" if are_years => continue,
-            "16" | "0.16" => Statistic::Low,
-            "84" | "0.84" => Statistic::High,
-            _ => continue,
-        };
-        found.get_or_insert((at, statistic));
-    }
+    let found = (0..words.len()).find_map(|at| {
+        let before = at.checked_sub(1).map_or("", |before| words[before]);
+        let are_years = words.get(at + 1).is_some_and(|next| is(next, "years")) || is(before, "probability");
+        match words[at] {
+            "50" if !is_ranked(words, at) => None,
+            "16" | "84" if are_years => None,
+            word => Some((at, fractile(word)?)),
+        }
+    });
     let Some((at, statistic)) = found else { return Statistic::Mean };
     words.remove(at);
     words.retain(|word| !RANKS.contains(word));
     statistic
+}
+
+fn fractile(word: &str) -> Option<Statistic> {
+    match word {
+        "median" | "50" | "0.5" => Some(Statistic::Median),
+        "16" | "0.16" => Some(Statistic::Low),
+        "84" | "0.84" => Some(Statistic::High),
+        _ => None,
+    }
+}
+
+/// Finds the statistic that a comment, or a column of statistics, names for the curves of a file.
+pub fn noted_statistic(grid: &Grid) -> Result<Statistic, InputError> {
+    let mut texts = grid.notes.clone();
+    if let Some(column) = grid.about("statistic") {
+        let mut cells: Vec<&str> = (0..grid.lines.len()).map(|row| grid.cell(row, column)).collect();
+        cells.dedup();
+        if let [first, second, ..] = cells[..] {
+            let found = format!("{} {first} and {second}", grid.headings[column].text);
+            return Err(InputError::missing(found, "one: a file for each"));
+        }
+        texts.extend(cells.first().map(|cell| cell.to_string()));
+    }
+    let named = texts.iter().find_map(|text| {
+        let text = text.to_lowercase();
+        let words = parts(&text);
+        let is_named = |at: &usize| words[*at] == "median" || is_ranked(&words, *at);
+        let place = (0..words.len()).filter(is_named).find(|at| fractile(words[*at]).is_some())?;
+        fractile(words[place]).filter(|_| !words.contains(&"mean"))
+    });
+    Ok(named.unwrap_or(Statistic::Mean))
 }
 
 /// More motions a year than any site has that a hazard counts.
@@ -218,7 +251,8 @@ impl Frequency {
                 let annual = words.iter().any(|word| matches!(*word, "annual" | "aep" | "ape"));
                 years.or(annual.then_some(1.0)).or(investigation_years).map(Frequency::ProbabilityIn)
             }
-            _ if years.is_some_and(|years| years != 1.0) => None,
+            // The 475 of `1/475 yr` is of one row, or of none.
+            _ if numbers.iter().any(|number| number.parse() != Ok(1.0)) => None,
             _ if words.contains(&"occurrence") => Some(Frequency::Occurrence),
             _ if has("return-period") || words.starts_with(&["t", "r"]) => Some(Frequency::ReturnPeriod),
             _ => has("rate").then_some(Frequency::Rate),

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub use self::columns::peak;
-use self::columns::{Column, Content, Frequency, Measure, Statistic};
+use self::columns::{Column, Content, Frequency, Measure, Statistic, noted_statistic};
 use super::words::means;
 use super::{Grid, InputError, Renames};
 use crate::fragility::Peak;
@@ -97,10 +97,14 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<PeakHazard, Input
     };
     let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
     let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
+    let mut is_median = false;
     for curve in curves {
         let is_used = used.into_iter().flatten().any(|used| std::ptr::eq(used, curve));
         let doubt = match (is_used, curve.statistic) {
-            (true, Statistic::Median) => (Warning::MedianHazard, curve.file.clone()),
+            (true, Statistic::Median) => {
+                is_median = true;
+                (Warning::MedianHazard, curve.file.clone())
+            }
             (true, _) => continue,
             (false, statistic) => {
                 (Warning::UnusedColumns, format!("{} ({statistic}) of {}", curve.measure, curve.file))
@@ -109,7 +113,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<PeakHazard, Input
         warnings.extend([doubt].into_iter().collect());
     }
     let fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
-    Ok(PeakHazard { peak, curve: curve.clone(), fractiles, velocity })
+    Ok(PeakHazard { peak, curve: curve.clone(), is_median, fractiles, velocity })
 }
 
 #[derive(Default)]
@@ -150,7 +154,11 @@ impl Found {
             (false, None) => {}
         }
         let columns = grid.headings.iter().enumerate().map(|(at, heading)| Column::new(at, heading, years));
-        let columns: Vec<Column> = columns.collect();
+        let mut columns: Vec<Column> = columns.collect();
+        if columns.iter().all(|column| column.statistic == Statistic::Mean) {
+            let statistic = noted_statistic(&grid)?;
+            columns.iter_mut().for_each(|column| column.statistic = statistic);
+        }
         let is_joint = are_fields || columns.iter().any(|column| column.content == OCCURRENCE);
         if is_joint {
             self.add_joint(joint(&grid, &columns, effective_years)?, path)?;
@@ -292,6 +300,7 @@ fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result
     };
     let statistic = match (values.statistic, rates.statistic) {
         (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => statistic,
+        (own, other) if own == other => own,
         _ => return Ok(None),
     };
     if measure == Measure::Other {

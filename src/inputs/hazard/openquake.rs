@@ -54,7 +54,11 @@ fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
         "quantile-0.84" => Ok(Statistic::High),
         "quantile-0.5" | "quantile-0.50" | "median" => Ok(Statistic::Median),
         _ => {
-            let found = format!("a curve of kind '{kind}'");
+            let found = if kind.is_empty() {
+                "a curve of no kind".into()
+            } else {
+                format!("a curve of kind '{kind}'")
+            };
             Err(InputError::missing(found, "the mean, and quantiles 0.16 and 0.84 beside it"))
         }
     }

@@ -41,11 +41,14 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
 
 impl Samples<'_> {
     fn motions(&self) -> Result<Vec<RecordedMotion>, RecordFileError> {
-        let noted = self.notes.iter().find_map(noted_step);
+        let noted = self.notes.iter().find_map(noted_step).or_else(|| noted_frequency(&self.grid.notes));
         let choice = self.options.column.as_deref();
         if choice == Some("all") {
-            return Ok(vec![self.motion(None, self.series()?, noted)?]);
+            let series = self.series()?;
+            self.expect_one_series()?;
+            return Ok(vec![self.motion(None, series, noted)?]);
         }
+        self.expect_one_series()?;
         let quantities = self.quantities();
         let columns = match choice {
             Some(choice) => vec![self.chosen(choice, &quantities)?],
@@ -61,11 +64,16 @@ impl Samples<'_> {
         for &column in &columns {
             let mut samples = self.numbers(column)?;
             if self.grid.headings.is_empty() && found.is_none() {
+                self.expect_no_other_step(column)?;
                 drop_header(&mut samples, self.options.dt_s);
             }
             let read = self.motion(Some(column), samples, found)?;
             let pga = peak(&read.acceleration_m_s2);
-            if motions.iter().any(|other| (peak(&other.acceleration_m_s2) - pga).abs() < SAME_PEAK * pga) {
+            let is_same = |other: &RecordedMotion| {
+                (peak(&other.acceleration_m_s2) - pga).abs() < SAME_PEAK * pga
+                    || read.azimuth_deg.is_some() && other.azimuth_deg == read.azimuth_deg
+            };
+            if motions.iter().any(is_same) {
                 return Err(self.which_column());
             }
             motions.push(read);
@@ -94,6 +102,29 @@ impl Samples<'_> {
             azimuth_deg: heading.and_then(direction).and_then(azimuth_of),
             ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit)
         })
+    }
+
+    /// Refuses samples without times among which another line stands: another series may begin there.
+    fn expect_one_series(&self) -> Result<(), RecordFileError> {
+        let has_times = self.times(&self.quantities()).is_some();
+        let gap = self.grid.lines.windows(2).find(|pair| pair[1] != pair[0] + 1).filter(|_| !has_times);
+        let short = |pair: &[usize]| RecordFileError::ShortLine {
+            line: pair[0] + 1,
+            found: 0,
+            expected: self.grid.columns,
+        };
+        gap.map_or(Ok(()), |pair| Err(short(pair)))
+    }
+
+    /// Refuses a first line that seems to be a time step: a usual one, written otherwise than the samples.
+    fn expect_no_other_step(&self, column: usize) -> Result<(), RecordFileError> {
+        const USUAL_S: [f64; 9] = [0.001, 0.002, 0.0025, 0.004, 0.005, 0.01, 0.02, 0.04, 0.05];
+        let decimals = |row: usize| self.grid.cell(row, column).split(['.', ',']).nth(1).map(str::len);
+        let first = self.grid.number(0, column)?;
+        match USUAL_S.contains(&first) && self.grid.lines.len() > 1 && decimals(0) != decimals(1) {
+            true => expect_step(self.options, first, self.line),
+            false => Ok(()),
+        }
     }
 
     /// Reads a column.
@@ -280,7 +311,9 @@ fn direction(heading: &Heading) -> Option<&str> {
     let lower = last.to_ascii_lowercase();
     let short = ["acceleration", "accel", "acc", "a"].into_iter().find(|start| lower.starts_with(start));
     let short = short.map_or("", |start| &last[start.len()..]);
-    [name, last, short].into_iter().find(|word| {
+    // Of several instruments one has numbers: N-S2.
+    let unnumbered = name.trim_end_matches(|sign: char| sign.is_ascii_digit());
+    [name, last, short, unnumbered].into_iter().find(|word| {
         let is_named = HORIZONTAL.contains(&word.to_ascii_uppercase().as_str()) || is_vertical(word);
         word.parse::<f64>().is_err() && (is_named || azimuth_of(word).is_some())
     })
@@ -300,6 +333,18 @@ fn clock_s(cell: &str) -> Option<f64> {
     let mut parts = time.trim_end_matches('Z').split(':').map(|part| part.parse::<f64>().ok());
     let (hours, minutes, seconds) = (parts.next()??, parts.next()??, parts.next()??);
     Some(3600.0 * hours + 60.0 * minutes + seconds)
+}
+
+/// Reads the time step (s) by a comment such as `SamplingFrequency(Hz): 100`, or with the number in the same
+/// place of the next one.
+fn noted_frequency(notes: &[String]) -> Option<f64> {
+    notes.iter().enumerate().find_map(|(at, note)| {
+        let mut cells = note.split(',').map(|cell| cell.to_lowercase());
+        let place = cells.position(|cell| cell.contains("sampling") && cell.contains("hz"))?;
+        let own = note.split(',').nth(place).and_then(first_number);
+        let below = || notes.get(at + 1)?.split(',').nth(place).and_then(first_number);
+        own.or_else(below).filter(|frequency| *frequency > 0.0).map(|frequency| 1.0 / frequency)
+    })
 }
 
 /// Reads the time step (s) in a comment such as `dt = 0.01 s`.

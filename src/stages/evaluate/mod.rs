@@ -390,10 +390,9 @@ impl Evaluate {
 /// Gathers the rows of answers, and warns of what their text does not state.
 fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Result<RecordBatch> {
     for answer in all {
-        let others = answer
-            .warnings
-            .iter()
-            .filter(|warning| !matches!(warning, Warning::HazardEndsEarly | Warning::HazardExtrapolated));
+        // The text states them, or a warning of the file that is read.
+        let told = [Warning::HazardEndsEarly, Warning::HazardExtrapolated, Warning::MedianHazard];
+        let others = answer.warnings.iter().filter(|warning| !told.contains(warning));
         context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
     }
     rows::side_by_side(&[

@@ -12,9 +12,8 @@ use rayon::prelude::*;
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
-use crate::inputs::hazard::peak;
-use crate::inputs::objects::describes_object;
-use crate::inputs::{Grid, Heading, Renames};
+use crate::inputs::Renames;
+use crate::inputs::intensities::{self, Cells};
 use crate::motion::{Peaks, judge_medians};
 use crate::number::counted;
 use crate::object::{Object, Place, Restitution, Subject};
@@ -144,38 +143,14 @@ fn peaks(batch: &Batch) -> anyhow::Result<Vec<Peaks>> {
 fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let schema = batch.rows.schema();
     let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
-    let mut found = Vec::new();
-    for name in &names {
-        found.extend(
-            peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted).map(|(_, unit)| (*name, unit)),
-        );
-    }
-    let (column, expected) = match wanted {
-        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g"),
-        Peak::Pgv => ("pgv_m_s", "pgv_m_s"),
-    };
-    if let Some(own) = found.iter().position(|(name, _)| *name == column) {
-        found = vec![found[own]];
-    }
-    let path = batch.path.display();
-    let (name, unit) = match found[..] {
-        [one] => one,
-        [] => {
-            return Err(UsageError::because(format!(
-                "{path}: columns {}; expected {expected}; --columns {column}=HEADING renames one",
-                names.join(", ")
-            )));
-        }
-        [(first, _), (second, _), ..] => {
-            return Err(UsageError::because(format!("{path}: columns {first} and {second}; leave out one")));
-        }
-    };
+    let (name, unit) =
+        intensities::column_of_peak(&names, wanted).map_err(|error| error.in_file(&batch.path))?;
     let mut values = Vec::new();
     for (row, value) in batch.numbers(name)?.into_iter().enumerate() {
         match value.map(|value| value * unit) {
-            None => return Err(batch.value_error(row, column, "no value").into()),
+            None => return Err(batch.value_error(row, name, "no value").into()),
             Some(value) if value < 0.0 => {
-                return Err(batch.value_error(row, column, "expected 0 or more").into());
+                return Err(batch.value_error(row, name, "expected 0 or more").into());
             }
             Some(value) => values.push(value),
         }
@@ -206,46 +181,14 @@ fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>
     Ok(renamed)
 }
 
-/// The columns of a table of people: numbers where all cells are, else text. Peaks are kept under their
-/// headings.
+/// The columns of a table of people.
 fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> {
-    let refuse = |problem: String| TableError::table(path, problem);
-    let mut sheet = Grid::read(path).map_err(|error| refuse(error.to_string()))?;
-    renames.apply(&mut sheet).map_err(|error| refuse(error.to_string()))?;
-    if let Some(heading) = sheet.headings.iter().find(|heading| describes_object(heading)) {
-        let problem = format!(
-            "column '{}' describes an object; expected peaks, mw, p_rad_s, alpha_rad and eta: describe one \
-             object by options, or list objects in --structures",
-            heading.text
-        );
-        return Err(refuse(problem).into());
-    }
-    if sheet.headings.is_empty() || sheet.lines.is_empty() {
-        let (rows, headings) = (counted(sheet.lines.len(), "row"), sheet.found());
-        let problem = format!("{rows} under {headings}; expected intensities under pga_g and pgv_m_s");
-        return Err(refuse(problem).into());
-    }
-    let mut columns: Vec<(String, ArrayRef, bool)> = Vec::new();
-    for (at, heading) in sheet.headings.iter().enumerate() {
-        let rows = 0..sheet.lines.len();
-        let numbers = rows.clone().map(|row| match sheet.cell(row, at) {
-            "" => Ok(None),
-            _ => sheet.number(row, at).map(Some),
-        });
-        let array: ArrayRef = match numbers.collect::<Result<Vec<_>, _>>() {
-            Ok(values) => Arc::new(Float64Array::from(values)),
-            Err(error) if peak(heading).is_some() => return Err(refuse(error.to_string()).into()),
-            Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| sheet.cell(row, at)))),
+    let columns = intensities::read(path, renames)?.into_iter().map(|(name, cells)| {
+        let array: ArrayRef = match cells {
+            Cells::Numbers(numbers) => Arc::new(Float64Array::from(numbers)),
+            Cells::Texts(texts) => Arc::new(StringArray::from(texts)),
         };
-        let name = match heading.name.as_str() {
-            "m" | "magnitude" => "mw",
-            "p" => "p_rad_s",
-            "alpha" => "alpha_rad",
-            "tp" => "tp_s",
-            "tm" => "tm_s",
-            _ => &heading.text,
-        };
-        columns.push((name.to_string(), array, true));
-    }
+        (name, array, true)
+    });
     Ok(RecordBatch::try_from_iter_with_nullable(columns)?)
 }

@@ -15,7 +15,7 @@ use crate::pipeline::context::Context;
 use crate::records::implausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
 use crate::records::rotation::{Component, pairs};
-use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
+use crate::records::{ReadOptions, RecordFileError, RecordedMotion, is_vertical, read_records};
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
@@ -176,6 +176,11 @@ impl Importer {
             if several && motion.event.is_none() && motion.station.is_none() {
                 // The columns of a table are of one instrument.
                 motion.station = Some(name.clone());
+            }
+            // A file without a direction may have it at the end of its name: ABC-UP.AT2.
+            let last = name.rsplit(['-', '_', '.', ' ']).next().unwrap_or_default();
+            if !several && motion.azimuth_deg.is_none() && last != name && is_vertical(last) {
+                motion.component = Some(last.to_string());
             }
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {

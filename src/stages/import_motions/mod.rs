@@ -17,7 +17,7 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
 use crate::motion::MeasurePlan;
-use crate::number::significant;
+use crate::number::{counted, significant};
 use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
@@ -182,12 +182,8 @@ impl Stage for ImportMotions {
         }
         if summary.is_empty() || !refused.is_empty() && !self.keep_going {
             let others = if summary.is_empty() { "" } else { "\n--keep-going imports the others" };
-            anyhow::bail!(
-                "{} of {} files cannot be imported:\n{}{others}",
-                refused.len(),
-                importer.files.len(),
-                refused.join("\n")
-            );
+            let records = counted(refused.len(), "record");
+            anyhow::bail!("{records} cannot be imported:\n{}{others}", refused.join("\n"));
         }
         context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
         let summary = summary.text(importer.left_out());

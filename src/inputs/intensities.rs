@@ -1,0 +1,79 @@
+//! Tables of intensities: peaks under headings with their units, and what else is known of each motion.
+
+use std::path::Path;
+
+use super::hazard::peak;
+use super::objects::describes_object;
+use super::words::means;
+use super::{Grid, Heading, InputError, Renames};
+use crate::fragility::Peak;
+
+/// The cells of a column.
+pub enum Cells {
+    /// None where a cell is empty.
+    Numbers(Vec<Option<f64>>),
+    Texts(Vec<String>),
+}
+
+/// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
+pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, Cells)>, InputError> {
+    let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
+    grid.and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
+}
+
+fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
+    if let Some(heading) = grid.headings.iter().find(|heading| describes_object(heading)) {
+        let found = format!("column '{}', which describes an object", heading.text);
+        let expected = "peaks, mw, p_rad_s, alpha_rad and eta: describe one object by options, or list objects \
+                        in --structures";
+        return Err(InputError::missing(found, expected));
+    }
+    if grid.headings.is_empty() || grid.lines.is_empty() {
+        let found = format!("{} rows under {}", grid.lines.len(), grid.found());
+        return Err(InputError::missing(found, "intensities under pga_g and pgv_m_s"));
+    }
+    let mut columns = Vec::new();
+    for (at, heading) in grid.headings.iter().enumerate() {
+        let rows = 0..grid.lines.len();
+        let numbers = rows.clone().map(|row| match grid.cell(row, at) {
+            "" => Ok(None),
+            _ => grid.number(row, at).map(Some),
+        });
+        let cells = match numbers.collect() {
+            Ok(numbers) => Cells::Numbers(numbers),
+            Err(error) if peak(heading).is_some() => return Err(error),
+            Err(_) => Cells::Texts(rows.map(|row| grid.cell(row, at).to_string()).collect()),
+        };
+        let name = match heading.name.as_str() {
+            name if means(name, "magnitude") => "mw",
+            "p" => "p_rad_s",
+            "alpha" => "alpha_rad",
+            "tp" => "tp_s",
+            "tm" => "tm_s",
+            _ => &heading.text,
+        };
+        columns.push((name.to_string(), cells));
+    }
+    Ok(columns)
+}
+
+/// Finds the column of a peak by its name, and its unit in m/s2 or m/s.
+pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64), InputError> {
+    let (own, expected) = match wanted {
+        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING renames one"),
+        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING renames one"),
+    };
+    let mut found = Vec::new();
+    for name in names {
+        if let Some((_, unit)) = peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted) {
+            found.push((*name, unit));
+        }
+    }
+    match (found.iter().find(|(name, _)| *name == own), &found[..]) {
+        (Some(column), _) | (None, [column]) => Ok(*column),
+        (None, []) => Err(InputError::missing(format!("columns {}", names.join(", ")), expected)),
+        (None, [(first, _), (second, _), ..]) => {
+            Err(InputError::missing(format!("columns {first} and {second}"), "one of them"))
+        }
+    }
+}
