@@ -19,4 +19,4 @@ pub use changes::Changed;
 pub use field::Field;
 pub use given::{Object, Place, Reason, Restitution, Shape};
 pub use sides::Side;
-pub use subject::{Change, Part, Subject, Unknown, structure_warnings};
+pub use subject::{Change, Part, SD_OF_PERIOD, Subject, Unknown, structure_warnings};

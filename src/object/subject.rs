@@ -103,7 +103,7 @@ pub enum Change {
 }
 
 /// Standard deviation of the logarithm of a building's period that is not given.
-const SD_OF_PERIOD: f64 = 0.25;
+pub const SD_OF_PERIOD: f64 = 0.25;
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
 

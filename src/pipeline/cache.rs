@@ -46,7 +46,7 @@ pub fn freshness(plan: &Plan) -> Result<Provenance, String> {
 }
 
 /// Returns the name of a further file of the one at `path` that has not its hash.
-fn changed<'a>(path: &Path, (name, hash): (&'a String, &String)) -> Option<&'a str> {
+pub fn changed<'a>(path: &Path, (name, hash): (&'a String, &String)) -> Option<&'a str> {
     let bytes = std::fs::read(path.with_file_name(name));
     let is_same = bytes.is_ok_and(|bytes| *blake3::hash(&bytes).to_hex() == **hash);
     (!is_same).then_some(name)
@@ -71,6 +71,7 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
         Err(changed) => changed.into(),
         Ok(()) => error,
     })?;
+    context.persist()?;
     Ok(Done { summary, warnings: context.warnings(), ran: true, keys })
 }
 

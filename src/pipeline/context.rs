@@ -18,7 +18,7 @@ use crate::table::keys::{read_file, resolved};
 use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
 use crate::table::rows::{self, Row};
-use crate::table::writer::{TableWriter, write_file};
+use crate::table::writer::{TableWriter, Written};
 use crate::warning::Warnings;
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
@@ -118,6 +118,7 @@ pub struct Context {
     pub observed: Arc<Observed>,
     plan: Arc<Plan>,
     warnings: Arc<Mutex<Warnings>>,
+    written: Arc<Mutex<Vec<Written>>>,
 }
 
 impl Context {
@@ -127,7 +128,8 @@ impl Context {
 
     /// Returns the context of a planned call.
     pub fn begin(&self, plan: Plan) -> Context {
-        Context { plan: Arc::new(plan), warnings: Arc::default(), ..self.clone() }
+        let (warnings, written) = Default::default();
+        Context { plan: Arc::new(plan), warnings, written, ..self.clone() }
     }
 
     /// Returns what is made, before it has a text.
@@ -152,7 +154,21 @@ impl Context {
     /// Ends a table with its [`Context::provenance`].
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let made = self.provenance(writer.path(), summary)?;
-        writer.finish(&made)
+        self.keep(writer.finish(&made)?);
+        Ok(())
+    }
+
+    /// Keeps a file until the stage ends: one that fails leaves nothing.
+    fn keep(&self, written: Written) {
+        if let Ok(mut all) = self.written.lock() {
+            all.push(written);
+        }
+    }
+
+    /// Gives all files that were written their names.
+    pub fn persist(&self) -> Result<(), TableError> {
+        let written = self.written.lock().map(|mut all| std::mem::take(&mut *all)).unwrap_or_default();
+        written.into_iter().try_for_each(Written::persist)
     }
 
     /// Returns the provenance of a finished output. A changed input is an error.
@@ -173,16 +189,20 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table, unless one of another program is there. One with the same content
-    /// stays untouched.
-    pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
-        if path.exists() && !self.common.force && !is_ours(path, content) {
-            return Err(TableError::not_ours(path).into());
+    /// Writes a file that is no table, unless one of another program is there.
+    pub fn write_file(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
+        match path.exists() && !self.common.force && !is_ours(path, content) {
+            true => Err(TableError::not_ours(path)),
+            false => self.replace(path, content),
         }
-        match std::fs::read(path) {
-            Ok(there) if there == content => Ok(()),
-            _ => Ok(write_file(path, content)?),
+    }
+
+    /// Writes a file. One with the same content stays untouched.
+    pub fn replace(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
+        if !std::fs::read(path).is_ok_and(|there| there == content) {
+            self.keep(Written::new(path, content)?);
         }
+        Ok(())
     }
 
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {

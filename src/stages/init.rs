@@ -7,7 +7,7 @@ use chrono::Local;
 use clap::ValueEnum;
 
 use crate::pipeline::UsageError;
-use crate::table::writer::write_new;
+use crate::table::writer::Written;
 
 /// What a folder starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -48,11 +48,13 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
             "{path}: is there already; choose another folder with --out"
         )));
     }
-    let mut text = String::new();
-    for (path, content) in &files {
+    let (mut text, today) = (String::new(), Local::now().date_naive().to_string());
+    let written =
+        files.iter().map(|(path, text)| Written::new(path, text.replace("TODAY", &today).as_bytes()));
+    let written = written.collect::<Result<Vec<_>, _>>()?;
+    for ((path, _), written) in files.iter().zip(written) {
         // A file that came meanwhile is left as it is.
-        let content = content.replace("TODAY", &Local::now().date_naive().to_string());
-        write_new(path, content.as_bytes())?;
+        written.persist_new()?;
         writeln!(text, "wrote {}", path.display())?;
     }
     let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };

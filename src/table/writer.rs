@@ -45,13 +45,13 @@ impl TableWriter {
         self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
     }
 
-    /// Ends the table and renames it.
-    pub fn finish(mut self, made: &Provenance) -> Result<(), TableError> {
+    /// Ends the table.
+    pub fn finish(mut self, made: &Provenance) -> Result<Written, TableError> {
         let checksums = self.checksums().map_err(|cause| cannot_write(&self.path, cause))?;
         self.writer.append_key_value_metadata(checksums);
         self.writer.append_key_value_metadata(made.key_value());
         let partial = self.writer.into_inner().map_err(|cause| cannot_write(&self.path, cause))?;
-        persist(partial, &self.path)
+        Written::synced(partial, &self.path)
     }
 
     /// Computes the checksums of all rows, once these are in the file.
@@ -62,29 +62,35 @@ impl TableWriter {
     }
 }
 
-/// Writes a small file atomically.
-pub fn write_file(path: &Path, content: &[u8]) -> Result<(), TableError> {
-    persist(partial_with(path, content)?, path)
+/// A whole file under its temporary name, which goes with it unless it gets its own.
+pub struct Written {
+    partial: NamedTempFile,
+    path: PathBuf,
 }
 
-/// Writes a small file atomically, unless something is there already.
-pub fn write_new(path: &Path, content: &[u8]) -> Result<(), TableError> {
-    let partial = partial_with(path, content)?;
-    partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
-    partial.persist_noclobber(path).map_err(|refused| cannot_write(path, refused.error))?;
-    Ok(())
-}
+impl Written {
+    pub fn new(path: &Path, content: &[u8]) -> Result<Written, TableError> {
+        let mut partial = partial_beside(path)?;
+        partial.write_all(content).map_err(|source| cannot_write(path, source))?;
+        Written::synced(partial, path)
+    }
 
-fn partial_with(path: &Path, content: &[u8]) -> Result<NamedTempFile, TableError> {
-    let mut partial = partial_beside(path)?;
-    partial.write_all(content).map_err(|source| cannot_write(path, source))?;
-    Ok(partial)
-}
+    fn synced(partial: NamedTempFile, path: &Path) -> Result<Written, TableError> {
+        partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
+        Ok(Written { partial, path: path.to_path_buf() })
+    }
 
-fn persist(partial: NamedTempFile, path: &Path) -> Result<(), TableError> {
-    partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
-    partial.persist(linked(path)).map_err(|refused| cannot_write(path, refused.error))?;
-    Ok(())
+    /// Gives it its name.
+    pub fn persist(self) -> Result<(), TableError> {
+        let renamed = self.partial.persist(linked(&self.path));
+        renamed.map(drop).map_err(|refused| cannot_write(&self.path, refused.error))
+    }
+
+    /// Gives it its name, unless something is there already.
+    pub fn persist_new(self) -> Result<(), TableError> {
+        let renamed = self.partial.persist_noclobber(&self.path);
+        renamed.map(drop).map_err(|refused| cannot_write(&self.path, refused.error))
+    }
 }
 
 /// Returns what a link points to, whether it is there or not; any other path as it is.

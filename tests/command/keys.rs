@@ -105,6 +105,16 @@ fn a_run_is_kept_where_it_goes_and_made_anew_where_a_file_is_missing() {
     fs::rename(moved.join("out/paper.parquet"), moved.join("out/renamed.parquet")).unwrap();
     assert!(!is_kept(&moved, "report --in out"), "a table was renamed");
     fs::rename(moved.join("out/renamed.parquet"), moved.join("out/paper.parquet")).unwrap();
+    let (responses, away) = (moved.join("out/responses.parquet"), moved.join("responses.parquet"));
+    fs::rename(&responses, &away).unwrap();
+    fs::write(moved.join("out/report/mine.svg"), "a drawing").unwrap();
+    succeed(&moved, "report --in out");
+    let page = fs::read_to_string(moved.join("out/report.html")).unwrap();
+    let there = fs::read_dir(moved.join("out/report")).unwrap();
+    let mut strays: Vec<_> = there.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
+    strays.retain(|name| !page.contains(name));
+    assert_eq!(strays, ["mine.svg"], "figures that are no more go, those of another program stay");
+    fs::rename(&away, &responses).unwrap();
     // The parts of a stage are told apart.
     let (main, part) = (moved.join("out/pro.parquet"), moved.join("out/pro.parameters.parquet"));
     let fit = "fit-pro --in out/responses.parquet --out out/pro.parquet";
@@ -153,6 +163,20 @@ fn the_word_paper_is_no_folder_and_a_path_may_be_written_in_two_ways() {
     assert!(!plan.contains(": run"), "{plan}");
     let (plan, _) = succeed(folder.path(), "run w/pipeline.yaml --seed 5 --dry-run");
     assert!(plan.contains("simulate: run"), "{plan}");
+}
+
+#[test]
+fn an_option_stated_at_its_default_changes_nothing() {
+    let folder = folder(&[]);
+    let call = format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --period 0.5 --level 0.5 --out e.parquet");
+    for stated in ["--years 50", "--period-sd 0.25", "--centre-offset 0", "--centre-height-sd 0"] {
+        succeed(folder.path(), &format!("{call} --force"));
+        let plain = fs::read(folder.path().join("e.parquet")).unwrap();
+        assert!(is_kept(folder.path(), &format!("{call} {stated}")), "{stated}");
+        succeed(folder.path(), &format!("{call} {stated} --force"));
+        assert_eq!(fs::read(folder.path().join("e.parquet")).unwrap(), plain, "{stated}");
+    }
+    assert!(!is_kept(folder.path(), &format!("{call} --period-sd 0.26")));
 }
 
 #[test]

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::number::counted;
+use crate::pipeline::cache::changed;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
 use crate::pipeline::{Stage, UsageError};
@@ -21,7 +22,6 @@ use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::TableError;
 use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
-use crate::table::writer::write_file;
 use tables::Tables;
 
 /// Write a page with tables and figures of everything in a folder, or of files
@@ -102,7 +102,8 @@ impl Stage for Report {
         let files =
             figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
         let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        write_figures(&page, &files, context)?;
+        let former = Provenance::read(&page).ok().flatten().map(|made| made.further).unwrap_or_default();
+        write_figures(&page, &files, &former, context)?;
         made.further = hashes(&page, &files);
         let whole = page::page(&tables, head, others, notes)?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
@@ -110,11 +111,18 @@ impl Stage for Report {
         let key = made.json();
         let html = Page { title, byline, key, ..whole }.html();
         context.write_file(&page, html.as_bytes())?;
+        // Figures of the former page that are no more, unless another program has changed them.
+        for gone in former.iter().filter(|(name, _)| !made.further.contains_key(*name)) {
+            if changed(&page, gone).is_none() {
+                let _ = std::fs::remove_file(page.with_file_name(gone.0));
+            }
+        }
         Ok(summary)
     }
 }
 
 type Files = Vec<(PathBuf, Vec<u8>)>;
+type Hashes = BTreeMap<String, String>;
 
 fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::Result<Files> {
     let svg = svg(figure, &made.json());
@@ -123,21 +131,21 @@ fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::R
     Ok(files.map(|(ending, content)| (stem.with_added_extension(ending), content)).to_vec())
 }
 
-/// Writes the files of the figures, unless one is there that neither the page has written nor rockfrag.
-fn write_figures(page: &Path, files: &Files, context: &Context) -> anyhow::Result<()> {
-    let known = Provenance::read(page).ok().flatten().map(|made| made.further).unwrap_or_default();
+/// Writes the files of the figures, unless one is there that neither the `former` page has written nor
+/// rockfrag.
+fn write_figures(page: &Path, files: &Files, former: &Hashes, context: &Context) -> anyhow::Result<()> {
     for (path, content) in files {
         let there = std::fs::read(path).map(|there| (path.clone(), there)).into_iter().collect();
-        let is_known = hashes(page, &there).iter().all(|(name, hash)| known.get(name) == Some(hash));
+        let is_known = hashes(page, &there).iter().all(|(name, hash)| former.get(name) == Some(hash));
         if !context.common.force && !is_known && !is_ours(path, content) {
             return Err(TableError::not_ours(path).into());
         }
     }
-    files.par_iter().try_for_each(|(path, content)| Ok(write_file(path, content)?))
+    files.par_iter().try_for_each(|(path, content)| Ok(context.replace(path, content)?))
 }
 
 /// The hashes of files by their names beside the page.
-fn hashes(page: &Path, files: &Files) -> BTreeMap<String, String> {
+fn hashes(page: &Path, files: &Files) -> Hashes {
     let folder = page.parent().unwrap_or(Path::new(""));
     let name = |path: &Path| path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
     files.iter().map(|(path, content)| (name(path), blake3::hash(content).to_hex().to_string())).collect()

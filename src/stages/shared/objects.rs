@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::inputs::Renames;
 use crate::inputs::objects::{self, Common};
-use crate::object::{Field, Object, Place, Restitution, Shape, structure_warnings};
+use crate::object::{Field, Object, Place, Restitution, SD_OF_PERIOD, Shape, structure_warnings};
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
@@ -16,6 +16,15 @@ use crate::warning::{UNNAMED, Warning, Warnings};
 /// Returns a parser of a number that may be known of an object.
 fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| field.parse_value(text)
+}
+
+/// Whether an option says what its absence says.
+fn is_zero(value: &Option<f64>) -> bool {
+    value.is_none_or(|value| value == 0.0)
+}
+
+fn is_sd_of_period(value: &Option<f64>) -> bool {
+    value.is_none_or(|value| value == SD_OF_PERIOD)
 }
 
 /// A structure: its dimensions, or p, alpha and eta.
@@ -38,6 +47,7 @@ pub struct ShapeArgs {
     /// Distance of the centre of mass from the middle of the width, m [default: 0]
     #[arg(long, value_name = "M", requires = "width", allow_negative_numbers = true,
           value_parser = field(Field::CentreOffset))]
+    #[serde(skip_serializing_if = "is_zero")]
     centre_offset: Option<f64>,
     /// Moment of inertia about the centre of mass, per unit mass, m2 [default: that of a solid block]
     #[arg(long, value_name = "M2", requires = "height", value_parser = field(Field::Inertia))]
@@ -88,6 +98,7 @@ pub struct PlaceArgs {
     level: Option<f64>,
     /// Standard deviation of ln(period) [default: 0.25]
     #[arg(long, value_name = "SD", requires = "on_floor", value_parser = field(Field::PeriodSd))]
+    #[serde(skip_serializing_if = "is_sd_of_period")]
     period_sd: Option<f64>,
     /// Coefficient of friction; if tan(alpha) exceeds it, the object slides
     #[arg(long, value_name = "MU", value_parser = field(Field::Friction))]
@@ -97,9 +108,11 @@ pub struct PlaceArgs {
     eta_sd: Option<f64>,
     /// Standard deviation of the height of the centre of mass, m
     #[arg(long, value_name = "M", value_parser = field(Field::CentreHeightSd))]
+    #[serde(skip_serializing_if = "is_zero")]
     centre_height_sd: Option<f64>,
     /// Standard deviation of the offset of the centre of mass, m
     #[arg(long, value_name = "M", value_parser = field(Field::CentreOffsetSd))]
+    #[serde(skip_serializing_if = "is_zero")]
     centre_offset_sd: Option<f64>,
 }
 
