@@ -31,6 +31,13 @@ pub struct Comparison {
 }
 
 /// Compares fits of the paper's structures with all that the paper publishes.
+///
+/// ```
+/// use rockfrag::studies::paper::{Comparison, compare};
+/// // Without fits of ours, what is published stands alone.
+/// let compared: Vec<Comparison> = compare(&[], &[]);
+/// assert!(compared.iter().any(|row| row.quantity == "low_b1" && row.ours.is_none()));
+/// ```
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let seeds = seed_values();
     let compared = published().into_iter().map(|number| {

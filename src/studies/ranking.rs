@@ -113,6 +113,29 @@ enum Model {
 }
 
 /// Ranks all sets of up to `rules.terms` measures, those of Eq. 13 and candidates.
+///
+/// ```
+/// use rockfrag::fragility::{Case, Cases, Cluster};
+/// use rockfrag::motion::{IntensityMeasures, Peaks};
+/// use rockfrag::rocking::{Outcome, Structure};
+/// use rockfrag::studies::{RankedSet, RankingRules, Target, rank_measures};
+///
+/// // Sixty responses in ten earthquakes, whose demands go with PGA.
+/// let block = Structure::new("block", 2.5, 0.2, 0.92)?;
+/// let mut cases = Cases::new(None, block.clone());
+/// for k in 0..60 {
+///     let [k, shape] = [k, k % 7].map(f64::from);
+///     let peaks = Peaks { pga_m_s2: 2.0 + 0.1 * k, pgv_m_s: 0.3 + 0.1 * shape };
+///     let measures = IntensityMeasures::new(&block, peaks, None, None);
+///     let outcome = Outcome::SafeRocking(0.01 * measures.im4.powi(2) * (1.0 + 0.1 * (k % 3.0)));
+///     let earthquake = Cluster::new(None, Some(6.5), Some(1.0 + k % 10.0));
+///     cases.push(Case { outcome, measures, peaks, mw: None, cluster: 0 }, earthquake);
+/// }
+/// let rules = RankingRules { terms: 1, folds: 10, transition: 1.3 };
+/// let RankedSet { measures, rank, .. } = &rank_measures(&cases, Target::Demand, &rules).sets[0];
+/// assert_eq!((measures.as_str(), *rank), ("im4", 1));
+/// # Ok::<(), rockfrag::rocking::StructureError>(())
+/// ```
 pub fn rank_measures(cases: &Cases, target: Target, rules: &RankingRules) -> Ranking {
     let (contest, incomplete) = Contest::new(cases, target, rules.transition);
     let folds = Folds::new(&contest.clusters, rules.folds);
