@@ -7,7 +7,8 @@ use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind};
 use super::tree::{GivenRocking, Probabilities, UNKNOWN, independent_failure, p_no_rocking};
-use crate::motion::{Floor, IntensityMeasures};
+use crate::motion::{Floor, IntensityMeasures, Suite};
+use crate::number::counted;
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
 use crate::warning::Warning;
@@ -114,6 +115,31 @@ impl Model {
         match self {
             Model::Calibrated { floor, .. } => *floor,
             Model::Paper { .. } => None,
+        }
+    }
+
+    /// Returns what predicts, in words.
+    pub fn words(&self) -> String {
+        match self {
+            Model::Calibrated { overturning, .. } => {
+                let Calibration { n, structure, kind, suite, .. } = overturning;
+                let (n, motions) = (*n as usize, kind.words());
+                let place = if Suite::is_floor(suite.as_deref()) { " of a floor" } else { "" };
+                let calibrated = match n {
+                    0 => " for".to_string(),
+                    _ if overturning.is_of_outcomes() => {
+                        format!(", calibrated on {}, for", counted(n, "observed outcome"))
+                    }
+                    _ => format!(", calibrated on {} of {structure} to", counted(n, "response")),
+                };
+                format!("rockfrag's universal surface{calibrated} {motions}{place}")
+            }
+            Model::Paper { overturning: CurveFit { n, structure, .. }, .. } => {
+                let (responses, motions) = (counted(*n as usize, "response"), self.kind().words());
+                format!(
+                    "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
+                )
+            }
         }
     }
 

@@ -36,6 +36,16 @@ impl Kind {
             Some(Suite::Record) | None => Kind::Recorded,
         }
     }
+
+    /// Returns the motions, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Kind::Recorded => "recorded motions",
+            Kind::Csgm => "synthetic near-fault motions on rock",
+            Kind::Pulse => "synthetic pulses alone",
+            Kind::Hfc => "synthetic motions without a pulse",
+        }
+    }
 }
 
 /// The surface for one structure, limit state, calibration and magnitude: a function of IM4 and of

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::shared::model_args::{ModelArgs, words_of};
+use super::shared::model_args::ModelArgs;
 use super::shared::objects::{StructureArgs, named};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
@@ -162,7 +162,7 @@ impl Export {
         let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
         Function {
             id: format!("{id}_{}", self.over),
-            description: format!("{}{directions}, by {}", object.name, words_of(model)),
+            description: format!("{}{directions}, by {}", object.name, model.words()),
             peak: self.over,
             probabilities,
             end_of_data: end,

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{Kind, Peak};
-use crate::hazard::{Fragility, VelocitySource};
+use crate::fragility::{Direction, Kind, Peak};
+use crate::hazard::{Budget, Fragility, Lognormal, SiteRates, VelocitySource, probability_in_years};
 use crate::keyword::Keyword;
-use crate::object::Part;
+use crate::object::{Object, Part};
 use crate::statistics::Limited;
 use crate::warning::Warning;
 
@@ -50,6 +50,32 @@ pub struct ObjectRow {
     pub is_friction_known: bool,
 }
 
+impl ObjectRow {
+    /// Makes the row of an object and, if it has an answer, of the structure and model that predict for it.
+    pub fn new(object: &Object, by: Option<&Direction>, limit_state: f64) -> ObjectRow {
+        let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
+        let structure = by.map(|direction| &direction.structure);
+        ObjectRow {
+            structure: object.name.clone(),
+            width_m: shape.width,
+            depth_m: shape.depth,
+            height_m: shape.height,
+            floor_period_s: floor.map(|floor| floor.period_s),
+            floor_level: floor.map(|floor| floor.level),
+            count: object.count.map(f64::from),
+            p_rad_s: structure.map(|structure| structure.p_rad_s),
+            alpha_rad: structure.map(|structure| structure.alpha_rad),
+            eta: structure.map(|structure| structure.eta),
+            friction: structure.map(|structure| structure.alpha_rad.tan()),
+            model: by.map(|direction| direction.model.words()),
+            motions: by.map(|direction| direction.model.kind()),
+            limit_state: by.map(|_| limit_state),
+            kind: shape.kind(),
+            is_friction_known: object.place.friction.is_some(),
+        }
+    }
+}
+
 /// Annual rates of an object, and probabilities in the time of exposure. Where the hazard ends too early for
 /// a value there is a range alone, in the columns of limits.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -71,12 +97,41 @@ pub struct RatesRow {
     pub share_extrapolated: Option<f64>,
     pub counted_motions: Option<i64>,
     pub counted_per_year: Limited,
-    /// Widths of the base that meet the target by the estimate and by its upper limit.
+    pub bases: TargetBases,
+}
+
+/// Bases that meet a target, by the estimate of the rate and by its upper limit: the width beside the depth
+/// that the object has or, where that depth is what is too small, the least of both sides.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TargetBases {
     pub target_width_m: Option<f64>,
     pub target_width_m_high: Option<f64>,
-    /// Where the depth is what is too small: the least of both sides.
     pub target_sides_m: Option<f64>,
     pub target_sides_m_high: Option<f64>,
+}
+
+impl RatesRow {
+    pub fn new(rates: &SiteRates, years: f64, bases: TargetBases) -> RatesRow {
+        let counted = rates.counted.as_ref();
+        let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
+        RatesRow {
+            rocking_per_year: rocking,
+            failure_per_year: failure,
+            overturning_per_year: overturning,
+            return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
+            years: Some(years),
+            p_rocking: rocking.map(|rate| probability_in_years(rate, years)),
+            p_failure: failure.map(|rate| probability_in_years(rate, years)),
+            p_overturning: overturning.map(|rate| probability_in_years(rate, years)),
+            is_range: overturning.low.map(|_| overturning.value.is_none()),
+            velocity_by: rates.velocity,
+            share_extrapolated: rates.beyond,
+            counted_motions: counted.map(|rate| rate.motions as i64),
+            counted_per_year: counted.map(|rate| rate.annual_rate.into()).unwrap_or_default(),
+            bases,
+        }
+    }
 }
 
 /// The warnings about an answer, and the parts of the error of overturning: standard deviations of ln of its
@@ -97,6 +152,21 @@ pub struct DoubtsRow {
 }
 
 impl DoubtsRow {
+    pub fn new(warnings: &[Warning], budget: &Budget) -> DoubtsRow {
+        let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
+        DoubtsRow {
+            warnings: (!texts.is_empty()).then(|| texts.join("; ")),
+            error_fit: budget.part_sd(Part::Fit),
+            error_magnitude: budget.part_sd(Part::Magnitude),
+            error_velocity: budget.part_sd(Part::Velocity),
+            error_eta: budget.part_sd(Part::Eta),
+            error_object: budget.part_sd(Part::Object),
+            error_floor: budget.part_sd(Part::Floor),
+            error_hazard: budget.part_sd(Part::Hazard),
+            error_largest: budget.largest(),
+        }
+    }
+
     /// The standard deviations of what is unknown, by part.
     pub fn part_sds(&self) -> Vec<(Part, f64)> {
         let sds = Part::ALL.iter().map(|part| {
@@ -131,6 +201,32 @@ pub struct FragilityRow {
     pub overturning_error: Option<f64>,
     #[serde(skip)]
     pub curve: Option<Fragility>,
+}
+
+impl FragilityRow {
+    pub fn new(fragility: Fragility) -> FragilityRow {
+        let (_, unit, _) = fragility.over.words();
+        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
+            at_16: of.at_16.map(|intensity| intensity / unit),
+            theta: of.theta.map(|intensity| intensity / unit),
+            at_84: of.at_84.map(|intensity| intensity / unit),
+            ..of
+        });
+        FragilityRow {
+            over: Some(fragility.over),
+            failure_16: failure.at_16,
+            failure_theta: failure.theta,
+            failure_84: failure.at_84,
+            failure_beta: failure.beta,
+            failure_error: failure.largest_error,
+            overturning_16: overturning.at_16,
+            overturning_theta: overturning.theta,
+            overturning_84: overturning.at_84,
+            overturning_beta: overturning.beta,
+            overturning_error: overturning.largest_error,
+            curve: Some(fragility),
+        }
+    }
 }
 
 /// A point of the fragility curve of an object: the shares of the motions of an intensity.

@@ -7,7 +7,6 @@ use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::{PERCENT, count, significant};
 use crate::object::Part;
 use crate::rocking::Structure;
-use crate::stages::shared::model_args::words_of_kind;
 use crate::units::G_M_S2;
 
 /// Explains the answer for a structure; `motion` is the one that matters.
@@ -54,9 +53,11 @@ pub fn explained(model: &Model, structure: &Structure, motion: Peaks, budget: &B
     for kind in Kind::ALL.iter().filter(|_| limit_state.is_some()) {
         let shipped = Model::shipped(*kind, structure, limit_state.unwrap_or_default());
         let given = shipped.probabilities(structure, &measures, None, Scenarios::One).given_rocking;
-        others.extend(given.map(|given| {
-            format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), words_of_kind(*kind))
-        }));
+        others.extend(
+            given.map(|given| {
+                format!("{} by the surface for {}", PERCENT.one(given.p_ro.value), kind.words())
+            }),
+        );
     }
     if !others.is_empty() {
         lines.push(("overturning:", others.join(", ")));
@@ -73,6 +74,6 @@ fn calibration(of: &Calibration) -> String {
             format!("; {events} events in {n} responses of {clusters} clusters")
         }
     };
-    let (c, s, kind, m, tau) = (of.c, of.ln_s.exp(), words_of_kind(of.kind), of.m, of.tau);
+    let (c, s, kind, m, tau) = (of.c, of.ln_s.exp(), of.kind.words(), of.m, of.tau);
     format!("logit P = {c:.2} + {s:.2} logit P of the surface ({kind}) + {m:.2} (M - 6.9); tau {tau:.2}{fit}")
 }

@@ -11,32 +11,6 @@ use crate::statistics::{Estimate, Limited};
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 use crate::units::G_M_S2;
 
-impl FragilityRow {
-    pub fn new(fragility: Fragility) -> FragilityRow {
-        let (_, unit, _) = fragility.over.words();
-        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
-            at_16: of.at_16.map(|intensity| intensity / unit),
-            theta: of.theta.map(|intensity| intensity / unit),
-            at_84: of.at_84.map(|intensity| intensity / unit),
-            ..of
-        });
-        FragilityRow {
-            over: Some(fragility.over),
-            failure_16: failure.at_16,
-            failure_theta: failure.theta,
-            failure_84: failure.at_84,
-            failure_beta: failure.beta,
-            failure_error: failure.largest_error,
-            overturning_16: overturning.at_16,
-            overturning_theta: overturning.theta,
-            overturning_84: overturning.at_84,
-            overturning_beta: overturning.beta,
-            overturning_error: overturning.largest_error,
-            curve: Some(fragility),
-        }
-    }
-}
-
 impl Predicted for FragilityRow {
     fn overturning(&self) -> Limited {
         self.overturning_theta

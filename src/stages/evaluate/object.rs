@@ -6,9 +6,9 @@ use super::explain::explained;
 use crate::fragility::{Direction, Model};
 use crate::hazard::Budget;
 use crate::motion::Peaks;
-use crate::object::{Object, Part, Subject};
+use crate::object::{Object, Subject};
 use crate::pipeline::context::Context;
-use crate::stages::shared::model_args::{Models, words_of};
+use crate::stages::shared::model_args::Models;
 use crate::statistics::Limited;
 use crate::table::answers::{Answer, DoubtsRow, ObjectRow};
 use crate::table::rows::Row;
@@ -23,47 +23,6 @@ pub trait Predicted: Row + Default + Send + Sync {
     fn severity(&self) -> f64 {
         let rate = self.overturning();
         rate.value.or(rate.high).unwrap_or(f64::NEG_INFINITY)
-    }
-}
-
-/// The row of an object and, if it has an answer, of the structure and the model that predict for it.
-fn object_row(object: &Object, by: Option<&Direction>, limit_state: f64) -> ObjectRow {
-    let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
-    let structure = by.map(|direction| &direction.structure);
-    ObjectRow {
-        structure: object.name.clone(),
-        width_m: shape.width,
-        depth_m: shape.depth,
-        height_m: shape.height,
-        floor_period_s: floor.map(|floor| floor.period_s),
-        floor_level: floor.map(|floor| floor.level),
-        count: object.count.map(f64::from),
-        p_rad_s: structure.map(|structure| structure.p_rad_s),
-        alpha_rad: structure.map(|structure| structure.alpha_rad),
-        eta: structure.map(|structure| structure.eta),
-        friction: structure.map(|structure| structure.alpha_rad.tan()),
-        model: by.map(|direction| words_of(&direction.model)),
-        motions: by.map(|direction| direction.model.kind()),
-        limit_state: by.map(|_| limit_state),
-        kind: shape.kind(),
-        is_friction_known: object.place.friction.is_some(),
-    }
-}
-
-impl DoubtsRow {
-    pub fn new(warnings: &[Warning], budget: &Budget) -> DoubtsRow {
-        let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
-        DoubtsRow {
-            warnings: (!texts.is_empty()).then(|| texts.join("; ")),
-            error_fit: budget.part_sd(Part::Fit),
-            error_magnitude: budget.part_sd(Part::Magnitude),
-            error_velocity: budget.part_sd(Part::Velocity),
-            error_eta: budget.part_sd(Part::Eta),
-            error_object: budget.part_sd(Part::Object),
-            error_floor: budget.part_sd(Part::Floor),
-            error_hazard: budget.part_sd(Part::Hazard),
-            error_largest: budget.largest(),
-        }
     }
 }
 
@@ -90,7 +49,7 @@ pub fn answers<R: Predicted>(
         bar.advance(1)?;
         if let Err(reason) = object.sides() {
             let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
-            let object = object_row(object, None, models.args.limit_state);
+            let object = ObjectRow::new(object, None, models.args.limit_state);
             return Ok(Answer { object, doubts, ..Answer::default() });
         }
         let (subject, mut warnings) = models.subject(object)?;
@@ -107,7 +66,7 @@ pub fn answers<R: Predicted>(
             String::new()
         };
         Ok(Answer {
-            object: object_row(object, Some(weaker), models.args.limit_state),
+            object: ObjectRow::new(object, Some(weaker), models.args.limit_state),
             row: predicted.row,
             doubts: DoubtsRow::new(&warnings, &predicted.errors),
             warnings,

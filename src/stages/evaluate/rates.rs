@@ -3,41 +3,14 @@
 use std::path::Path;
 
 use super::object::Predicted;
-use super::target::{Base, Bases};
 use super::words::{about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity};
 use crate::fragility::Peak;
-use crate::hazard::{Hazard, PeakHazard, Site, SiteRates, VelocitySource, probability_in_years};
+use crate::hazard::{Hazard, PeakHazard, Site, VelocitySource, probability_in_years};
 use crate::number::{self, PERCENT, RATE, aligned, count, counted, name, period, plain, significant};
 use crate::report::answers::{Expected, NO_RATE, in_years};
 use crate::statistics::Limited;
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
-
-impl RatesRow {
-    pub fn new(rates: &SiteRates, years: f64, bases: Bases) -> RatesRow {
-        let counted = rates.counted.as_ref();
-        let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
-        RatesRow {
-            rocking_per_year: rocking,
-            failure_per_year: failure,
-            overturning_per_year: overturning,
-            return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
-            years: Some(years),
-            p_rocking: rocking.map(|rate| probability_in_years(rate, years)),
-            p_failure: failure.map(|rate| probability_in_years(rate, years)),
-            p_overturning: overturning.map(|rate| probability_in_years(rate, years)),
-            is_range: overturning.low.map(|_| overturning.value.is_none()),
-            velocity_by: rates.velocity,
-            share_extrapolated: rates.beyond,
-            counted_motions: counted.map(|rate| rate.motions as i64),
-            counted_per_year: counted.map(|rate| rate.annual_rate.into()).unwrap_or_default(),
-            target_width_m: bases.by_estimate.and_then(Base::width),
-            target_width_m_high: bases.by_upper_limit.and_then(Base::width),
-            target_sides_m: bases.by_estimate.and_then(Base::both_sides),
-            target_sides_m_high: bases.by_upper_limit.and_then(Base::both_sides),
-        }
-    }
-}
 
 impl Predicted for RatesRow {
     fn overturning(&self) -> Limited {
@@ -102,12 +75,12 @@ fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String 
     if rates.overturning_per_year.value.is_none() {
         return format!("No width for {target} {years}: the hazard curve ends too early (--extrapolate).\n");
     }
-    let depth = object.depth_m.filter(|_| rates.target_width_m.is_none()).map(|depth| {
+    let depth = object.depth_m.filter(|_| rates.bases.target_width_m.is_none()).map(|depth| {
         let depth = number::length(depth);
         format!("No width reaches {target} {years}: it then falls over its depth ({depth} m).\n")
     });
-    let by_limit = base(rates.target_width_m_high, rates.target_sides_m_high);
-    match (base(rates.target_width_m, rates.target_sides_m), depth) {
+    let by_limit = base(rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
+    match (base(rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
         (None, Some(depth)) => depth,
         (None, None) => format!("No width below its height reaches {target} {years}.\n"),
         (Some(by_estimate), depth) => format!(
@@ -139,7 +112,7 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
             PERCENT.limits(rates.p_overturning, ""),
             friction(object),
         ];
-        let base = base(rates.target_width_m, rates.target_sides_m).unwrap_or("-".to_string());
+        let base = base(rates.bases.target_width_m, rates.bases.target_sides_m).unwrap_or("-".to_string());
         cells.extend(target.map(|_| base.replace("both sides", "both")));
         cells
     });

@@ -4,6 +4,7 @@ use crate::hazard::Site;
 use crate::object::{Object, Subject};
 use crate::stages::shared::model_args::Models;
 use crate::statistics::Limited;
+use crate::table::answers::TargetBases;
 
 /// Parses a probability of overturning in the time of exposure, such as 1%.
 pub fn parse(text: &str) -> Result<f64, String> {
@@ -31,42 +32,29 @@ const HALVINGS: usize = 8;
 /// Annual rates count as no less.
 const LEAST: f64 = 1e-12;
 
-/// Bases that meet a target, by the estimate of the rate and by its upper limit.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Bases {
-    pub by_estimate: Option<Base>,
-    pub by_upper_limit: Option<Base>,
-}
-
-/// A base that meets a target, in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Base {
-    /// This width, with the depth that the object has.
-    Width(f64),
-    /// Where the depth is what is too small: with neither side smaller than this.
-    BothSides(f64),
-}
-
-impl Base {
-    pub fn width(self) -> Option<f64> {
-        if let Base::Width(width) = self { Some(width) } else { None }
-    }
-
-    pub fn both_sides(self) -> Option<f64> {
-        if let Base::BothSides(side) = self { Some(side) } else { None }
-    }
-}
-
 /// Finds the bases whose annual rate of overturning is the target, at the same height, rule of eta and
 /// relative offset; none where none within the domain of the surface meets it. `rate` is that of the object
 /// as it is.
-pub fn bases(object: &Object, models: &Models, site: &Site, rate: Limited, target: f64) -> Bases {
+pub fn bases(object: &Object, models: &Models, site: &Site, rate: Limited, target: f64) -> TargetBases {
     let mut searches = vec![Search::new(object, models, site, false)];
     searches.extend(object.shape.depth.map(|_| Search::new(object, models, site, true)));
     let mut searches: Vec<Search> = searches.into_iter().flatten().collect();
-    let by_estimate = searches.iter_mut().find_map(|search| search.by_estimate(target));
-    let by_upper_limit = searches.iter_mut().find_map(|search| search.by_upper_limit(rate, target));
-    Bases { by_estimate, by_upper_limit }
+    let by_estimate =
+        searches.iter_mut().find_map(|search| Some((search.both_sides, search.by_estimate(target)?)));
+    let by_limit = searches
+        .iter_mut()
+        .find_map(|search| Some((search.both_sides, search.by_upper_limit(rate, target)?)));
+    TargetBases {
+        target_width_m: side(by_estimate, false),
+        target_width_m_high: side(by_limit, false),
+        target_sides_m: side(by_estimate, true),
+        target_sides_m_high: side(by_limit, true),
+    }
+}
+
+/// The side that a search over the width found, or one over both sides.
+fn side(found: Option<(bool, f64)>, both_sides: bool) -> Option<f64> {
+    found.filter(|(by_both, _)| *by_both == both_sides).map(|(_, side)| side)
 }
 
 /// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
@@ -111,30 +99,24 @@ impl Search<'_> {
         Some(self.models.subject(&resized).ok()?.0)
     }
 
-    fn base(&self, ln_width: f64) -> Base {
-        if self.both_sides { Base::BothSides(ln_width.exp()) } else { Base::Width(ln_width.exp()) }
-    }
-
-    fn by_estimate(&mut self, target: f64) -> Option<Base> {
-        let found = self.solve(self.own, |_| target.ln())?;
-        Some(self.base(found))
+    fn by_estimate(&mut self, target: f64) -> Option<f64> {
+        Some(self.solve(self.own, |_| target.ln())?.exp())
     }
 
     /// Finds where the upper limit meets the target. By how much it is above the estimate changes little
     /// with width: a line through the last two widths tells it.
-    fn by_upper_limit(&mut self, rate: Limited, target: f64) -> Option<Base> {
+    fn by_upper_limit(&mut self, rate: Limited, target: f64) -> Option<f64> {
         let (mut at, mut above, mut per_ln) =
             (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
         for _ in 0..MOST_SPREADS {
             let next = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
             if (next - at).abs() < CLOSE {
-                return Some(self.base(next));
+                return Some(next.exp());
             }
             let there = self.spread_at(next)?;
             (at, above, per_ln) = (next, there, (there - above) / (next - at));
         }
-        let found = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
-        Some(self.base(found))
+        Some(self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?.exp())
     }
 
     /// ln of the upper limit over the estimate.

@@ -5,7 +5,6 @@ use std::path::Path;
 use crate::number;
 use crate::object::Part;
 use crate::report::answers::words_of_silent;
-use crate::stages::shared::model_args::words_of_kind;
 use crate::table::answers::{Answer, ObjectRow};
 use crate::warning::Warning;
 
@@ -134,10 +133,9 @@ fn is_fitted_each<R>(all: &[Answer<R>]) -> bool {
 pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
     let worst = &all[0].object;
     match worst.motions.filter(|_| is_fitted_each(all)) {
-        Some(kind) if model(worst).contains("surface") => format!(
-            "rockfrag's universal surface, calibrated to the simulated responses ({})",
-            words_of_kind(kind)
-        ),
+        Some(kind) if model(worst).contains("surface") => {
+            format!("rockfrag's universal surface, calibrated to the simulated responses ({})", kind.words())
+        }
         _ => model(worst).to_string(),
     }
 }

@@ -7,7 +7,8 @@ use std::collections::HashSet;
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
 use crate::keyword::{Keyword, keywords};
-use crate::number::{counted, listed};
+use crate::motion::Suite;
+use crate::number::listed;
 use crate::object::{Object, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
@@ -15,7 +16,6 @@ use crate::pipeline::paths::{FitsFolder, Read};
 use crate::rocking::Structure;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
-use crate::stages::shared::responses::is_floor;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
 use crate::warning::Warning;
@@ -177,7 +177,7 @@ impl Models {
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
     pub fn expect_ground(&self) -> anyhow::Result<()> {
-        match self.overturning.iter().any(|row| is_floor(&row.suite)) {
+        match self.overturning.iter().any(|row| Suite::is_floor(row.suite.as_deref())) {
             true => Err(self.refuse(
                 "fits to motions of a floor; expected fits to motions of the ground, with period and level",
             )),
@@ -295,40 +295,4 @@ impl Models {
 /// The structure that a row is about.
 fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
     Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta }
-}
-
-/// What predicts, in words.
-pub fn words_of(model: &Model) -> String {
-    match model {
-        Model::Calibrated { overturning, .. } => {
-            let Calibration { n, structure, kind, suite, .. } = overturning;
-            let place = if is_floor(suite) { " of a floor" } else { "" };
-            let (responses, motions) = (counted(*n as usize, "response"), words_of_kind(*kind));
-            let calibrated = match n {
-                0 => " for".to_string(),
-                _ if overturning.is_of_outcomes() => {
-                    format!(", calibrated on {}, for", counted(*n as usize, "observed outcome"))
-                }
-                _ => format!(", calibrated on {responses} of {structure} to"),
-            };
-            format!("rockfrag's universal surface{calibrated} {motions}{place}")
-        }
-        Model::Paper { overturning: CurveFit { n, structure, suite, .. }, .. } => {
-            let responses = counted(*n as usize, "response");
-            let motions = words_of_kind(Kind::from_suite(suite.as_deref()));
-            format!(
-                "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
-            )
-        }
-    }
-}
-
-/// A kind of motion, in words.
-pub fn words_of_kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Recorded => "recorded motions",
-        Kind::Csgm => "synthetic near-fault motions on rock",
-        Kind::Pulse => "synthetic pulses alone",
-        Kind::Hfc => "synthetic motions without a pulse",
-    }
 }

@@ -119,8 +119,9 @@ const PEAK_TOLERANCE: f64 = 0.1;
 /// Warnings about a recorded motion of the ground.
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     let mut warnings = Warnings::default();
-    let suite = motion.suite.as_deref().unwrap_or_default();
-    if suite.ends_with(Suite::OF_FLOOR) || keyword::parse::<SyntheticSuite>(suite).is_ok() {
+    let suite = motion.suite.as_deref();
+    let is_synthetic = suite.is_some_and(|suite| keyword::parse::<SyntheticSuite>(suite).is_ok());
+    if is_synthetic || Suite::is_floor(suite) {
         return warnings;
     }
     let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());

@@ -32,18 +32,13 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
 /// Reads responses to motions of the ground.
 pub fn read_of_ground(path: &Path) -> anyhow::Result<Vec<Cases>> {
     let all = read(path)?;
-    match all.iter().any(|cases| is_floor(&cases.suite)) {
+    match all.iter().any(|cases| Suite::is_floor(cases.suite.as_deref())) {
         true => {
             let problem = "responses to motions of a floor; expected those of the ground";
             Err(TableError::table(path, problem).into())
         }
         false => Ok(all),
     }
-}
-
-/// Whether a suite is of motions of a floor.
-pub fn is_floor(suite: &Option<String>) -> bool {
-    suite.as_ref().is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
 }
 
 /// Reads responses with candidate measures.
