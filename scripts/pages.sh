@@ -28,8 +28,8 @@ Low chest,120,60,60,0,,no
 CSV
 evaluate --structures objects.csv --target 2% --out list.html
 sed -e 's/,35,90,210,/,50,90,210,/; s/^Vase,22,22,70,0.6/Vase,22,22,70,0/; s/,45,40,170,/,60,60,170,/' objects.csv > changed.csv
-evaluate --structures objects.csv --out before.parquet
-evaluate --structures changed.csv --out after.parquet
+evaluate --structures objects.csv --target 2% --out before.parquet
+evaluate --structures changed.csv --target 2% --out after.parquet
 "$program" report --quiet --force --in before.parquet,after.parquet --out compared.html > /dev/null
 evaluate --structure "name=Display case,width=0.5,height=1.9" --out object.png
 evaluate --structures objects.csv --out list.xlsx

@@ -73,15 +73,16 @@ impl Object {
             return Vec::new();
         };
         let median = sides[0].structure.eta;
-        let changes = [low.eta, high.eta].map(|end| {
-            let eta = match self.place.eta_sd {
-                Some(_) => median + (end - median) / Z_95,
-                None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
-            };
+        let etas = [low.eta, high.eta].map(|end| match self.place.eta_sd {
+            Some(_) => median + (end - median) / Z_95,
+            None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
+        });
+        let words = format!("restitution {}", etas.map(|eta| number::fixed(eta, 2)).join(", "));
+        let changes = etas.map(|eta| {
             let mut object = self.clone();
             object.shape.eta = Some(Restitution::Number(eta));
             object.place.eta_sd = None;
-            Changed { words: format!("restitution measured: {}", number::fixed(eta, 2)), object }
+            Changed { words: words.clone(), object }
         });
         changes.into()
     }

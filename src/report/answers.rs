@@ -34,8 +34,16 @@ pub struct Portrait {
     pub outline: Option<Outline>,
     pub fragility: Option<Fragility>,
     pub hazard: Option<SiteHazard>,
-    /// What would change the answer, with the probability of overturning; as it is first.
-    pub changes: Vec<(String, Limited)>,
+    /// What would change the answer; as it is first.
+    pub changes: Vec<Change>,
+}
+
+/// A change of an object.
+#[derive(Debug, Clone)]
+pub struct Change {
+    pub words: String,
+    /// The probability of overturning then; several where what is measured may come out low or high.
+    pub p: Vec<Limited>,
 }
 
 /// An object in the plane in which it rocks, m.
@@ -128,7 +136,7 @@ pub const NO_RATE: &str =
 
 /// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
 /// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
-const BANDS: [f64; 2] = [0.02, 0.1];
+pub const BANDS: [f64; 2] = [0.02, 0.1];
 
 /// The bands in words.
 pub const BAND_NAMES: [&str; 3] = ["below 2 %", "2 to 10 %", "above 10 %"];
@@ -151,11 +159,13 @@ impl Answer<RatesRow> {
     /// The sentence that answers how likely it overturns.
     pub fn sentence(&self, when: &str) -> String {
         let p = self.row.p_overturning;
+        let is_exact = self.row.overturning_per_year.value.is_some() && self.doubts.error_hazard.is_none();
         let limits = PERCENT.limits(p, "95 % limits ");
+        let limits = if is_exact { limits.replace(')', ", with the hazard taken as exact)") } else { limits };
         let often = format!("overturns with a probability of {} {when}", PERCENT.value(p));
         match (p.value, p.high, self.row.return_period_years) {
             (Some(0.0), ..) => "does not overturn: nothing of the hazard uplifts it".to_string(),
-            (Some(_), _, Some(years)) => format!("{often} {limits}: once in {} years", number::period(years)),
+            (Some(_), _, Some(years)) => format!("{often} {limits}, once in {} years", number::period(years)),
             (Some(_), ..) => format!("{often} {limits}"),
             (_, Some(_), _) => format!("{often}: the hazard ends too early for one number"),
             _ if self.object.p_rad_s.is_none() => "has no answer".to_string(),

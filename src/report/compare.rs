@@ -7,8 +7,12 @@ use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::literal;
 use crate::hazard::{RateByParts, ratio_of_rates};
-use crate::number::{self, Limited, PERCENT, TWO_DIGITS};
+use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
 use crate::object::Part;
+use crate::table::answers::ObjectRow;
+
+/// Changed objects that stand under the lead.
+const DRAWN: usize = 4;
 
 /// An object in two evaluations.
 pub struct Pair<'a> {
@@ -18,8 +22,8 @@ pub struct Pair<'a> {
     pub ratio: Limited,
 }
 
-/// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. The
-/// most likely to overturn before are first.
+/// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. Those
+/// that are changed are first, of these the most likely to overturn before.
 pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>> {
     let are_alone =
         [before, after].iter().all(|one| matches!(&one.rows[..], [rated] if rated.object.name().is_none()));
@@ -33,6 +37,7 @@ pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>>
         pairs.push(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) });
     }
     pairs.sort_by(|a, b| b.before.severity().total_cmp(&a.before.severity()));
+    pairs.sort_by_key(|pair| !pair.is_changed());
     pairs
 }
 
@@ -53,15 +58,35 @@ impl Pair<'_> {
     }
 
     fn is_changed(&self) -> bool {
-        let is_other_rate = self.before.row.overturning_per_year != self.after.row.overturning_per_year;
-        is_other_rate || place(self.before) != place(self.after)
+        self.before.row.p_overturning != self.after.row.p_overturning || !self.changes().is_empty()
     }
-}
 
-/// The size and the place of an object.
-fn place(rated: &Rated) -> String {
-    let floor = rated.object.floor().map_or(String::new(), |floor| format!(", {floor}"));
-    rated.object.set_size() + &floor
+    /// How many times as often, after this sign; nothing where one has no rate.
+    fn times(&self, sign: &str) -> String {
+        let ratio = self.ratio.value.map(|_| TWO_DIGITS.both(self.ratio, "95 % limits "));
+        let ratio = ratio.map(|ratio| ratio.replacen(' ', " times as often ", 1));
+        ratio.map_or(String::new(), |ratio| format!("{sign}{ratio}"))
+    }
+
+    /// The columns that differ: `width 0.35 → 0.50 m`.
+    fn changes(&self) -> String {
+        let [before, after] = [self.before, self.after].map(|rated| &rated.object);
+        let mut words = Vec::new();
+        for (name, side) in [
+            ("width", (|object| object.width_m) as fn(&ObjectRow) -> Option<f64>),
+            ("depth", |object| object.depth_m),
+            ("height", |object| object.height_m),
+        ] {
+            let [old, new] =
+                [before, after].map(|object| side(object).map_or("-".to_string(), number::length));
+            words.extend((old != new).then(|| format!("{name} {old} → {new} m")));
+        }
+        let [old, new] = [before, after].map(|object| object.floor().unwrap_or("ground".to_string()));
+        words.extend((old != new).then(|| format!("{old} → {new}")));
+        let reason = Some(self.after).filter(|after| !after.is_answered());
+        words.extend(reason.and_then(|after| after.doubts.warnings.as_deref()).map(literal));
+        words.join(", ")
+    }
 }
 
 /// Before and after in one row.
@@ -92,85 +117,80 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
 /// The page of two evaluations.
 pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
     let pairs = pairs(before, after);
-    let when = &before.when;
-    let Some(worst) = pairs.first() else { return Page::default() };
-    let p = [worst.before, worst.after].map(|rated| PERCENT.value(rated.row.p_overturning));
-    let ratio = match worst.ratio.value {
-        Some(_) => format!(
-            "; it overturns {} times as often {}",
-            TWO_DIGITS.value(worst.ratio),
-            TWO_DIGITS.limits(worst.ratio, "95 % limits ")
-        ),
-        None => String::new(),
-    };
-    let joined = match pairs.len() {
-        1 if worst.before.object.name().is_none() => "The one object of each file.".to_string(),
-        _ => format!("{} of the same name in both files.", number::counted(pairs.len(), "object")),
-    };
+    let (when, target) = (&before.when, before.target.or(after.target));
+    if pairs.is_empty() {
+        return Page::default();
+    }
     let (hazards, cancels) = match before.hazard_key == after.hazard_key {
         true => (before.hazard.clone(), "the same hazard, that is all but what only one of them has"),
         false => (format!("{}; {}", before.hazard, after.hazard), "different hazards, PGV/PGA does not"),
     };
+    let joined = match &pairs[..] {
+        [one] if one.before.object.name().is_none() => "The one object of each file is joined.".to_string(),
+        _ => format!("Joined by name: {}.", number::counted(pairs.len(), "object")),
+    };
     let cancels = format!("Ratio: uncertainties that move both alike cancel; under {cancels}.");
+    let rated: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
+    let facts = [Some(joined), Some(cancels), limits_in_words(&rated)];
     let [file_before, file_after, hazards] = [&before.file, &after.file, &hazards].map(|name| literal(name));
-    let facts =
-        [what_changed(&pairs), Some(joined), Some(cancels), limits_in_words(&worst.after.doubts.part_sds())];
     Page {
         title: match &pairs[..] {
             [pair] => format!("{}, before and after", pair.before.object.name().unwrap_or("One object")),
             _ => format!("{}, before and after", number::counted(pairs.len(), "object")),
         },
         place: format!("Before: {file_before}. After: {file_after}. Hazard: {hazards}."),
-        sentence: format!(
-            "{} overturns with a probability of {} before and {} after, {when}{ratio}.{}",
-            worst.name(),
-            p[0],
-            p[1],
-            worst_after(&pairs)
-        ),
-        tiles: tiles(&pairs, when),
+        sentence: sentence(&pairs, when, target),
+        tiles: pairs.iter().filter(|pair| pair.is_changed()).take(DRAWN).map(tile).collect(),
         facts: facts.into_iter().flatten().collect(),
         table: Some(table(&pairs, when)),
         notes: unpaired(before, after, &pairs),
-        figures: vec![figure(&pairs, when, before.target.or(after.target))],
+        figures: vec![figure(&pairs, when, target)],
         ..Page::default()
     }
 }
 
-/// The object that is the worst after, where it is another one than before.
-fn worst_after(pairs: &[Pair]) -> String {
-    let after = |pair: &&Pair| pair.after.row.p_overturning.value.unwrap_or(0.0);
-    match pairs.iter().rev().max_by(|a, b| after(a).total_cmp(&after(b))) {
-        Some(worst) if !std::ptr::eq(worst, &pairs[0]) => {
-            format!(" Now the worst is {}: {}.", worst.name(), PERCENT.value(worst.after.row.p_overturning))
-        }
-        _ => String::new(),
+/// What has become of one object, or of all.
+fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
+    let percent = |rated: &Rated| PERCENT.value(rated.row.p_overturning);
+    if let [pair] = pairs {
+        let (name, old, new) = (pair.name(), percent(pair.before), percent(pair.after));
+        let odds = format!("{name} overturns with a probability of {old} before and {new} after, {when}");
+        return format!("{odds}{}. What changed: {}.", pair.times(": "), pair.changes());
     }
+    let before: Vec<&Rated> = pairs.iter().map(|pair| pair.before).collect();
+    let after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
+    let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
+    let mut sentences =
+        vec![format!("{} of {} change.", number::count(changed), number::counted(pairs.len(), "object"))];
+    if let Some((old, new)) = worst(&before).zip(worst(&after)) {
+        let [was, is] =
+            [old, new].map(|rated| format!("{} ({})", rated.object.marked_name(), percent(rated)));
+        sentences.push(format!("The most likely to overturn {when} is {was} before, {is} after."));
+    }
+    let [old, new] = [&before, &after].map(|all| Expected::new(all.iter().copied()).number());
+    sentences.push(format!("Expected to overturn are {old} before, {new} after."));
+    sentences.extend(target.map(|target| {
+        let [old, new] = [&before, &after]
+            .map(|all| number::count(all.iter().filter(|rated| rated.severity() > target).count()));
+        format!("Above the target of {} are {old} before, {new} after.", PERCENT.one(target))
+    }));
+    sentences.join(" ")
 }
 
-fn tiles(pairs: &[Pair], when: &str) -> Vec<Tile> {
-    let worst = &pairs[0];
-    let mut tiles = Vec::new();
-    for (word, rated) in [("after", worst.after), ("before", worst.before)] {
-        let (p, limits) = (rated.row.p_overturning, PERCENT.limits(rated.row.p_overturning, "95 % limits "));
-        tiles.push(Tile::new(PERCENT.value(p), format!("{word}: overturns {when} {limits}")));
-    }
-    tiles.extend(worst.ratio.value.map(|_| {
-        let limits = TWO_DIGITS.limits(worst.ratio, "95 % limits ");
-        Tile::new(format!("× {}", TWO_DIGITS.value(worst.ratio)), format!("as often as before {limits}"))
-    }));
-    if pairs.len() > 1 {
-        let before = Expected::new(pairs.iter().map(|pair| pair.before)).number();
-        let after = Expected::new(pairs.iter().map(|pair| pair.after)).number();
-        let words = format!("objects expected to overturn {when}");
-        tiles.push(Tile::new(format!("{before} → {after}"), words));
-    }
-    tiles
+fn worst<'a>(all: &[&'a Rated]) -> Option<&'a Rated> {
+    all.iter().copied().max_by(|a, b| a.severity().total_cmp(&b.severity()))
+}
+
+/// What is changed of an object, and what comes of it.
+fn tile(pair: &Pair) -> Tile {
+    let [before, after] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
+    let number = format!("{} → {}", OF_HUNDRED.value(before), PERCENT.value(after));
+    Tile::new(number, format!("{}: {}{}", pair.name(), pair.changes(), pair.times("; ")))
 }
 
 fn table(pairs: &[Pair], when: &str) -> Table {
-    let before = format!("before, {when}");
-    let heads = ["object", &before, "after", "95 % limits", "times as often", "95 % limits"];
+    let before = format!("before, % {when}");
+    let heads = ["object", &before, "after, %", "95 % limits", "times as often", "95 % limits"];
     let mut rows = Vec::new();
     for pair in pairs {
         let (times, limits) = match (pair.is_changed(), pair.ratio.value) {
@@ -179,24 +199,12 @@ fn table(pairs: &[Pair], when: &str) -> Table {
             (true, Some(_)) => (TWO_DIGITS.value(pair.ratio), TWO_DIGITS.limits(pair.ratio, "")),
         };
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
-        let limits_after = PERCENT.limits(q, "");
-        let mut row = vec![pair.name(), PERCENT.value(p), PERCENT.value(q)];
+        let limits_after = OF_HUNDRED.limits(q, "");
+        let mut row = vec![pair.name(), OF_HUNDRED.value(p), OF_HUNDRED.value(q)];
         row.extend([limits_after, times, limits].map(|cell| cell.replace(['(', ')'], "")));
         rows.push(row);
     }
     Table::new(&heads, rows)
-}
-
-/// The size and the place of what is changed.
-fn what_changed(pairs: &[Pair]) -> Option<String> {
-    let mut lines = Vec::new();
-    for pair in pairs {
-        let [before, after] = [pair.before, pair.after].map(place);
-        if before != after {
-            lines.push(format!("{}: {before}, then {after}", pair.name()));
-        }
-    }
-    (!lines.is_empty()).then(|| format!("What changed: {}.", lines.join("; ")))
 }
 
 /// Objects of one file alone, and those without an answer in both.
@@ -218,7 +226,7 @@ fn unpaired(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<Stri
             lines.push(format!("Only in {}: {}.", literal(&one.file), alone.join(", ")));
         }
         if !silent.is_empty() && std::ptr::eq(one, before) {
-            lines.push(format!("No answer before or after: {}.", silent.join(", ")));
+            lines.push(format!("Not assessed before or after: {}.", silent.join(", ")));
         }
     }
     lines

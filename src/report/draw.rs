@@ -112,9 +112,9 @@ fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure, look: Look, class: &
     // As high over its width as in the file.
     let across = look.width / unit * figure.columns.max(1) as f64 / FILE.width;
     let height = unit * own_height(panel, (figure.height * across.min(1.6)).max(LEAST_HEIGHT));
-    let left = names_room(panel, look.width, unit);
+    let Rooms { left, right } = side_rooms(panel, figure, look.width, unit);
     let top = head(panel) * unit;
-    pen.panel(panel, Area { left, top, width: look.width - left - RIGHT * unit, height }, top);
+    pen.panel(panel, Area { left, top, width: look.width - left - right, height }, top);
     let bottom = round(top + height + foot(panel) * unit);
     let (width, name) = (look.width, escape(&words(name)));
     format!(
@@ -174,10 +174,8 @@ fn whole(figure: &Figure) -> (String, f64) {
         let highest = row.iter().map(|panel| own_height(panel, figure.height)).fold(0.0, f64::max);
         let above = row.iter().map(head).fold(0.0, f64::max);
         for (column, panel) in row.iter().enumerate() {
-            // Panels below each other have the same room for names.
-            let below_each_other = figure.panels.iter().skip(column).step_by(columns);
-            let room = below_each_other.map(|panel| names_room(panel, across, 1.0)).fold(0.0, f64::max);
-            let (left, width) = (column as f64 * across + room, across - room - RIGHT);
+            let room = side_rooms(panel, figure, across, 1.0);
+            let (left, width) = (column as f64 * across + room.left, across - room.left - room.right);
             let height = own_height(panel, figure.height);
             pen.panel(panel, Area { left, top: top + above, width, height }, above);
         }
@@ -213,13 +211,27 @@ fn foot(panel: &Panel) -> f64 {
     }
 }
 
-/// The room to the left of a panel, for its names if it has any.
-fn names_room(panel: &Panel, across: f64, unit: f64) -> f64 {
-    if panel.frame == Frame::ToScale {
-        return 4.0 * unit;
+/// The rooms to the left and the right of the data of a panel.
+struct Rooms {
+    left: f64,
+    right: f64,
+}
+
+/// Finds the rooms for the names and words of rows if a panel has any: the same for all over the same axis.
+fn side_rooms(panel: &Panel, figure: &Figure, across: f64, unit: f64) -> Rooms {
+    let left = if panel.frame == Frame::ToScale { 4.0 } else { LEFT };
+    let mut rooms = Rooms { left: left * unit, right: RIGHT * unit };
+    if panel.names().is_empty() {
+        return rooms;
     }
-    let widest = panel.names().iter().map(|name| width(name, SMALL * unit)).fold(0.0, f64::max);
-    (widest + 8.0 * unit).clamp(LEFT * unit, (NAMES * unit).min(0.46 * across).max(LEFT * unit))
+    let room = |marked: &String| width(marked, SMALL * unit) + 8.0 * unit;
+    for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
+        let words = peer.words.iter().filter(|words| words.side == Side::Margin);
+        rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
+        rooms.left = peer.names().iter().map(room).fold(rooms.left, f64::max);
+    }
+    rooms.left = rooms.left.min((NAMES * unit).min(0.46 * across));
+    rooms
 }
 
 /// Estimates the width of marked text: the letters of its reader are not known.
@@ -301,7 +313,9 @@ impl Pen {
         }
         self.text.push_str("</svg>\n");
         for words in &panel.words {
-            self.beside(Place { area, ..inside }.at(words.x, words.y), words);
+            let at = Place { area, ..inside }.at(words.x, words.y);
+            let x = if words.side == Side::Margin { left + width } else { at.x };
+            self.beside(Point { x, ..at }, words);
         }
         if panel.frame == Frame::Axes {
             self.axes(panel, &x, &y, area);

@@ -130,6 +130,8 @@ pub enum Side {
     Below,
     /// Upright, to the left.
     Along,
+    /// In a column beyond the right edge of the data.
+    Margin,
 }
 
 /// A colour by its role; the page has others in the dark.

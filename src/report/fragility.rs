@@ -2,7 +2,7 @@
 
 use super::answers::Outline;
 use super::figure::{Figure, Ink, Layer, Panel, Span};
-use super::object::{HEIGHT, axes, curve, fragility_panel, model_in_words, sketch};
+use super::object::{HEIGHT, averaged, axes, curve, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
 use crate::fragility::LimitState;
@@ -39,8 +39,8 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
                 rest => format!(" Not drawn: {} that need more.", number::counted(rest, "object")),
             };
             let caption = format!(
-                "Probability of overturning under a motion of this {what}, averaged over what such motions have \
-                 besides.{rest}"
+                "Probability of overturning under a motion of this {what}, {}.{rest}",
+                averaged(first.over)
             );
             let panel = Panel::new("", x.over(ends.low, ends.high), y, layers);
             Figure::new("fragility", "How strong a motion overturns each object", 1, HEIGHT, vec![panel])

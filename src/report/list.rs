@@ -1,18 +1,21 @@
 //! The page of a list of objects: the worst first, and how many are to be expected.
 
-use super::answers::{BAND_NAMES, Evaluation, Expected, Rated, words_of_silent};
+use std::collections::BTreeSet;
+
+use super::answers::{BAND_NAMES, BANDS, Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::object::{limits_in_words, model_in_words};
-use super::page::{Page, Table, Tile};
+use super::page::{Column, Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::literal;
-use crate::keyword::Keyword;
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT};
-use crate::object::Part;
 
 /// The most objects that are drawn, and files whose expected numbers are shown.
 const DRAWN: usize = 60;
 const FILES: usize = 3;
+/// Objects that are named in a sentence.
+const NAMED: usize = 4;
+const GROUND: &str = "ground";
 
 /// An object of one of several evaluations.
 #[derive(Clone, Copy)]
@@ -36,33 +39,34 @@ pub fn figure(evaluations: &[Evaluation]) -> Figure {
     let mut answered: Vec<&Rated> = sorted(evaluations).iter().map(|listed| listed.rated).collect();
     answered.retain(|rated| rated.is_answered());
     let drawn = &answered[..answered.len().min(DRAWN)];
-    let (upstairs, ground): (Vec<&Rated>, Vec<&Rated>) =
-        drawn.iter().partition(|rated| rated.object.floor().is_some());
-    let is_split = !upstairs.is_empty() && !ground.is_empty();
+    // Those on the ground and those on floors, the worst first.
+    let (first, others): (Vec<&Rated>, Vec<&Rated>) =
+        drawn.iter().partition(|rated| rated.object.floor().is_some() == drawn[0].object.floor().is_some());
+    let is_split = !others.is_empty();
     let when = evaluations.first().map_or("", |evaluation| evaluation.when.as_str());
     let target = evaluations.iter().find_map(|evaluation| evaluation.target);
     let all = drawn.iter().map(|rated| rated.row.p_overturning).chain([Limited::value(target)]);
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let bands: Vec<(Ink, &str)> = (0..3).rev().map(|band| (Ink::Band(band), BAND_NAMES[band])).collect();
     let mut panels = Vec::new();
-    for (title, group) in [("On the ground", ground), ("On floors", upstairs)] {
+    for group in [first, others] {
+        let title = match group.first() {
+            None => continue,
+            Some(one) if one.object.floor().is_some() => "On floors",
+            Some(_) => "On the ground",
+        };
         let row = |rated: &&Rated| {
-            Row::new(rated.object.marked_name(), Ink::Band(rated.band()), rated.row.p_overturning)
+            Row::new(&rated.object.marked_name(), Ink::Band(rated.band()), &[rated.row.p_overturning])
         };
         let rows: Vec<Row> = group.iter().map(row).collect();
-        if !rows.is_empty() {
-            let title = if is_split { title } else { "" };
-            panels.push(probabilities::panel(title, x.clone(), &rows, &bands, target));
-        }
+        let title = if is_split { title } else { "" };
+        panels.push(probabilities::panel(title, x.clone(), &rows, &bands, target));
     }
     let rest = match answered.len() - drawn.len() {
         0 => String::new(),
         rest => format!(" Not drawn: {} that are less likely to overturn.", number::counted(rest, "object")),
     };
-    let caption = format!(
-        "Probability of overturning {when} with 95 % limits. The colours part at 2 and 10 %, in 50 years those of \
-         the earthquakes that codes consider and design for.{rest}"
-    );
+    let caption = format!("Probability of overturning {when} with 95 % limits.{rest}");
     Figure::new("list", "How likely each object is to overturn", 1, 0.0, panels).explained(caption)
 }
 
@@ -80,18 +84,13 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     };
     let mut hazards: Vec<&str> = evaluations.iter().map(|evaluation| evaluation.hazard.as_str()).collect();
     hazards.dedup();
-    let mut largest_sds: Vec<(Part, f64)> = Vec::new();
-    for part in Part::ALL {
-        let sds = all.iter().flat_map(|listed| listed.rated.doubts.part_sds());
-        let sds = sds.filter(|(other, _)| other == part).map(|(_, sd)| sd);
-        largest_sds.extend(sds.reduce(f64::max).map(|sd| (*part, sd)));
-    }
     let several = evaluations.len() > 1;
     let file = if several { format!(" ({})", literal(&evaluation.file)) } else { String::new() };
-    let friction = "With less friction than shown, an object slides instead of rocking.".to_string();
-    let building = (upstairs > 0).then(|| "Buildings are taken as linear.".to_string());
-    let facts = [Some(friction), building, limits_in_words(&largest_sds), model_in_words(&worst.object)];
-    let silent = words_of_silent(all.len() - answered.len(), all.len());
+    let (table, same) = table(&all);
+    let friction = "With less friction than it needs, an object slides instead of rocking.".to_string();
+    let building = "Level: height over that of the building, which is taken as linear; behind it its period.";
+    let building = (upstairs > 0).then(|| building.to_string());
+    let facts = [same, Some(friction), building, limits_in_words(&answered), model_in_words(&worst.object)];
     Page {
         title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
         place: format!(
@@ -99,25 +98,38 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
             number::count(answered.len()),
             literal(&hazards.join("; "))
         ),
-        sentence: format!(
-            "{}{file} {}. {}",
-            worst.object.marked_name(),
-            worst.sentence(&evaluation.when),
-            silent.unwrap_or_default()
-        ),
-        tiles: tiles(evaluations, worst, &evaluation.when),
+        sentence: match answered.is_empty() {
+            true => not_assessed(&all),
+            false => format!(
+                "{}{file} is the most likely to overturn: it {}. {}",
+                worst.object.marked_name(),
+                worst.sentence(&evaluation.when),
+                not_assessed(&all)
+            ),
+        },
+        tiles: tiles(evaluations, &evaluation.when),
         facts: facts.into_iter().flatten().collect(),
-        table: Some(table(&all, several)),
+        table: Some(table),
         notes: doubts(&answered),
         figures: vec![figure(evaluations)],
         ..Page::default()
     }
 }
 
-fn tiles(evaluations: &[Evaluation], worst: &Rated, when: &str) -> Vec<Tile> {
-    let (p, name) = (worst.row.p_overturning, worst.object.marked_name());
-    let limits = PERCENT.limits(p, "95 % limits ");
-    let mut tiles = vec![Tile::new(PERCENT.value(p), format!("{name} overturns {when} {limits}"))];
+/// The objects without an answer, and why.
+fn not_assessed(all: &[Listed]) -> String {
+    let silent = all.iter().map(|listed| listed.rated).filter(|rated| !rated.is_answered());
+    let reason = |rated: &Rated| {
+        let words = rated.doubts.warnings.as_deref()?.split(';').next()?;
+        Some(format!(" ({})", literal(words)))
+    };
+    let names: Vec<String> =
+        silent.map(|rated| rated.object.marked_name() + &reason(rated).unwrap_or_default()).collect();
+    if names.is_empty() { String::new() } else { format!("Not assessed: {}.", number::listed(&names, NAMED)) }
+}
+
+fn tiles(evaluations: &[Evaluation], when: &str) -> Vec<Tile> {
+    let mut tiles = Vec::new();
     // The same object may stand in several files, under several hazards: their sum would be of nothing.
     for evaluation in evaluations.iter().take(FILES) {
         let expected = Expected::new(&evaluation.rows);
@@ -132,56 +144,82 @@ fn tiles(evaluations: &[Evaluation], worst: &Rated, when: &str) -> Vec<Tile> {
             format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),
             "probability that at least one does: if all fall together, to if each falls by itself",
         ));
-        let above = one.rows.iter().filter(|rated| rated.band() > 0).count();
-        let are = if above == 1 { "is" } else { "are" };
-        tiles.push(Tile::new(number::count(above), format!("{are} more likely than 2 % to overturn")));
+        let most = one.target.unwrap_or(BANDS[0]);
+        let above = one.rows.iter().filter(|rated| rated.severity() > most).count();
+        let most = PERCENT.one(most) + if one.target.is_some() { ", the target" } else { "" };
+        tiles.push(Tile::new(number::count(above), format!("more likely to overturn than {most}")));
     }
     tiles
 }
 
-fn table(all: &[Listed], several: bool) -> Table {
+/// The table, and what is the same for all objects: it has no column.
+fn table(all: &[Listed]) -> (Table, Option<String>) {
     let when = &all[0].evaluation.when;
-    let has_floors = all.iter().any(|listed| listed.rated.object.floor().is_some());
-    let has_counts = all.iter().any(|listed| listed.rated.object.count.is_some());
     let (overturns, too_far) = (format!("overturns {when}, %"), format!("rocks too far {when}, %"));
-    let mut heads = vec!["object", &overturns, "95 % limits", "once in years", &too_far, "friction needed"];
-    heads.extend(["size"]);
-    heads.extend(has_counts.then_some("number"));
-    heads.extend(has_floors.then_some("where"));
-    heads.extend(several.then_some("file"));
-    let mut rows = Vec::new();
-    for Listed { evaluation, rated } in all {
-        let (object, row) = (&rated.object, &rated.row);
-        let mut cells = vec![object.name().map_or("unnamed".to_string(), literal)];
-        if rated.is_answered() {
-            let friction = object.friction.filter(|_| !object.is_friction_known);
-            cells.extend([
-                OF_HUNDRED.value(row.p_overturning),
-                OF_HUNDRED.limits(row.p_overturning, "").replace(['(', ')'], ""),
-                row.return_period_years.map_or(String::new(), number::period),
-                OF_HUNDRED.value(row.p_failure),
-                friction.map_or(String::new(), |friction| number::fixed(friction, 2)),
-            ]);
-        } else {
-            let reason = literal(rated.doubts.warnings.as_deref().unwrap_or_default());
-            cells.extend(["no answer".to_string(), reason, String::new(), String::new(), String::new()]);
+    let mut table = Table { rows: vec![Vec::new(); all.len()], ..Table::default() };
+    let mut same = Vec::new();
+    for (head, is_number, cell) in [
+        ("object", false, name as fn(&Listed) -> String),
+        (&overturns, true, probability),
+        ("95 % limits", false, limits),
+        ("once in years", true, |listed| {
+            listed.rated.row.return_period_years.map_or(String::new(), number::period)
+        }),
+        (&too_far, true, |listed| match listed.rated.is_answered() {
+            true => OF_HUNDRED.value(listed.rated.row.p_failure),
+            false => String::new(),
+        }),
+        ("friction needed", true, friction),
+        ("size", false, |listed| listed.rated.object.set_size().replace(' ', "\u{a0}")),
+        ("number", true, |listed| listed.rated.object.count.map_or(String::new(), number::plain)),
+        ("where", false, place),
+        ("file", false, |listed| literal(&listed.evaluation.file)),
+    ] {
+        let cells: Vec<String> = all.iter().map(cell).collect();
+        let differ: BTreeSet<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+        if differ.len() > 1 || table.columns.len() < 5 {
+            table.columns.push(Column { head: head.to_string(), is_number });
+            table.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
+        } else if head != "file" {
+            same.extend(
+                differ.first().filter(|value| **value != GROUND).map(|value| format!("{head} {value}")),
+            );
         }
-        cells.push(object.set_size().replace(' ', "\u{a0}"));
-        cells.extend(has_counts.then(|| object.count.map_or(String::new(), number::plain)));
-        cells.extend(has_floors.then(|| object.floor().unwrap_or("on the ground".to_string())));
-        cells.extend(several.then(|| literal(&evaluation.file)));
-        rows.push(cells);
     }
-    let mut table = Table::new(&heads, rows);
-    for column in &mut table.columns {
-        column.is_number &= !["95 % limits", "size", "where", "file"].contains(&column.head.as_str());
+    (table, (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", "))))
+}
+
+fn name(listed: &Listed) -> String {
+    listed.rated.object.name().map_or("unnamed".to_string(), literal)
+}
+
+fn probability(Listed { rated, .. }: &Listed) -> String {
+    if rated.is_answered() { OF_HUNDRED.value(rated.row.p_overturning) } else { "not assessed".to_string() }
+}
+
+/// The limits, or why there is no answer.
+fn limits(Listed { rated, .. }: &Listed) -> String {
+    match rated.is_answered() {
+        true => OF_HUNDRED.limits(rated.row.p_overturning, "").replace(['(', ')'], ""),
+        false => literal(rated.doubts.warnings.as_deref().unwrap_or_default()),
     }
-    table
+}
+
+/// The friction that an object needs; nothing if it is known to have enough.
+fn friction(Listed { rated, .. }: &Listed) -> String {
+    let friction = rated.object.friction.filter(|_| !rated.object.is_friction_known);
+    friction.map_or(String::new(), |friction| number::fixed(friction, 2))
+}
+
+fn place(listed: &Listed) -> String {
+    let floor = listed.rated.object.floor();
+    floor.map_or(GROUND.to_string(), |floor| {
+        floor.replace(" of a", ",").replace(" building", "").replace(' ', "\u{a0}")
+    })
 }
 
 /// What speaks against answers: a line for those of the same words.
 fn doubts(answered: &[&Rated]) -> Vec<String> {
-    const NAMED: usize = 4;
     let mut lines: Vec<(&str, Vec<String>)> = Vec::new();
     for rated in answered {
         let Some(words) = rated.doubts.warnings.as_deref() else { continue };

@@ -1,13 +1,14 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
-use super::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard};
+use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
 use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
 use super::page::{Page, Section, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::{literal, words};
-use crate::fragility::{LimitState, Z_95};
+use crate::fragility::{LimitState, Peak, Z_95};
 use crate::hazard::{Fragility, intensity_in_words};
+use crate::keyword::Keyword;
 use crate::number::{self, Limited, PERCENT, RATE};
 use crate::object::Part;
 use crate::table::answers::ObjectRow;
@@ -111,7 +112,6 @@ pub fn axes(fragility: &Fragility) -> (Axis, Axis) {
 pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option<&SiteHazard>) -> Panel {
     let too_far = object.too_far().replace("its slenderness", "*α*");
     let layers = vec![
-        Layer::line("rocks", Ink::Muted, curve(fragility, LimitState::Rocking, false)),
         Layer::line(
             &format!("{too_far}, or overturns"),
             Ink::Data(0),
@@ -130,31 +130,36 @@ pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option
     for usual in
         hazard.filter(|hazard| hazard.peak == fragility.over).iter().flat_map(|hazard| hazard.usual())
     {
-        let (x, text) = (usual.intensity, once_in(usual.years));
+        let (x, text) = (usual.intensity, years(usual.years));
         if ends.is_some_and(|ends| ends.low <= x && x <= ends.high) {
             panel.add_upright(Words { x, y: 100.0, text, side: Side::Along, ink: Ink::Muted }, 0.0);
         }
     }
     let place = if hazard.is_some() { " at the site" } else { "" };
-    panel.explained(format!(
-        "Probability under a motion of this {what}{place}, averaged over what such motions have besides. One in two: \
-         {}.",
-        intensity_in_words(fragility.over, fragility.overturning.theta.value)
-    ))
+    panel
+        .explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(fragility.over)))
+}
+
+/// Over what a fragility is averaged.
+pub fn averaged(over: Peak) -> String {
+    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
+    format!("averaged over the {} that such motions have", other.words().0)
 }
 
 fn changes_panel(evaluation: &Evaluation) -> Panel {
     let (when, changes) = (&evaluation.when, &evaluation.portrait.changes);
     let mut rows = Vec::new();
-    for (name, p) in changes {
+    for Change { words, p } in changes {
         let ink = if rows.is_empty() { Ink::Data(1) } else { Ink::Data(0) };
-        rows.push(Row::new(name.clone(), ink, *p));
+        rows.push(Row::new(words, ink, p));
     }
-    let x =
-        probabilities::axis(&format!("probability of overturning {when}"), changes.iter().map(|(_, p)| *p));
+    let all = changes.iter().flat_map(|change| &change.p).copied();
+    let all = all.chain([Limited::value(evaluation.target)]);
+    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let caption = format!(
-        "Probability of overturning {when} with 95 % limits, as it is and with one thing changed. Anchored, it \
-         does not rock: for the forces on anchors see ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
+        "Probability of overturning {when} with 95 % limits, as it is and with one thing changed, or with its \
+         restitution measured (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see \
+         ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
     );
     let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
     probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
@@ -195,9 +200,9 @@ impl SiteHazard {
     }
 }
 
-/// How rare an intensity is: `once in 475 years`.
-fn once_in(years: f64) -> String {
-    format!("once in {} years", number::count(years as usize))
+/// How rare an intensity is: `475 years`.
+fn years(years: f64) -> String {
+    format!("{} years", number::count(years as usize))
 }
 
 fn hazard_panel(hazard: &SiteHazard) -> Panel {
@@ -205,9 +210,9 @@ fn hazard_panel(hazard: &SiteHazard) -> Panel {
     let lowest = hazard.points.iter().map(|(_, rate)| *rate).fold(f64::INFINITY, f64::min);
     let mut panel = Panel::new("Hazard", hazard.axis(), Axis::log("exceeded, times a year"), Vec::new());
     let (mut words, mut dots) = (Vec::new(), Vec::new());
-    for Usual { intensity, years } in hazard.usual() {
-        let (text, y) = (once_in(years), 1.0 / years);
-        words.push(format!("{} {symbol} {text}", number::significant(intensity, 2)));
+    for Usual { intensity, years: period } in hazard.usual() {
+        let (text, y) = (years(period), 1.0 / period);
+        words.push(format!("{} {symbol} once in {text}", number::significant(intensity, 2)));
         dots.push(Mark::new(intensity, y));
         panel.add_upright(Words { x: intensity, y, text, side: Side::Along, ink: Ink::Muted }, lowest);
     }
@@ -252,7 +257,7 @@ fn unknown(rated: &Rated) -> Option<Panel> {
     let mut parts = rated.doubts.part_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let most = (Z_95 * parts.first()?.1).exp();
-    let x = Axis::log("factor on the rate, either way").over(1.0, most * most.powf(0.35).max(1.2));
+    let x = Axis::log("factor on the rate, either way").over(1.0, 1.1 * most);
     let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
     let mut panel = Panel::new("What is not known", x, names, Vec::new());
     for (row, (_, sd)) in parts.iter().enumerate() {
@@ -261,10 +266,10 @@ fn unknown(rated: &Rated) -> Option<Panel> {
         let bar = corners.map(|(x, off)| Mark::new(x, y + off));
         panel.layers.push(Layer::new("", Ink::Data(0), Shape::Area, bar));
         let text = format!("× {}", number::significant(x, 2));
-        panel.words.push(Words { x, y, text, side: Side::Right, ink: Ink::Text });
+        panel.words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
     }
-    let caption = "What is not known and what would tell: the factor by which each moves the rate of overturning, \
-                   up or down, at its 95 % limits.";
+    let caption = "What is not known: what would tell. The factor by which each moves the rate of overturning, up or \
+                   down, at its 95 % limits.";
     Some(panel.explained(caption))
 }
 
@@ -285,9 +290,9 @@ fn what_to_measure(part: Part) -> &'static str {
 fn states(evaluation: &Evaluation, rated: &Rated) -> Panel {
     let row = &rated.row;
     let rows = [
-        Row::new("rocks".to_string(), Ink::Data(1), Limited::value(row.p_rocking)),
-        Row::new(rated.object.too_far().replace("its slenderness", "*α*"), Ink::Data(1), row.p_failure),
-        Row::new("overturns".to_string(), Ink::Data(1), row.p_overturning),
+        Row::new("rocks", Ink::Data(1), &[Limited::value(row.p_rocking)]),
+        Row::new(&rated.object.too_far().replace("its slenderness", "*α*"), Ink::Data(1), &[row.p_failure]),
+        Row::new("overturns", Ink::Data(1), &[row.p_overturning]),
     ];
     let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p);
     let x = probabilities::axis(&format!("probability {}", evaluation.when), all);
@@ -304,7 +309,15 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     Page {
         title: words(&rated.object.marked_title()),
         place: format!("{place}; hazard: {}", literal(&evaluation.hazard)),
-        sentence: format!("It {}.", rated.sentence(&evaluation.when)),
+        sentence: [
+            Some(format!("It {}.", rated.sentence(&evaluation.when))),
+            evaluation.target.map(|target| about_target(rated, target)),
+            what_helps(&evaluation.portrait.changes),
+        ]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(" "),
         tiles: tiles(evaluation, rated),
         facts: facts(rated),
         notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
@@ -317,37 +330,57 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     }
 }
 
+/// The target, and the base that meets it.
+fn about_target(rated: &Rated, target: f64) -> String {
+    let (row, target) = (&rated.row, PERCENT.one(target));
+    let base = match (row.bases.target_width_m, row.bases.target_sides_m) {
+        (Some(width), _) => format!(": a base {width:.2} m wide meets it"),
+        (_, Some(side)) => format!(": a base with both sides of {side:.2} m meets it"),
+        _ => String::new(),
+    };
+    format!("The target is {target}{base}.")
+}
+
+/// The change of the object that helps most; nothing that is only measured.
+fn what_helps(changes: &[Change]) -> Option<String> {
+    let [as_it_is, others @ ..] = changes else { return None };
+    let probability = |change: &Change| change.p[0].value.unwrap_or(1.0);
+    let best = others
+        .iter()
+        .filter(|change| change.p.len() == 1)
+        .min_by(|a, b| probability(a).total_cmp(&probability(b)));
+    let Change { words, p } = best.filter(|best| probability(best) < probability(as_it_is))?;
+    let p = PERCENT.both(p[0], "95 % limits ");
+    Some(format!("Of the changes below this helps most: {words}, with {p}."))
+}
+
 fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
-    let (when, row) = (&evaluation.when, &rated.row);
-    let limits = PERCENT.limits(row.p_overturning, "95 % limits ");
-    let mut tiles = vec![
-        Tile::new(PERCENT.value(row.p_overturning), format!("overturns {when} {limits}")),
-        Tile::new(PERCENT.value(row.p_failure), format!("{}, or overturns", rated.object.too_far())),
-    ];
-    if let Some(fragility) = &evaluation.portrait.fragility {
+    let (Portrait { fragility, hazard, .. }, object) = (&evaluation.portrait, &rated.object);
+    let mut tiles =
+        vec![Tile::new(PERCENT.value(rated.row.p_failure), format!("{}, or overturns", object.too_far()))];
+    if let Some(fragility) = fragility {
         let words = format!("{} at which half of the motions overturn it", fragility.over.words().0);
         let half = fragility.overturning.theta.value;
         tiles.push(Tile::new(intensity_in_words(fragility.over, half), words));
     }
-    let others = evaluation.portrait.changes.iter().skip(1);
-    let better = others.filter(|(_, p)| p.value < row.p_overturning.value);
-    let best = better.min_by(|(_, a), (_, b)| a.value.unwrap_or(1.0).total_cmp(&b.value.unwrap_or(1.0)));
-    tiles.extend(best.map(|(name, p)| {
-        Tile::new(PERCENT.value(*p), format!("with what helps most of the changes compared: {name}"))
+    if let Some((hazard, usual)) =
+        hazard.as_ref().and_then(|hazard| Some((hazard, hazard.usual().into_iter().next()?)))
+    {
+        let (what, _, symbol) = hazard.peak.words();
+        let words = format!("{what} at the site, once in {}", years(usual.years));
+        tiles.push(Tile::new(format!("{} {symbol}", number::significant(usual.intensity, 2)), words));
+    }
+    tiles.extend(object.friction.filter(|_| !object.is_friction_known).map(|friction| {
+        let words = "friction that it needs: with less, it slides instead of rocking";
+        Tile::new(number::fixed(friction, 2), words)
     }));
     tiles
 }
 
 /// What the answer rests on.
 fn facts(rated: &Rated) -> Vec<String> {
-    let object = &rated.object;
-    let friction = object.friction.filter(|_| !object.is_friction_known).map(|friction| {
-        let friction = number::fixed(friction, 2);
-        format!("Friction: valid above {friction}; with less, it slides instead of rocking.")
-    });
-    let building = object.floor().map(|_| "The building is taken as linear.".to_string());
-    let limits = limits_in_words(&rated.doubts.part_sds());
-    [friction, building, model_in_words(object), limits].into_iter().flatten().collect()
+    let building = rated.object.floor().map(|_| "The building is taken as linear.".to_string());
+    [building, model_in_words(&rated.object), limits_in_words(&[rated])].into_iter().flatten().collect()
 }
 
 /// What predicts.
@@ -356,17 +389,16 @@ pub fn model_in_words(object: &ObjectRow) -> Option<String> {
 }
 
 /// What the limits cover.
-pub fn limits_in_words(sds: &[(Part, f64)]) -> Option<String> {
+pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
+    let unknown: Vec<Part> =
+        all.iter().flat_map(|rated| rated.doubts.part_sds()).map(|(part, _)| part).collect();
     let parts: Vec<&str> =
-        sds.iter().filter(|(part, _)| *part != Part::Hazard).map(|(part, _)| part.words()).collect();
-    let has_hazard = sds.iter().any(|(part, _)| *part == Part::Hazard);
-    let (last, others) = parts.split_last()?;
-    let joined = match others {
-        [] => (*last).to_string(),
-        _ => format!("{} and {last}", others.join(", ")),
+        Part::ALL.iter().filter(|part| unknown.contains(part)).map(|part| part.words()).collect();
+    let joined = match parts.split_last()? {
+        (only, []) => (*only).to_string(),
+        (last, others) => format!("{} and {last}", others.join(", ")),
     };
-    let hazard = if has_hazard { "and in the hazard" } else { "but not in the hazard" };
-    Some(format!("The 95 % limits cover uncertainty in {joined}, {hazard}."))
+    Some(format!("The 95 % limits cover uncertainty in {joined} alone."))
 }
 
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
@@ -384,8 +416,12 @@ fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
 }
 
 fn table_of_changes(evaluation: &Evaluation) -> Table {
-    let rows = evaluation.portrait.changes.iter();
-    let rows = rows.map(|(name, p)| vec![name.clone(), PERCENT.value(*p), PERCENT.limits(*p, "")]);
+    let joined = |p: &[Limited], told: fn(Limited) -> String| {
+        p.iter().map(|p| told(*p)).collect::<Vec<_>>().join(", ")
+    };
+    let rows = evaluation.portrait.changes.iter().map(|Change { words, p }| {
+        vec![words.clone(), joined(p, |p| PERCENT.value(p)), joined(p, |p| PERCENT.limits(p, ""))]
+    });
     let overturns = format!("overturns {}", evaluation.when);
     Table::new(&["What would change it", &overturns, "95 % limits"], rows.collect())
 }

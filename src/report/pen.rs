@@ -73,7 +73,7 @@ impl Pen {
     pub fn beside(&mut self, at: Point, words: &Words) {
         let unit = self.unit;
         let (right, down, style) = match words.side {
-            Side::Right => (5.0, 0.35 * SMALL, String::new()),
+            Side::Right | Side::Margin => (5.0, 0.35 * SMALL, String::new()),
             Side::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
             Side::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
             Side::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),

@@ -1,7 +1,7 @@
 //! Probabilities in rows: names, values with their limits, words beside them, and a target.
 
 use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
-use crate::number::{Limited, PERCENT};
+use crate::number::{Limited, OF_HUNDRED, PERCENT};
 
 /// A row of a panel.
 pub struct Row {
@@ -9,28 +9,36 @@ pub struct Row {
     pub name: String,
     /// Probabilities in their colours, one below the other.
     pub values: Vec<(Ink, Limited)>,
-    /// To the right of them.
+    /// At the right edge.
     pub words: String,
 }
 
 impl Row {
-    /// A row of one probability, with its value beside it.
-    pub fn new(name: String, ink: Ink, p: Limited) -> Row {
-        Row { name, values: vec![(ink, p)], words: PERCENT.value(p) }
+    /// A row of probabilities in one colour, with their values at its end.
+    pub fn new(name: &str, ink: Ink, all: &[Limited]) -> Row {
+        let words: Vec<String> = all
+            .iter()
+            .map(|p| match (p.value, p.high) {
+                (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
+                _ => OF_HUNDRED.value(*p),
+            })
+            .collect();
+        let values = all.iter().map(|p| (ink, *p)).collect();
+        Row { name: name.to_string(), values, words: words.join(", ") + " %" }
     }
 }
 
 /// How far apart the values of a row stand, rows.
 const APART: f64 = 0.34;
 
-/// An axis in percent over all of these, with room for words at the right.
+/// An axis in percent over all of these.
 pub fn axis(label: &str, all: impl IntoIterator<Item = Limited>) -> Axis {
     let ends = all.into_iter().flat_map(|p| [p.value, p.low, p.high]).flatten();
     let values: Vec<f64> = ends.filter(|p| *p > 0.0).map(|p| 100.0 * p).collect();
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(0.0, f64::max);
     let axis = Axis::log(&format!("{label}, %"));
-    if low < high { axis.over(low / 1.3, high * (high / low).powf(0.3).max(1.6)) } else { axis }
+    if low <= high { axis.over(low / 1.3, (1.3 * high).min(100.0)) } else { axis }
 }
 
 /// A panel of rows; `labels` name the colours in the legend, the last one drawn last.
@@ -57,12 +65,8 @@ pub fn panel(title: &str, x: Axis, rows: &[Row], labels: &[(Ink, &str)], target:
         }
     }
     for (at, row) in rows.iter().enumerate() {
-        let ends = row.values.iter().filter_map(|(_, p)| p.high.or(p.value));
-        let x = 100.0 * ends.fold(0.0, f64::max);
-        if x > 0.0 {
-            let (y, text) = (at as f64, row.words.clone());
-            panel.words.push(Words { x, y, text, side: Side::Right, ink: Ink::Text });
-        }
+        let (y, text) = (at as f64, row.words.clone());
+        panel.words.push(Words { x: 0.0, y, text, side: Side::Margin, ink: Ink::Text });
     }
     panel
 }

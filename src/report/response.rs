@@ -21,7 +21,9 @@ const VALUES: usize = 900;
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 58.0;
 /// Rotations over alpha are drawn up to this.
-const MOST: f64 = 2.5;
+const MOST: f64 = 1.5;
+/// Time between dots that are seen as two, of all time.
+const APART: f64 = 0.005;
 /// Time that is shown before the first event and after the last, s.
 const AROUND_S: f64 = 1.5;
 /// Pictures a second of what moves, and the most of them.
@@ -58,9 +60,21 @@ impl Trace {
         self.times(SolverEvent::Overturn).first().copied()
     }
 
+    /// The number of impacts, and of those that a dot does not show.
+    fn impacts(&self) -> String {
+        let (times, end) = (self.times(SolverEvent::Impact), self.0.last().map_or(0.0, |point| point.time_s));
+        let close = times.windows(2).filter(|pair| pair[1] - pair[0] < APART * end).count();
+        let hidden = if close > 0 {
+            format!(" ({close} too close to the one before to be seen)")
+        } else {
+            String::new()
+        };
+        number::counted(times.len(), "impact") + &hidden
+    }
+
     /// What came of it, in a sentence.
     pub fn sentence(&self) -> String {
-        let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
+        let impacts = self.impacts();
         let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
         let (structure, motion) = (self.structure(), literal(&self.0[0].motion_id));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {

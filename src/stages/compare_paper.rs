@@ -73,9 +73,10 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
     let agree = z.iter().filter(|z| z.abs() < AGREES).count();
     let others = compared.iter().filter(|row| row.published.is_some()).count() - z.len();
     let count = format!(
-        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run; {others} \
-         more have no value in it, or no known spread\n",
-        counted(z.len(), "published number")
+        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run, {} are not; \
+         {others} more have no value in it, or no known spread.\n",
+        counted(z.len(), "published number"),
+        z.len() - agree
     );
     match differences {
         [] => count,

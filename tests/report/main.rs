@@ -7,7 +7,7 @@ use rockfrag::fragility::{
 use rockfrag::hazard::{Fragility, FragilityPoint, RateByIntensity};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::number::{self, Limited};
-use rockfrag::report::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard};
+use rockfrag::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
 use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
 use rockfrag::report::fragility;
@@ -99,8 +99,8 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
             fragility: Some(curve(count)),
             hazard: Some(SiteHazard { peak: Peak::Pga, points: vec![(0.1, 0.1), (10.0, 1e-4)], parts }),
             changes: vec![
-                ("as it is".to_string(), limited(0.02)),
-                ("base of 0.60 m".to_string(), limited(0.01)),
+                Change { words: "as it is".to_string(), p: vec![limited(0.02)] },
+                Change { words: "base of 0.60 m".to_string(), p: vec![limited(0.01)] },
             ],
         },
         ..Evaluation::default()
@@ -394,7 +394,7 @@ fn values_beyond_all_axes_are_left_out() {
 #[test]
 fn the_expected_number_is_that_of_each_file() {
     let [one, other] = ["a", "b"].map(|file| Evaluation { file: file.to_string(), ..evaluation(4, 1e-3) });
-    let expected = |page: Page| page.tiles[1..3].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
+    let expected = |page: Page| page.tiles[..2].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
     let alone = expected(list::page(std::slice::from_ref(&one))).remove(0);
     assert_eq!(expected(list::page(&[one, other])), [alone.clone(), alone]);
 }

@@ -6,7 +6,7 @@ use super::point::{self, TreeRow};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Site, exceedance, probability_in_years};
 use crate::object::{Object, Subject};
-use crate::report::answers::{Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
+use crate::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
 use crate::report::{Page, list, object};
 use crate::stages::shared::model_args::Models;
 use crate::statistics::Limited;
@@ -69,11 +69,15 @@ pub fn alone<'a>(objects: &'a [Object], models: &Models) -> anyhow::Result<Optio
 impl Alone<'_> {
     /// What the page shows besides the row.
     pub fn portrait(&self, models: &Models, site: &Site, years: f64) -> Portrait {
-        let mut changes = vec![("as it is".to_string(), overturning(&self.subject, site, years))];
+        let p = vec![overturning(&self.subject, site, years)];
+        let mut changes = vec![Change { words: "as it is".to_string(), p }];
         for changed in self.object.changes() {
             // What would not rock, or lies outside the model, has no row.
-            if let Ok((subject, _)) = models.subject(&changed.object) {
-                changes.push((changed.words, overturning(&subject, site, years)));
+            let Ok((subject, _)) = models.subject(&changed.object) else { continue };
+            let p = overturning(&subject, site, years);
+            match changes.last_mut().filter(|last| last.words == changed.words) {
+                Some(same) => same.p.push(p),
+                None => changes.push(Change { words: changed.words, p: vec![p] }),
             }
         }
         let (peak, points) = match &site.hazard {
