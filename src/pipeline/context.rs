@@ -165,6 +165,14 @@ impl Context {
         }
     }
 
+    /// Removes what the stage once wrote beside an output that it now makes without it.
+    pub fn remove_former(&self, path: &Path) {
+        let made = Provenance::read(path).ok().flatten();
+        if made.is_some_and(|made| made.stage == self.made().stage) {
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
     /// Gives all files that were written their names.
     pub fn persist(&self) -> Result<(), TableError> {
         let written = self.written.lock().map(|mut all| std::mem::take(&mut *all)).unwrap_or_default();

@@ -6,6 +6,7 @@ use super::axis::Ruler;
 use super::figure::{Dash, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side};
 use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
 use super::text::{escape, html, literal, words};
+use crate::table::marks::sealed;
 
 /// How wide a picture is drawn, and the height of its letters over that of a file, which is 8 points.
 #[derive(Debug, Clone, Copy)]
@@ -58,11 +59,11 @@ pub fn svg(figure: &Figure, key: &str) -> String {
         "<meta xmlns=\"http://www.w3.org/1999/xhtml\" name=\"rockfrag\" content=\"{}\"/>",
         escape(key)
     );
-    format!(
+    sealed(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n\
          <metadata>{meta}</metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
-    )
+    ))
 }
 
 /// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
@@ -144,11 +145,12 @@ pub fn png(svg: &str, dpi: f32, key: &str) -> Result<Vec<u8>, resvg::usvg::Error
     Ok(with_text(&drawn, key))
 }
 
-/// A PNG with a text, called rockfrag, behind its head: a chunk of its length, its kind, its words and their
-/// sum.
+/// A PNG with its hash and a text, called rockfrag, behind its head: a chunk of its length, its kind, its words
+/// and their sum.
 fn with_text(png: &[u8], text: &str) -> Vec<u8> {
     const HEAD: usize = 33;
-    let content = [b"iTXtrockfrag\0\0\0\0\0", text.as_bytes()].concat();
+    let hash = blake3::hash(png).to_hex();
+    let content = [b"iTXtrockfrag\0\0\0\0\0", hash.as_bytes(), text.as_bytes()].concat();
     let mut sum = flate2::Crc::new();
     sum.update(&content);
     let [length, sum] = [content.len() as u32 - 4, sum.sum()].map(u32::to_be_bytes);

@@ -4,6 +4,7 @@
 use super::draw::html_of_panels;
 use super::figure::Figure;
 use super::text::{escape, html, words};
+use crate::table::marks::sealed;
 
 /// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are
 /// marked text, see [`super::text`].
@@ -110,7 +111,7 @@ impl Page {
             format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
         let told = if told.is_empty() { told } else { format!("<div>\n{told}</div>\n") };
         let (before, after) = if is_beside { (told, first.concat()) } else { (first.concat(), told) };
-        format!(
+        sealed(format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
             title = escape(&self.title),
@@ -128,7 +129,7 @@ impl Page {
             figures = others.concat(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             version = env!("CARGO_PKG_VERSION"),
-        )
+        ))
     }
 }
 

@@ -120,8 +120,9 @@ impl Stage for Simulate {
         )?;
         let assumed = if self.structures.is_given() { "" } else { OF_PAPER };
         let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
-        if let Some(traces) = traces {
-            context.finish(traces, &summary)?;
+        match traces {
+            Some(traces) => context.finish(traces, &summary)?,
+            None => context.remove_former(&part(&out, "trace")),
         }
         context.finish(writer, &summary)?;
         Ok(summary)

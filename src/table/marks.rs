@@ -19,24 +19,39 @@ const META: [&str; 2] = ["name=\"rockfrag\" content=\"", "\""];
 const XML: &str = "<!-- rockfrag ";
 /// How the names of structures begin in an export.
 const OWN_NAME: &str = "rockfrag_";
-/// Where a PNG has its first chunk behind the head, how a whole one ends, and where the file of a workbook has
-/// our properties.
+/// The start of the last line of a page or figure, before its hash.
+const SEAL: &str = "<!-- hash ";
+/// Where a PNG has its first chunk behind the head, and the bytes of a hash and of the sum of a chunk.
 const BEHIND_HEAD: usize = 33;
-const END: &[u8] = b"IEND\xaeB`\x82";
+const HASH: usize = 64;
+const SUM: usize = 4;
+/// Where the file of a workbook has our properties, and when it was written.
 const PROPERTIES: &str = "docProps/custom.xml";
+const CORE: &str = "docProps/core.xml";
+const WRITTEN: &str = ">2000-01-01T00:00:00Z<";
 
 impl Provenance {
-    /// Reads the provenance in a PNG; `None` if another program wrote it, or if its end is missing.
+    /// Reads the provenance in a PNG; `None` if another program wrote or changed it.
     pub fn from_picture(png: &[u8]) -> Option<Provenance> {
-        let (length, rest) = png.strip_suffix(END)?.get(BEHIND_HEAD..)?.split_first_chunk::<4>()?;
-        let chunk = rest.get(..u32::from_be_bytes(*length) as usize + 4)?;
-        Provenance::from_json(&String::from_utf8_lossy(chunk.strip_prefix(IN_PICTURE)?))
+        let (head, rest) = png.split_at_checked(BEHIND_HEAD)?;
+        let (length, rest) = rest.split_first_chunk::<4>()?;
+        let (chunk, rest) = rest.split_at_checked(u32::from_be_bytes(*length) as usize + 4)?;
+        let (hash, json) = chunk.strip_prefix(IN_PICTURE)?.split_at_checked(HASH)?;
+        let drawn = [head, rest.get(SUM..)?].concat();
+        let is_whole = blake3::hash(&drawn).to_hex().as_bytes() == hash;
+        is_whole.then(|| Provenance::from_json(&String::from_utf8_lossy(json)))?
     }
 
     /// Reads the provenance in a workbook, which is written in parts; `None` if another program wrote it.
     pub fn from_workbook(bytes: Vec<u8>) -> Option<Provenance> {
         let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).ok()?;
         let mut text = String::new();
+        archive.by_name(CORE).ok()?.read_to_string(&mut text).ok()?;
+        // Whoever saves it states when.
+        if text.matches(WRITTEN).count() != 2 {
+            return None;
+        }
+        text.clear();
         archive.by_name(PROPERTIES).ok()?.read_to_string(&mut text).ok()?;
         let parts = text.split("name=\"rockfrag").skip(1);
         let json =
@@ -48,11 +63,12 @@ impl Provenance {
     pub fn read(path: &Path) -> Result<Option<Provenance>, TableError> {
         let read = || std::fs::read(path).map_err(|source| TableError::io(path, source));
         match path.extension().and_then(|ending| ending.to_str()) {
-            Some(ending @ ("html" | "svg")) => {
+            Some("html" | "svg") => {
                 let bytes = read()?;
                 let text = String::from_utf8_lossy(&bytes);
-                let whole = text.trim_end().strip_suffix(&format!("</{ending}>"));
-                let json = whole.and_then(|text| between(text, META)).map(unescaped);
+                let before = text.rfind(SEAL).map(|at| text[..at].to_string());
+                let whole = before.filter(|before| sealed(before.clone()) == text);
+                let json = whole.and_then(|text| between(&text, META).map(unescaped));
                 Ok(json.and_then(|json| Provenance::from_json(&json)))
             }
             Some("png") => Ok(Provenance::from_picture(&read()?)),
@@ -61,6 +77,12 @@ impl Provenance {
             _ => Ok(Provenance::from_footer(file::metadata(path)?.metadata())),
         }
     }
+}
+
+/// Ends a page or figure with a hash of it: one that another program changes is not ours any more.
+pub fn sealed(text: String) -> String {
+    let hash = blake3::hash(text.as_bytes()).to_hex();
+    format!("{text}{SEAL}{hash} -->\n")
 }
 
 /// The comment that marks XML as ours, on its second line.

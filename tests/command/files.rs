@@ -1,6 +1,7 @@
 //! Files: what is damaged, foreign or in the way is named, and nothing of the user's is lost.
 
 use std::fs;
+use std::io::{Cursor, Read, Write};
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
@@ -104,6 +105,22 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
     assert!(before.key() != after.key() && before.arguments == after.arguments);
 }
 
+/// A workbook as a spreadsheet saves it: all parts stay, but for the time.
+fn saved_again(book: Vec<u8>) -> Vec<u8> {
+    let mut parts = zip::ZipArchive::new(Cursor::new(book)).unwrap();
+    let mut saved = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for at in 0..parts.len() {
+        let mut part = parts.by_index(at).unwrap();
+        let mut text = String::new();
+        part.read_to_string(&mut text).unwrap();
+        saved.start_file(part.name(), zip::write::SimpleFileOptions::default()).unwrap();
+        let text = text
+            .replace("2000-01-01T00:00:00Z</dcterms:modified>", "2026-01-01T00:00:00Z</dcterms:modified>");
+        saved.write_all(text.as_bytes()).unwrap();
+    }
+    saved.finish().unwrap().into_inner()
+}
+
 #[test]
 fn foreign_texts_are_not_replaced_and_own_ones_are() {
     let folder = folder(&[
@@ -124,6 +141,13 @@ fn foreign_texts_are_not_replaced_and_own_ones_are() {
         succeed(folder.path(), &evaluate(name));
         let whole = bytes(&folder.path().join(name));
         fs::write(folder.path().join(name), &whole[..whole.len() - 100]).unwrap();
+        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
+        let mut edited = whole.clone();
+        match name {
+            "cut.xlsx" => edited = saved_again(whole),
+            _ => edited[whole.len() / 2] ^= 1,
+        }
+        fs::write(folder.path().join(name), edited).unwrap();
         fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
     }
     let export = format!("export --to pelicun {BLOCK} --out mine.csv");

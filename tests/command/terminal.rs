@@ -34,6 +34,8 @@ fn a_trace_has_what_a_picture_needs() {
     let all = trace(folder.path());
     assert_eq!(all[..one.len()], one);
     assert!(all[one.len()..].iter().all(|row| row.motion_id == "1" && row.theta_rad == 0.0));
+    succeed(folder.path(), "simulate --width 0.6 --height 2");
+    assert!(!folder.path().join("responses.trace.parquet").exists(), "a trace of another structure");
 }
 
 #[test]

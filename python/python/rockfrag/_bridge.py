@@ -96,7 +96,10 @@ def call(
             if option.kind == "input" and name in words:
                 words[name] = file_of(words[name], Path(scratch, name), option)
         with errors_without(scratch):
-            text = json.dumps(words, allow_nan=False, default=plain)
+            try:
+                text = json.dumps(words, allow_nan=False, default=plain)
+            except ValueError:
+                raise ValueError(f"{stage.name}: an option is NaN or infinite; expected finite numbers") from None
             made = _rockfrag.call(stage.command, text, threads, progress)
         # Where warnings are errors, the folder goes.
         done = result(made, folder)
