@@ -10,7 +10,7 @@ use super::cases::{Case, Cases, Event, grouped};
 use super::level::{Level, Scenarios};
 use super::measure::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, Cut, Kind, Prior, Section};
+use super::surface::{self, AtIm4, Cut, Kind, Prior, Section};
 use super::tree::Z_95;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
@@ -189,7 +189,7 @@ impl Calibration {
     ) -> Option<Predictor> {
         let ln_seconds = ln_seconds(structure, measures)?;
         let section = Section::new(self.kind, structure, self.limit_state, [0.0, 1.0, 1.0], mw);
-        let cut = section.at(measures.im4, measures.im4.ln());
+        let cut = section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
         Some(Predictor {
             logit: cut.logit(ln_seconds),
             magnitude: section.magnitude(ln_seconds + cut.excess),
@@ -227,7 +227,7 @@ impl Calibration {
     ) -> Option<Estimate> {
         let ln_seconds = ln_seconds(structure, measures)?;
         let branch = self.branch(structure, mw);
-        let cut = branch.section.at(measures.im4, measures.im4.ln());
+        let cut = branch.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
         let magnitude = branch.section.magnitude(ln_seconds + cut.excess);
         Some(Level::all(scenarios, |level| logistic(branch.logit(&cut, ln_seconds, magnitude, level))))
     }

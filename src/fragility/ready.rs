@@ -5,7 +5,7 @@ use super::calibration::{Branch, logistic};
 use super::level::{Level, Scenarios};
 use super::model::{CONFIDENCE, Direction, Model, paper_probabilities};
 use super::on_floor::{FloorMotions, OnFloor};
-use super::surface::Cut;
+use super::surface::{AtIm4, Cut};
 use super::tree::{GivenRocking, LimitStates, Probabilities, UNKNOWN, p_failure_given_rocking};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
@@ -94,7 +94,8 @@ impl<'a> ReadyDirection<'a> {
         let ln_im4 = im4.ln();
         match &self.by {
             By::Ground(branches) if im4 >= 1.0 => {
-                let cuts = branches.each_ref().map(|branch| branch.section.at(im4, ln_im4));
+                let at = AtIm4::new(im4, ln_im4);
+                let cuts = branches.each_ref().map(|branch| branch.section.at(&at));
                 DirectionAtPga::Ground(branches, cuts)
             }
             By::Ground(_) => DirectionAtPga::Still,
@@ -137,8 +138,9 @@ impl DirectionAtPga<'_> {
                 let added = on_floor.added(motions);
                 let (mut failure, mut overturning) = (0.0, 0.0);
                 for node in motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0) {
+                    let at = AtIm4::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
                     let [p_ro, p_ex] = [0, 1].map(|k| {
-                        let cut = branches[k].section.at(im4 * node.pfa, ln_im4 + node.ln_pfa);
+                        let cut = branches[k].section.at(&at);
                         let logit = branches[k].logit(&cut, node.ln_seconds, magnitudes[k], level);
                         logistic(logit + added[k])
                     });
@@ -196,5 +198,10 @@ impl<'a> ReadyObject<'a> {
     /// Returns the probabilities of the limit states under motions with these peaks.
     pub fn limit_states(&self, peaks: Peaks, level: Level) -> LimitStates<f64> {
         self.at(peaks.pga_m_s2)((peaks.pgv_m_s / peaks.pga_m_s2).ln(), level)
+    }
+
+    /// Returns them with limits.
+    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Estimate> {
+        Level::limit_states(scenarios, |level| self.limit_states(peaks, level))
     }
 }

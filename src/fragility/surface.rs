@@ -29,7 +29,7 @@ impl Kind {
     /// Returns the kind of a suite by its word in tables, on the ground or a floor; recorded of an unknown
     /// word, or of none.
     pub fn from_suite(suite: Option<&str>) -> Kind {
-        match suite.and_then(|word| word.trim_end_matches(Suite::OF_FLOOR).parse().ok()) {
+        match suite.and_then(|word| word.trim_end_matches(Suite::ON_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,
             Some(Suite::Csgm) => Kind::Csgm,
             Some(Suite::Hfc) => Kind::Hfc,
@@ -116,31 +116,48 @@ impl Section {
         self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
-    /// Returns the section at an IM4 and its logarithm: c + s L is a cubic in r = ln(PGA / (p PGV)), by
-    /// Horner's rule in w = ln IM4 - r - 0.4 l. PGA is held where IM4 ends in the domain: beyond, a
-    /// polynomial means nothing, and PGV alone counts, so that P does not fall as PGV / PGA falls.
-    pub fn at(&self, im4: f64, ln_im4: f64) -> Cut {
-        let Surface { ln_im4: range, ln_ratio, .. } = &*SURFACE;
-        let held = range.held(ln_im4);
-        let (x, w_at_r_0) = ((held + 0.2).ln(), held - self.lower);
+    /// Returns the section at an IM4: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule in
+    /// w = ln IM4 - r - 0.4 l.
+    pub fn at(&self, at: &AtIm4) -> Cut {
+        let AtIm4 { ln_im4, held, x, ln_above } = *at;
+        let w_at_r_0 = held - self.lower;
         let mut cubic = [0.0; POWERS];
         for w in (0..POWERS).rev() {
-            for r in (0..POWERS).rev() {
+            for r in (0..POWERS - w).rev() {
                 let lower = if r > 0 { cubic[r - 1] } else { 0.0 };
                 let [a, b, c] = [0, 1, 2].map(|power| self.coefficients[power][w][r]);
                 cubic[r] = w_at_r_0 * cubic[r] - lower + (a + x * (b + x * c));
             }
         }
         let Uplift { n, ln_d, k } = self.uplift;
-        let ln_gain = n * (ln_d - (im4 - 1.0).max(0.0).ln() - k * (self.ln_p + ln_im4));
+        let ln_gain = n * (ln_d - ln_above - k * (self.ln_p + ln_im4));
         Cut {
             cubic,
             excess: ln_im4 - held,
             ln_p: self.ln_p_held,
-            ln_ratio: *ln_ratio,
+            ln_ratio: SURFACE.ln_ratio,
             ln_gain,
             slope: -n * k,
         }
+    }
+}
+
+/// An IM4, with what all sections need of it.
+pub(super) struct AtIm4 {
+    ln_im4: f64,
+    /// ln IM4 where IM4 ends in the domain: beyond, a polynomial means nothing, and PGV alone counts, so that P
+    /// does not fall as PGV / PGA falls.
+    held: f64,
+    /// ln(ln IM4 + 0.2), so held.
+    x: f64,
+    /// ln(IM4 - 1).
+    ln_above: f64,
+}
+
+impl AtIm4 {
+    pub fn new(im4: f64, ln_im4: f64) -> AtIm4 {
+        let held = SURFACE.ln_im4.held(ln_im4);
+        AtIm4 { ln_im4, held, x: (held + 0.2).ln(), ln_above: (im4 - 1.0).max(0.0).ln() }
     }
 }
 

@@ -5,7 +5,7 @@ use super::motions::Motions;
 use super::pgv_pga::PgvPgaRatio;
 use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
-use crate::object::{Part, Subject};
+use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Estimate;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
@@ -55,38 +55,28 @@ impl Motion {
             return MotionProbabilities { states, errors: Budget::default() };
         }
         let directions = &subject.directions[..];
-        let (many, one, ends) = match self.given_peak(&directions[0].model) {
+        let model = &directions[0].model;
+        let known = match self.given_peak(model) {
+            // What magnitude adds is beside tau in the limits of one motion.
             None => {
-                // What magnitude adds is beside tau in the limits of one motion.
-                let [pga_m_s2, pgv_m_s] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
-                let (ready, peaks) = (ReadyObject::new(directions, self.mw), Peaks { pga_m_s2, pgv_m_s });
-                let at = |level| ready.limit_states(peaks, level);
+                let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
                 let ends = subject.ends(&[], |directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, Level::Estimate)
                 });
-                (Level::limit_states(Scenarios::Many, at), Level::limit_states(Scenarios::One, at), ends)
+                Known::new(|scenarios| ready.estimates(peaks, scenarios), ends)
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
                 let ends = motions.ends(subject, &[], |given| given.limit_states(intensity));
-                let [many, one] = [Scenarios::Many, Scenarios::One].map(|of| given.estimates(intensity, of));
-                (many, one, ends)
+                Known::new(|scenarios| given.estimates(intensity, scenarios), ends)
             }
         };
-        let values = many.map(|state| state.value);
-        let budget = |state: LimitState| {
-            let mut errors = Budget::new(&values, &ends, |states| logit(states.get(state)));
-            let fit = sd_of_limits(many.get(state));
-            errors.add(Part::Fit, [fit, fit]);
-            let tau = (sd_of_limits(one.get(state)).powi(2) - fit * fit).max(0.0).sqrt();
-            match values.get(state) {
-                p if p > 0.0 && p < 1.0 => (errors, errors.limit_probability(p, values.rocking, tau)),
-                _ => (errors, many.get(state)),
-            }
-        };
-        let ((_, failure), (errors, overturning)) =
-            (budget(LimitState::Failure), budget(LimitState::Overturning));
-        MotionProbabilities { states: LimitStates { rocking: many.rocking, failure, overturning }, errors }
+        let (_, failure) = known.limited(LimitState::Failure);
+        let (errors, overturning) = known.limited(LimitState::Overturning);
+        MotionProbabilities {
+            states: LimitStates { rocking: known.many.rocking, failure, overturning },
+            errors,
+        }
     }
 
     /// Returns the motions of the peak that is given alone, and its value; none where both are given.
@@ -98,6 +88,38 @@ impl Motion {
         };
         let velocity = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
         Some((Motions::new(peak, velocity, self.mw), intensity))
+    }
+}
+
+/// Probabilities for an object, and how well they are known.
+struct Known {
+    /// With limits by the parameters of the model.
+    many: LimitStates<Estimate>,
+    /// With limits by these and by the standard deviation between earthquakes, tau.
+    one: LimitStates<Estimate>,
+    /// With each other unknown at its quantiles.
+    ends: Vec<Unknown<LimitStates<f64>>>,
+}
+
+impl Known {
+    fn new(
+        estimates: impl Fn(Scenarios) -> LimitStates<Estimate>,
+        ends: Vec<Unknown<LimitStates<f64>>>,
+    ) -> Known {
+        Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
+    }
+
+    /// Returns the errors of the logit of a probability, without tau, and the probability with limits by all.
+    fn limited(&self, state: LimitState) -> (Budget, Estimate) {
+        let values = self.many.map(|p| p.value);
+        let mut errors = Budget::new(&values, &self.ends, |states| logit(states.get(state)));
+        let [fit, in_all] = [self.many, self.one].map(|p| sd_of_limits(p.get(state)));
+        errors.add(Part::Fit, [fit, fit]);
+        let tau = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
+        match values.get(state) {
+            p if p > 0.0 && p < 1.0 => (errors, errors.limit_probability(p, values.rocking, tau)),
+            _ => (errors, self.many.get(state)),
+        }
     }
 }
 

@@ -42,9 +42,9 @@ struct PeakByPeriod {
     h: f64,
 }
 
-const OF_ACCELERATION: PeakByPeriod =
+const ACCELERATION_BY_PERIOD: PeakByPeriod =
     PeakByPeriod { b: -0.090, k: 3.430, d: 3.635, e: 0.112, l: 0.434, h: 1.494 };
-const OF_VELOCITY: PeakByPeriod =
+const VELOCITY_BY_PERIOD: PeakByPeriod =
     PeakByPeriod { b: 0.930, k: 3.199, d: 3.569, e: -0.225, l: 1.574, h: 0.637 };
 /// Standard deviation of ln of both peaks, of a motion that is all resonance.
 const SCATTER_OF_ACCELERATION: f64 = 0.284;
@@ -98,7 +98,7 @@ impl Floor {
     pub(crate) fn amplifier(&self) -> Amplifier {
         Amplifier {
             ln_period: (self.period_s / TAU).ln(),
-            modes: [OF_ACCELERATION, OF_VELOCITY].map(|peak| {
+            modes: [ACCELERATION_BY_PERIOD, VELOCITY_BY_PERIOD].map(|peak| {
                 let mut odd = 1.0_f64;
                 self.shares().map(|share| {
                     let mode = Mode {
@@ -154,7 +154,7 @@ impl Amplifier {
     pub fn at(&self, ln_seconds: f64) -> Amplified {
         let u = self.ln_period - ln_seconds;
         let [(ln_pfa, resonant_a), (ln_pfv, resonant_v)] =
-            [0, 1].map(|k| amplified([OF_ACCELERATION, OF_VELOCITY][k], &self.modes[k], u));
+            [0, 1].map(|k| amplified([ACCELERATION_BY_PERIOD, VELOCITY_BY_PERIOD][k], &self.modes[k], u));
         Amplified {
             ln_pfa,
             sd_ln_pfa: SCATTER_OF_ACCELERATION * resonant_a.sqrt(),

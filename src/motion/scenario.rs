@@ -90,11 +90,11 @@ keywords! {
 
 impl Suite {
     /// End of the suite of motions of a floor: `record floor`.
-    pub const OF_FLOOR: &str = " floor";
+    pub const ON_FLOOR: &str = " floor";
 
     /// Returns whether a suite, by its word in tables, is of motions of a floor.
     pub fn is_floor(suite: Option<&str>) -> bool {
-        suite.is_some_and(|suite| suite.ends_with(Suite::OF_FLOOR))
+        suite.is_some_and(|suite| suite.ends_with(Suite::ON_FLOOR))
     }
 }
 

@@ -9,7 +9,9 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::shared::objects::field;
 use crate::motion::{Floor, MeasurePlan, MeasureScratch, MotionMeasures, Suite};
+use crate::object::Field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -39,12 +41,10 @@ pub struct FloorMotions {
     #[arg(long, value_name = "FILE", default_value = "floor.parquet")]
     out: Output,
     /// First period of the building, s
-    #[arg(long, value_name = "S",
-          value_parser = number(0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"))]
+    #[arg(long, value_name = "S", value_parser = field(Field::Period))]
     period: f64,
     /// Height of the floor over that of the roof, 0 to 1
-    #[arg(long, value_name = "Z",
-          value_parser = number(0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 in storey 3 of 5"))]
+    #[arg(long, value_name = "Z", value_parser = field(Field::Level))]
     level: f64,
     /// Damping ratio of the modes
     #[arg(long, value_name = "RATIO", default_value = "0.05",
@@ -128,7 +128,7 @@ impl FloorMotions {
             filtered.push(moved);
         }
         let floors = ground.texts("suite")?.into_iter().map(|suite| FloorRow {
-            suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::OF_FLOOR,
+            suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::ON_FLOOR,
             floor_period_s: self.period,
             floor_level: self.level,
         });

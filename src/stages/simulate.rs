@@ -35,7 +35,7 @@ const ALL: &str = "all";
 const NAMED: usize = 8;
 
 /// What is said where no structure is given.
-const OF_PAPER: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
+const ASSUMED: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
 
 /// Simulate the rocking response of structures to motions: the paper's two structures, or your own
 #[derive(Debug, Args, Serialize)]
@@ -118,7 +118,7 @@ impl Stage for Simulate {
                 Ok(())
             },
         )?;
-        let assumed = if self.structures.is_given() { "" } else { OF_PAPER };
+        let assumed = if self.structures.is_given() { "" } else { ASSUMED };
         let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
         match traces {
             Some(traces) => context.finish(traces, &summary)?,

@@ -20,13 +20,8 @@ fn curve() -> HazardCurve {
         .unwrap()
 }
 
-fn site(hazard: Hazard) -> Site {
-    Site::new(hazard)
-}
-
 fn over_pga() -> Site {
-    let (peak, curve) = (Peak::Pga, curve());
-    site(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None }))
+    Site::new(Hazard::over(Peak::Pga, curve()))
 }
 
 fn block(width: f64) -> Subject {
@@ -40,7 +35,7 @@ fn the_parts_of_a_rate_sum_to_the_rate() {
         annual_rate: 1e-3 / (1 + k) as f64,
         mw: None,
     };
-    let joint = site(Hazard::Joint((0..12).map(pair).collect()));
+    let joint = Site::new(Hazard::Joint((0..12).map(pair).collect()));
     for site in [over_pga(), joint] {
         let (rate, parts) = (site.overturning(&block(0.5)).unwrap(), site.rate_by_intensity(&block(0.5), 60));
         let sum = parts.rates.iter().sum::<f64>() + parts.beyond;
@@ -148,7 +143,7 @@ const RATIO_S: f64 = 0.1;
 
 fn of_one_ratio() -> Site {
     let (peak, curve, velocity) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
-    site(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
+    Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
 }
 
 #[test]

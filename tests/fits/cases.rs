@@ -1,11 +1,8 @@
 //! Responses as columns: what counts, clusters, and structures that are not one.
 
 use rockfrag::fragility::{Case, Cases, Cluster, Event, Measure};
-use rockfrag::keyword::Keyword;
 use rockfrag::rocking::Outcome;
-use rockfrag::statistics::{FitStatus, Range};
-use serde::Deserialize;
-use serde::de::IntoDeserializer;
+use rockfrag::statistics::Range;
 
 use crate::common::{cases, equipment};
 
@@ -65,24 +62,4 @@ fn clusters_do_not_depend_on_the_order_of_rows() {
     assert_eq!(clusters(&[4, 3, 0, 1]), [2, 0, 1, 2]);
     assert_eq!(clusters(&[4, 2, 1]), [0, 1, 0]);
     assert_eq!(clusters(&[5, 2]), [0, 1]);
-}
-
-#[test]
-fn files_have_the_words_of_the_command_line() {
-    fn check<T: Keyword + std::fmt::Debug + for<'de> Deserialize<'de>>() {
-        for known in T::ALL {
-            let word: serde::de::value::StrDeserializer<serde::de::value::Error> =
-                known.as_str().into_deserializer();
-            assert_eq!(T::deserialize(word).unwrap(), *known);
-        }
-        let nothing: serde::de::value::StrDeserializer<serde::de::value::Error> = "".into_deserializer();
-        assert!(T::deserialize(nothing).is_err());
-    }
-    check::<FitStatus>();
-    check::<Measure>();
-    check::<Event>();
-    check::<rockfrag::fragility::DemandModel>();
-    check::<rockfrag::fragility::Parameter>();
-    check::<rockfrag::studies::Target>();
-    check::<rockfrag::studies::Form>();
 }

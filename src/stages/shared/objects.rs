@@ -14,7 +14,7 @@ use crate::rocking::Structure;
 use crate::warning::{UNNAMED, Warning, Warnings};
 
 /// Returns a parser of a number that may be known of an object.
-fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
+pub fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
     move |text| field.parse_value(text)
 }
 
