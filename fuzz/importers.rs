@@ -1,8 +1,8 @@
-//! Bytes as a table of any kind, and as the file of a recorded motion, in the format that the first byte names.
+//! Bytes as a table, as a list of objects, and as the file of a recorded motion, in the format that the first byte names.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use rockfrag::inputs::Grid;
+use rockfrag::inputs::{Grid, objects};
 use rockfrag::keyword::Keyword;
 use rockfrag::records::{Format, ReadOptions, read_records};
 use rockfrag::rocking::Record;
@@ -15,6 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
         {
             assert!(grid.number(row, column).is_ok_and(f64::is_finite) || grid.number(row, column).is_err());
         }
+        let _ = objects::in_rows(&grid);
     }
     let formats = Format::ALL.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];

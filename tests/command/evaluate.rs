@@ -54,7 +54,7 @@ fn rates_over_a_power_law_are_those_of_closed_forms() {
     assert!(near(number(row, "p_rocking"), -(-rocking * 100.0).exp_m1(), 1e-9));
     // Overturning: the sum of P_ro at the middles of narrow bins times their rates; beyond 4.5 g as at 4.5
     // g. The motions' magnitude is above the mean of the disaggregation.
-    let mw = 6.5 + 0.45;
+    let mw = 6.5 + 0.25;
     let edges: Vec<f64> = (0..=400).map(|k| 0.25 * 18_f64.powf(f64::from(k) / 400.0)).collect();
     let middles = edges.windows(2).map(|edge| (edge[0] * edge[1]).sqrt()).chain([4.5]);
     let lines = middles.map(|pga| format!("{pga},{},{mw}\n", 0.1 * pga * G_M_S2));

@@ -134,7 +134,7 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
         overturning.m += step * (high.m - low.m);
     }
     // That of motions is above a mean of the disaggregation.
-    let mean = 6.35 + 0.6 * z[1] - 0.45;
+    let mean = 6.35 + 0.6 * z[1] - 0.25;
     Site { mw: Some(mean), ..of_one_ratio() }.overturning(&subject).unwrap()
 }
 

@@ -144,7 +144,6 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let pgv = curve_of_velocity(k, -2.9, slope, sd);
     let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
-
     let hazard =
         PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, velocity: Some(velocity) };
     let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
