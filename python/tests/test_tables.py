@@ -72,6 +72,20 @@ def test_a_temporary_file_goes_when_its_result_does(motions):
     assert not path.parent.exists()
 
 
+def test_a_result_is_not_that_of_another_call(tmp_path, monkeypatch, motions):
+    monkeypatch.chdir(tmp_path)
+    made = rockfrag.simulate(motions, structure=FRAME, out="responses.parquet")
+    table = made.to_polars()
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert made.to_polars().equals(table)
+    rockfrag.simulate(motions, structure=FRAME, out=made.path)
+    assert made.to_polars().equals(table)
+    rockfrag.simulate(motions, structures="paper", out=made.path)
+    with pytest.raises(rockfrag.Error, match="responses.parquet: changed since simulate wrote it"):
+        made.to_polars()
+
+
 def test_a_table_that_cannot_be_right_is_told_without_a_path(motions):
     with pytest.raises(rockfrag.Error, match="^in.parquet: no column 'dt_s'"):
         rockfrag.simulate(motions.to_polars().drop("dt_s"), structure=FRAME)

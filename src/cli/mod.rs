@@ -23,6 +23,7 @@ use crate::pipeline::paths::{Role, path_kind};
 use crate::pipeline::{UsageError, cache};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
+use crate::table::keys::resolved;
 
 const PIPELINE: &str = "pipeline.yaml";
 /// Letters of an error, which may name what a file says.
@@ -264,7 +265,7 @@ pub fn calls_of(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> any
         })?;
         for file in call.stage.outputs() {
             let text = file.display().to_string();
-            if let Some(first) = written.insert(file, name) {
+            if let Some(first) = written.insert(resolved(&file), name) {
                 return Err(refuse(pipeline, &format!("{first} and {name} both write {text}")));
             }
         }

@@ -6,19 +6,16 @@ use std::fmt;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
-use serde_saphyr::{Error, Spanned, with_deserializer_from_str};
+use serde_saphyr::{Spanned, UserMessageFormatter, with_deserializer_from_str};
 
 /// Parses YAML. What is left empty, or null outside of a mapping in a list, is null.
 pub fn parse(text: &str) -> Result<Value, String> {
     let whole = serde_saphyr::from_str(text).and_then(|shape: Value| {
         with_deserializer_from_str(text, |yaml| Written { text, shape: &shape, depth: 0 }.deserialize(yaml))
     });
-    whole.map_err(|error| match error.without_snippet() {
-        Error::DuplicateMappingKey { key, location } => {
-            let key = key.as_deref().unwrap_or("a key");
-            format!("line {}: '{key}' stands twice; keep one", location.line())
-        }
-        other => other.to_string().lines().next().unwrap_or_default().to_string(),
+    whole.map_err(|error| {
+        let told = error.without_snippet().render_with_formatter(&UserMessageFormatter);
+        told.lines().next().unwrap_or_default().to_string()
     })
 }
 

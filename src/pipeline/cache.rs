@@ -5,7 +5,7 @@ use std::path::Path;
 use super::call::{Call, Planned};
 use super::context::{Context, Plan};
 use super::options::UsageError;
-use crate::source::is_pipe;
+use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::marks::is_ours;
 use crate::table::provenance::Provenance;
@@ -79,7 +79,8 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
 /// is no table is checked when it is written.
 fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()> {
     let Ok(real) = out.canonicalize() else { return Ok(()) };
-    let is_read = plan.files.iter().any(|file| file.path.canonicalize().is_ok_and(|path| path == real));
+    let mut read = plan.files.iter().map(|file| split_sheet(&file.path).0);
+    let is_read = read.any(|path| path.canonicalize().is_ok_and(|path| path == real));
     let problem = match () {
         _ if is_read => "is read and cannot be written too",
         _ if real.is_dir() => "is a folder; expected a file",

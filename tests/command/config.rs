@@ -10,6 +10,10 @@ fn mistakes_in_a_pipeline_file_are_named() {
         ("fit-pro: { confidence: 2 }", vec!["fit-pro", "confidence", "2"]),
         ("fit-pro: 3", vec!["pipeline.yaml", "fit-pro", "3"]),
         ("simulate: { structure: [{ name: a, q: 1 }] }", vec!["simulate", "'q'"]),
+        (
+            "fit-pex: { out: a.parquet }\nfit-pro: { out: b/../a.parquet }",
+            vec!["fit-pex", "fit-pro", "b/../a."],
+        ),
         ("a: [", vec!["pipeline.yaml"]),
         ("{}", vec!["pipeline.yaml", "no stage"]),
         ("seed: x\nfit-pro: {}\nsample-scenarios: {}", vec!["seed", "x"]),

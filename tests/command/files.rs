@@ -150,6 +150,8 @@ fn foreign_texts_are_not_replaced_and_own_ones_are() {
         fs::write(folder.path().join(name), edited).unwrap();
         fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
     }
+    let call = "evaluate --structures cut.xlsx#rockfrag --pga 0.4 --pgv 0.5 --out cut.xlsx --force";
+    fail(folder.path(), call, 2, &["cut.xlsx", "is read"]);
     let export = format!("export --to pelicun {BLOCK} --out mine.csv");
     fail(folder.path(), &export, 1, &["mine.csv", "--force"]);
     fs::write(folder.path().join("f.xml"), "<?xml version=\"1.0\"?>\n<a>rockfrag</a>\n").unwrap();

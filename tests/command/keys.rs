@@ -251,8 +251,13 @@ fn names_of_a_pipeline_are_texts() {
         let rows = rows(folder.path(), "out/evaluated.parquet");
         assert!(rows.lines().nth(1).unwrap().starts_with(&format!("{expected},")), "{name}: {rows}");
     }
-    let folder = folder_with("fit-pro: { confidence: 0.9, confidence: 0.8 }\n");
-    let output = crate::common::rockfrag(folder.path(), "run").output().unwrap();
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert!(stderr.contains("'confidence'") && !stderr.contains("DuplicateKeyPolicy"), "{stderr}");
+    for (text, named) in [
+        ("fit-pro: { confidence: 0.9, confidence: 0.8 }\n", "confidence"),
+        ("fit-pro: {}\n---\nfit-pex: {}\n", "line 3"),
+    ] {
+        let output = crate::common::rockfrag(folder_with(text).path(), "run").output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        let is_advice = ["DuplicateKeyPolicy", "from_str"].iter().any(|word| stderr.contains(word));
+        assert!(output.status.code() == Some(2) && stderr.contains(named) && !is_advice, "{stderr}");
+    }
 }

@@ -223,8 +223,14 @@ fn names_may_be_long() {
         "rank-ims --terms 1",
         "validate",
         "ida --structures list.csv",
+        "report --in responses.parquet",
     ] {
         assert!(succeed(folder.path(), call).0.len() < 100_000, "{call}");
+    }
+    // A figure with the whole name takes minutes to draw.
+    for figure in std::fs::read_dir(folder.path().join("report")).unwrap().flatten() {
+        let is_drawn = figure.path().extension().is_some_and(|ending| ending == "svg");
+        assert!(!is_drawn || figure.metadata().unwrap().len() < 65_536, "{figure:?}");
     }
 }
 

@@ -27,7 +27,9 @@ class Result:
     def __init__(
         self, stage: str, path: Path | None, summary: str, warnings: list[str], folder: Path | None = None
     ) -> None:
-        self.stage, self.path, self.summary, self.warnings = stage, path, summary, warnings
+        self.stage, self.summary, self.warnings = stage, summary, warnings
+        self.path = path and path.absolute()
+        self._written = self._state()
         self._owner: Result | None = None
         self._folder = folder
         if folder is not None:
@@ -87,7 +89,15 @@ class Result:
     def _table(self) -> Path:
         if self.path is None or self.path.suffix != ".parquet":
             raise ValueError(f"{self.stage} wrote no table; .summary has what it prints")
+        if self._state() not in (None, self._written):
+            raise _rockfrag.Error(f"{self.path}: changed since {self.stage} wrote it; call it again")
         return self.path
+
+    def _state(self) -> tuple[int, int] | None:
+        if self.path is None or not self.path.exists():
+            return None
+        found = self.path.stat()
+        return found.st_ino, found.st_mtime_ns
 
     def __repr__(self) -> str:
         warnings = [f"warning: {warning}" for warning in self.warnings]

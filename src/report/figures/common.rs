@@ -35,10 +35,13 @@ impl Fits {
     }
 }
 
+/// Letters of a name in a figure.
+const LONGEST_NAME: usize = 200;
+
 /// The name of a structure; without one, the block that rocks like it. Marked text.
 pub fn called(structure: &Structure) -> String {
     if structure.name != UNNAMED {
-        return literal(&structure.name);
+        return literal(&number::shown(&structure.name, LONGEST_NAME));
     }
     let (sin, cos) = structure.alpha_rad.sin_cos();
     let [width, height] = [sin, cos].map(|side| number::length(side * structure.block_diagonal_m()));
