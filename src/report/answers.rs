@@ -1,7 +1,7 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
 use crate::fragility::Peak;
-use crate::hazard::{Fragility, RateByIntensity};
+use crate::hazard::{Fragility, RateByIntensity, probability_in_years};
 use crate::number::{self, Limited, PERCENT};
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::warning::UNNAMED;
@@ -130,6 +130,12 @@ pub fn in_years(years: f64) -> String {
     format!("in {} year{}", number::plain(years), if years == 1.0 { "" } else { "s" })
 }
 
+/// A width, or the least of both sides, that meets a target.
+pub fn base_in_words(width: Option<f64>, sides: Option<f64>) -> Option<String> {
+    let width = width.map(|width| format!("{width:.2} m"));
+    width.or_else(|| Some(format!("{:.2} m on both sides", sides?)))
+}
+
 /// Said of an object that could rock, but has no rate.
 pub const NO_RATE: &str =
     "has no rate of overturning: its model has no probability for some motions of the hazard";
@@ -138,10 +144,38 @@ pub const NO_RATE: &str =
 /// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
 pub const BANDS: [f64; 2] = [0.02, 0.1];
 
-/// The bands in words.
-pub const BAND_NAMES: [&str; 3] = ["below 2 %", "2 to 10 %", "above 10 %"];
+/// A limit state, how likely it is in the exposure time, and how often it comes a year.
+pub struct State {
+    pub name: String,
+    pub p: Limited,
+    pub per_year: Limited,
+}
 
 impl Answer<RatesRow> {
+    /// The limit states, each beyond those before; and overturning as counted in responses.
+    pub fn states(&self) -> Vec<State> {
+        let row = &self.row;
+        let mut states = vec![
+            State {
+                name: "rocks".to_string(),
+                p: Limited::value(row.p_rocking),
+                per_year: Limited::value(row.rocking_per_year),
+            },
+            State {
+                name: format!("{}, or overturns", self.object.too_far()),
+                p: row.p_failure,
+                per_year: row.failure_per_year,
+            },
+            State { name: "overturns".to_string(), p: row.p_overturning, per_year: row.overturning_per_year },
+        ];
+        states.extend(row.counted_motions.zip(row.years).map(|(motions, years)| {
+            let (per_year, motions) = (row.counted_per_year, number::counted(motions as usize, "motion"));
+            let p = per_year.map(|rate| probability_in_years(rate, years));
+            State { name: format!("overturns, counted among {motions}"), p, per_year }
+        }));
+        states
+    }
+
     /// The probability of overturning by which objects are sorted: where there is no value its upper end.
     pub fn severity(&self) -> f64 {
         let p = self.row.p_overturning;
@@ -212,10 +246,4 @@ impl Expected {
         let (low, high) = (number::significant(self.least, 2), number::significant(self.most, 2));
         if low == high { low } else { format!("{low} to {high}") }
     }
-}
-
-/// How many of all have no answer: `For 2 of 15 there is no answer.`
-pub fn words_of_silent(silent: usize, all: usize) -> Option<String> {
-    (silent > 0)
-        .then(|| format!("For {} of {} there is no answer.", number::count(silent), number::count(all)))
 }

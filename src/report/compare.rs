@@ -68,24 +68,33 @@ impl Pair<'_> {
         ratio.map_or(String::new(), |ratio| format!("{sign}{ratio}"))
     }
 
-    /// The columns that differ: `width 0.35 → 0.50 m`.
-    fn changes(&self) -> String {
+    /// The columns that differ: `width 0.35 → 0.50 m`; alpha and eta where nothing else does.
+    fn changes(&self) -> Vec<String> {
         let [before, after] = [self.before, self.after].map(|rated| &rated.object);
-        let mut words = Vec::new();
-        for (name, side) in [
-            ("width", (|object| object.width_m) as fn(&ObjectRow) -> Option<f64>),
-            ("depth", |object| object.depth_m),
-            ("height", |object| object.height_m),
-        ] {
-            let [old, new] =
-                [before, after].map(|object| side(object).map_or("-".to_string(), number::length));
-            words.extend((old != new).then(|| format!("{name} {old} → {new} m")));
-        }
         let [old, new] = [before, after].map(|object| object.floor().unwrap_or("ground".to_string()));
-        words.extend((old != new).then(|| format!("{old} → {new}")));
+        let mut words: Vec<String> = (old != new).then(|| format!("{old} → {new}")).into_iter().collect();
         let reason = Some(self.after).filter(|after| !after.is_answered());
         words.extend(reason.and_then(|after| after.doubts.warnings.as_deref()).map(literal));
-        words.join(", ")
+        for (name, unit, column) in [
+            ("width", " m", (|object| object.width_m) as fn(&ObjectRow) -> Option<f64>),
+            ("depth", " m", |object| object.depth_m),
+            ("height", " m", |object| object.height_m),
+            ("centre of mass: tips at", "°", |object| object.alpha_rad.map(f64::to_degrees)),
+            ("restitution", "", |object| object.eta),
+        ] {
+            let is_length = unit == " m";
+            let written =
+                |value| if is_length { number::length(value) } else { number::significant(value, 3) };
+            let [old, new] = [before, after].map(|object| column(object).map_or("-".to_string(), written));
+            let is_told = is_length || words.is_empty();
+            words.extend((old != new && is_told).then(|| format!("{name} {old} → {new}{unit}")));
+        }
+        words
+    }
+
+    fn what_changed(&self) -> String {
+        let changes = self.changes().join(", ");
+        if changes.is_empty() { "nothing of the object".to_string() } else { changes }
     }
 }
 
@@ -96,9 +105,9 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
     for pair in pairs {
         let values = vec![(before, pair.before.row.p_overturning), (after, pair.after.row.p_overturning)];
         let words = match pair.ratio.value {
+            _ if !pair.is_changed() => "as before".to_string(),
             None => String::new(),
-            Some(_) if pair.is_changed() => format!("× {}", TWO_DIGITS.value(pair.ratio)),
-            Some(_) => "as before".to_string(),
+            Some(_) => format!("× {}", TWO_DIGITS.value(pair.ratio)),
         };
         rows.push(Row { name: pair.name(), values, words });
     }
@@ -140,7 +149,10 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         },
         place: format!("Before: {file_before}. After: {file_after}. Hazard: {hazards}."),
         sentence: sentence(&pairs, when, target),
-        tiles: pairs.iter().filter(|pair| pair.is_changed()).take(DRAWN).map(tile).collect(),
+        tiles: match &pairs[..] {
+            [_] => Vec::new(),
+            several => several.iter().filter(|pair| pair.is_changed()).take(DRAWN).map(tile).collect(),
+        },
         facts: facts.into_iter().flatten().collect(),
         table: Some(table(&pairs, when)),
         notes: unpaired(before, after, &pairs),
@@ -155,7 +167,7 @@ fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
     if let [pair] = pairs {
         let (name, old, new) = (pair.name(), percent(pair.before), percent(pair.after));
         let odds = format!("{name} overturns with a probability of {old} before and {new} after, {when}");
-        return format!("{odds}{}. What changed: {}.", pair.times(": "), pair.changes());
+        return format!("{odds}{}. What changed: {}.", pair.times(": "), pair.what_changed());
     }
     let before: Vec<&Rated> = pairs.iter().map(|pair| pair.before).collect();
     let after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
@@ -185,7 +197,7 @@ fn worst<'a>(all: &[&'a Rated]) -> Option<&'a Rated> {
 fn tile(pair: &Pair) -> Tile {
     let [before, after] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
     let number = format!("{} → {}", OF_HUNDRED.value(before), PERCENT.value(after));
-    Tile::new(number, format!("{}: {}{}", pair.name(), pair.changes(), pair.times("; ")))
+    Tile::new(number, format!("{}: {}{}", pair.name(), pair.what_changed(), pair.times("; ")))
 }
 
 fn table(pairs: &[Pair], when: &str) -> Table {
@@ -209,25 +221,26 @@ fn table(pairs: &[Pair], when: &str) -> Table {
 
 /// Objects of one file alone, and those without an answer in both.
 fn unpaired(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
+    let paired: Vec<&str> = pairs
+        .iter()
+        .flat_map(|pair| [pair.before, pair.after])
+        .map(|rated| rated.object.structure.as_str())
+        .collect();
+    let [only_before, only_after] = [before, after].map(|one| format!("Only in {}", literal(&one.file)));
     let mut lines = Vec::new();
-    for (one, other) in [(before, after), (after, before)] {
-        let (mut alone, mut silent) = (Vec::new(), Vec::new());
-        for rated in &one.rows {
-            let is_paired =
-                pairs.iter().any(|pair| std::ptr::eq(pair.before, rated) || std::ptr::eq(pair.after, rated));
-            let is_in_both = other.rows.iter().any(|o| o.object.structure == rated.object.structure);
-            match (is_paired, is_in_both) {
-                (true, _) => {}
-                (false, true) => silent.push(rated.object.marked_name()),
-                (false, false) => alone.push(rated.object.marked_name()),
-            }
-        }
-        if !alone.is_empty() {
-            lines.push(format!("Only in {}: {}.", literal(&one.file), alone.join(", ")));
-        }
-        if !silent.is_empty() && std::ptr::eq(one, before) {
-            lines.push(format!("Not assessed before or after: {}.", silent.join(", ")));
-        }
+    for (heading, own, other, is_in_both) in [
+        (only_before, before, after, false),
+        (only_after, after, before, false),
+        ("Not assessed before or after".to_string(), before, after, true),
+    ] {
+        let others: Vec<&str> = other.rows.iter().map(|rated| rated.object.structure.as_str()).collect();
+        let mut rows: Vec<&Rated> = own.rows.iter().collect();
+        rows.retain(|rated| {
+            let name = rated.object.structure.as_str();
+            !paired.contains(&name) && others.contains(&name) == is_in_both
+        });
+        let names: Vec<String> = rows.iter().map(|rated| rated.object.marked_name()).collect();
+        lines.extend((!names.is_empty()).then(|| format!("{heading}: {}.", names.join(", "))));
     }
     lines
 }

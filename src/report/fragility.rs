@@ -5,7 +5,7 @@ use super::figure::{Figure, Ink, Layer, Panel, Span};
 use super::object::{HEIGHT, averaged, axes, curve, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
-use crate::fragility::LimitState;
+use crate::fragility::{LimitState, Peak};
 use crate::hazard::{Fragility, Lognormal, intensity_in_words};
 use crate::number::{self, significant};
 use crate::table::answers::{Answer, FragilityRow, ObjectRow};
@@ -43,8 +43,14 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
                 averaged(first.over)
             );
             let panel = Panel::new("", x.over(ends.low, ends.high), y, layers);
-            Figure::new("fragility", "How strong a motion overturns each object", 1, HEIGHT, vec![panel])
-                .explained(caption)
+            Figure::new(
+                "fragility",
+                "How strong a motion overturns each object",
+                1,
+                1.6 * HEIGHT,
+                vec![panel],
+            )
+            .explained(caption)
         }
     }
 }
@@ -61,8 +67,6 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
         return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };
     };
     let what = fragility.over.words().0;
-    let half = intensity_in_words(fragility.over, fragility.overturning.theta.value);
-    let of = if fragility.overturning.theta.value.is_some() { "of " } else { "" };
     let (title, name) = match all {
         [one] => (words(&one.object.marked_title()), "it".to_string()),
         _ => (
@@ -76,13 +80,30 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
             Some(hazard) => format!("Fragility over {what}; hazard: {}", literal(hazard)),
             None => format!("Fragility over {what}, of generic sites"),
         },
-        sentence: format!("Half of the motions overturn {name} at a {what} {of}{half}."),
+        sentence: format!(
+            "Half of the motions overturn {name} at a {}.",
+            half_in_words(fragility.over, &fragility.overturning)
+        ),
         facts: model_in_words(weakest).into_iter().collect(),
         table: Some(table(all, what)),
         notes,
         figures: vec![figure(all, outline)],
         ..Page::default()
     }
+}
+
+/// The intensity at which half of the motions overturn an object: `PGA of 0.83 g`.
+pub fn half_in_words(over: Peak, Lognormal { theta, .. }: &Lognormal) -> String {
+    let of = if theta.value.is_some() { "of " } else { "" };
+    format!("{} {of}{}", over.words().0, intensity_in_words(over, theta.value))
+}
+
+/// The intensity of one half, its limits after words, and those of 16 and 84 %.
+pub fn cells(over: Peak, Lognormal { at_16, theta, at_84, .. }: &Lognormal, words: &str) -> Vec<String> {
+    let [low, high] = [theta.low, theta.high].map(|limit| intensity_in_words(over, limit));
+    let limits = theta.low.map_or(String::new(), |_| format!("({words}{low} to {high})"));
+    let [theta, at_16, at_84] = [theta, at_16, at_84].map(|at| intensity_in_words(over, at.value));
+    vec![theta, limits, at_16, at_84]
 }
 
 fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
@@ -92,20 +113,10 @@ fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
     for one in all {
         let mut row = vec![one.object.marked_name()];
         match &one.row.curve {
-            None => row.push("no answer".to_string()),
+            None => row.push("not assessed".to_string()),
             Some(Fragility { over, overturning, failure, .. }) => {
-                let Lognormal { theta, at_16, at_84, beta, .. } = overturning;
-                let limits = match theta.low {
-                    None => String::new(),
-                    low => format!(
-                        "{} to {}",
-                        intensity_in_words(*over, low),
-                        intensity_in_words(*over, theta.high)
-                    ),
-                };
-                row.extend([intensity_in_words(*over, theta.value), limits]);
-                row.extend([at_16, at_84].map(|at| intensity_in_words(*over, at.value)));
-                row.push(beta.map_or(String::new(), |beta| significant(beta, 2)));
+                row.extend(cells(*over, overturning, "").iter().map(|cell| cell.replace(['(', ')'], "")));
+                row.push(overturning.beta.map_or(String::new(), |beta| significant(beta, 2)));
                 row.push(intensity_in_words(*over, failure.theta.value));
             }
         }

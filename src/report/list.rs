@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::answers::{BAND_NAMES, BANDS, Evaluation, Expected, Rated};
+use super::answers::{BANDS, Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::object::{limits_in_words, model_in_words};
 use super::page::{Column, Page, Table, Tile};
@@ -47,7 +47,7 @@ pub fn figure(evaluations: &[Evaluation]) -> Figure {
     let target = evaluations.iter().find_map(|evaluation| evaluation.target);
     let all = drawn.iter().map(|rated| rated.row.p_overturning).chain([Limited::value(target)]);
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
-    let bands: Vec<(Ink, &str)> = (0..3).rev().map(|band| (Ink::Band(band), BAND_NAMES[band])).collect();
+    let bands = [(Ink::Band(2), "above 10 %"), (Ink::Band(1), "2 to 10 %"), (Ink::Band(0), "below 2 %")];
     let mut panels = Vec::new();
     for group in [first, others] {
         let title = match group.first() {

@@ -1,7 +1,7 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
-use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
+use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State, base_in_words};
 use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
 use super::page::{Page, Section, Table, Tile};
 use super::probabilities::{self, Row};
@@ -34,10 +34,10 @@ pub fn figure(evaluation: &Evaluation, rated: &Rated) -> Figure {
         panels.push(hazard_panel(hazard));
         panels.extend(shares(hazard));
     }
-    panels.extend(unknown(rated));
     if panels.is_empty() {
         panels.push(states(evaluation, rated));
     }
+    panels.extend(unknown(rated));
     Figure::new("object", &rated.object.marked_title(), 2, HEIGHT, panels)
 }
 
@@ -172,12 +172,6 @@ pub struct Usual {
 }
 
 impl SiteHazard {
-    /// The name of the intensity and its unit: `PGA (g)`.
-    pub fn label(&self) -> String {
-        let (name, _, symbol) = self.peak.words();
-        format!("{name} ({symbol})")
-    }
-
     /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
     pub fn usual(&self) -> Vec<Usual> {
         let mut all = Vec::new();
@@ -193,9 +187,9 @@ impl SiteHazard {
     }
 
     fn axis(&self) -> Axis {
-        let (_, unit, _) = self.peak.words();
+        let (name, unit, symbol) = self.peak.words();
         let ends = self.points.first().zip(self.points.last());
-        let axis = Axis::log(&self.label());
+        let axis = Axis::log(&format!("{name} ({symbol})"));
         ends.map_or(axis.clone(), |(first, last)| axis.over(first.0 / unit, last.0 / unit))
     }
 }
@@ -257,7 +251,8 @@ fn unknown(rated: &Rated) -> Option<Panel> {
     let mut parts = rated.doubts.part_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let most = (Z_95 * parts.first()?.1).exp();
-    let x = Axis::log("factor on the rate, either way").over(1.0, 1.1 * most);
+    let what = if rated.row.overturning_per_year.value.is_some() { "rate" } else { "odds" };
+    let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
     let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
     let mut panel = Panel::new("What is not known", x, names, Vec::new());
     for (row, (_, sd)) in parts.iter().enumerate() {
@@ -268,8 +263,10 @@ fn unknown(rated: &Rated) -> Option<Panel> {
         let text = format!("× {}", number::significant(x, 2));
         panel.words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
     }
-    let caption = "What is not known: what would tell. The factor by which each moves the rate of overturning, up or \
-                   down, at its 95 % limits.";
+    let caption = format!(
+        "What is not known: what would tell. The factor by which each moves the {what} of overturning, up or \
+         down, at its 95 % limits."
+    );
     Some(panel.explained(caption))
 }
 
@@ -288,12 +285,11 @@ fn what_to_measure(part: Part) -> &'static str {
 
 /// The limit states, where nothing else is known of the object.
 fn states(evaluation: &Evaluation, rated: &Rated) -> Panel {
-    let row = &rated.row;
-    let rows = [
-        Row::new("rocks", Ink::Data(1), &[Limited::value(row.p_rocking)]),
-        Row::new(&rated.object.too_far().replace("its slenderness", "*α*"), Ink::Data(1), &[row.p_failure]),
-        Row::new("overturns", Ink::Data(1), &[row.p_overturning]),
-    ];
+    let mut rows = Vec::new();
+    for State { name, p, .. } in rated.states() {
+        let name = name.replace("its slenderness, or overturns", "*α*");
+        rows.push(Row::new(&name, Ink::Data(1), &[p]));
+    }
     let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p);
     let x = probabilities::axis(&format!("probability {}", evaluation.when), all);
     probabilities::panel("How likely", x, &rows, &[(Ink::Data(1), "")], None)
@@ -333,12 +329,11 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
 /// The target, and the base that meets it.
 fn about_target(rated: &Rated, target: f64) -> String {
     let (row, target) = (&rated.row, PERCENT.one(target));
-    let base = match (row.bases.target_width_m, row.bases.target_sides_m) {
-        (Some(width), _) => format!(": a base {width:.2} m wide meets it"),
-        (_, Some(side)) => format!(": a base with both sides of {side:.2} m meets it"),
-        _ => String::new(),
-    };
-    format!("The target is {target}{base}.")
+    let base = base_in_words(row.bases.target_width_m, row.bases.target_sides_m);
+    format!(
+        "The target is {target}{}.",
+        base.map_or(String::new(), |base| format!("; a base of {base} meets it"))
+    )
 }
 
 /// The change of the object that helps most; nothing that is only measured.
@@ -402,17 +397,10 @@ pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
 }
 
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
-    let row = &rated.row;
-    let states = [
-        ("rocks".to_string(), Limited::value(row.p_rocking), row.rocking_per_year),
-        (format!("{}, or overturns", rated.object.too_far()), row.p_failure, row.failure_per_year.value),
-        ("overturns".to_string(), row.p_overturning, row.overturning_per_year.value),
-    ];
-    let rows = states.map(|(name, p, rate)| {
-        let rate = rate.map_or(String::new(), |rate| RATE.one(rate));
-        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), rate]
+    let rows = rated.states().into_iter().map(|State { name, p, per_year }| {
+        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(per_year)]
     });
-    Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], rows.into())
+    Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], rows.collect())
 }
 
 fn table_of_changes(evaluation: &Evaluation) -> Table {

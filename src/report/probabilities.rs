@@ -38,7 +38,7 @@ pub fn axis(label: &str, all: impl IntoIterator<Item = Limited>) -> Axis {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(0.0, f64::max);
     let axis = Axis::log(&format!("{label}, %"));
-    if low <= high { axis.over(low / 1.3, (1.3 * high).min(100.0)) } else { axis }
+    if low <= high { axis.over(low / 1.3, (1.3 * high).min(104.0)) } else { axis }
 }
 
 /// A panel of rows; `labels` name the colours in the legend, the last one drawn last.

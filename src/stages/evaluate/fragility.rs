@@ -5,8 +5,9 @@ use std::path::Path;
 use super::object::Predicted;
 use super::words::{about_buildings, line, model, model_of_all, mostly_unknown, table, validity};
 use crate::fragility::Peak;
-use crate::hazard::{Fragility, FragilityPoint, Lognormal, intensity_in_words};
+use crate::hazard::{Fragility, FragilityPoint, intensity_in_words};
 use crate::number::{aligned, significant};
+use crate::report::fragility::{cells, half_in_words};
 use crate::statistics::{Estimate, Limited};
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 use crate::units::G_M_S2;
@@ -58,7 +59,7 @@ fn tell(answer: &Answer<FragilityRow>) -> String {
     let too_far = format!("{}, or overturns", object.too_far());
     let mut lines = vec![heads.to_vec()];
     for (name, state) in [(too_far, failure), ("overturns".to_string(), overturning)] {
-        lines.push([vec![name], cells(*over, state)].concat());
+        lines.push([vec![name], cells(*over, state, "95 % limits ")].concat());
     }
     let (half, lines) = (half(answer), aligned(&lines, |_| false));
     let lognormal = overturning.beta.zip(overturning.largest_error).map(|(beta, error)| {
@@ -72,23 +73,7 @@ fn tell(answer: &Answer<FragilityRow>) -> String {
 /// The intensity at which half of the motions overturn an object.
 fn half(Answer { object, row, .. }: &Answer<FragilityRow>) -> String {
     let Some(Fragility { over, overturning, .. }) = &row.curve else { return object.title() };
-    let of = if overturning.theta.value.is_some() { "of " } else { "" };
-    let half = intensity_in_words(*over, overturning.theta.value);
-    format!("{}: half of the motions overturn it at a {} {of}{half}", object.title(), over.words().0)
-}
-
-/// The intensity of one half, its limits, and those of 16 and 84 %.
-fn cells(over: Peak, Lognormal { at_16, theta, at_84, .. }: &Lognormal) -> Vec<String> {
-    let limits = match theta.low {
-        None => String::new(),
-        low => format!(
-            "(95 % limits {} to {})",
-            intensity_in_words(over, low),
-            intensity_in_words(over, theta.high)
-        ),
-    };
-    let [theta, at_16, at_84] = [theta, at_16, at_84].map(|at| intensity_in_words(over, at.value));
-    vec![theta, limits, at_16, at_84]
+    format!("{}: half of the motions overturn it at a {}", object.title(), half_in_words(*over, overturning))
 }
 
 fn tell_list(all: &[Answer<FragilityRow>], out: Option<&Path>) -> String {
@@ -97,7 +82,7 @@ fn tell_list(all: &[Answer<FragilityRow>], out: Option<&Path>) -> String {
             vec!["-".to_string(); 5],
             |Fragility { over, failure, overturning, .. }| {
                 let too_far = intensity_in_words(*over, failure.theta.value);
-                [cells(*over, overturning), vec![too_far]].concat()
+                [cells(*over, overturning, "95 % limits "), vec![too_far]].concat()
             },
         )
     });

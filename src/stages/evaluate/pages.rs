@@ -35,7 +35,7 @@ pub fn under_motion(answers: &[Answer<TreeRow>]) -> Evaluation {
     });
     Evaluation {
         when: answers.first().map_or(String::new(), |answer| point::words_of_peaks(&answer.row)),
-        hazard: "none: under one motion".to_string(),
+        hazard: "one motion".to_string(),
         rows: rows.collect(),
         ..Evaluation::default()
     }

@@ -5,9 +5,9 @@ use std::path::Path;
 use super::object::Predicted;
 use super::words::{about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity};
 use crate::fragility::Peak;
-use crate::hazard::{Hazard, PeakHazard, Site, VelocitySource, probability_in_years};
-use crate::number::{self, PERCENT, RATE, aligned, count, counted, name, period, plain, significant};
-use crate::report::answers::{Expected, NO_RATE, in_years};
+use crate::hazard::{Hazard, PeakHazard, Site, VelocitySource};
+use crate::number::{self, PERCENT, RATE, aligned, count, name, period, plain, significant};
+use crate::report::answers::{Expected, NO_RATE, State, base_in_words, in_years};
 use crate::statistics::Limited;
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
@@ -25,20 +25,9 @@ pub fn text(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Opt
 
 fn tell(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String {
     let Answer { object, row: rates, .. } = answer;
-    let rocking = Limited::value(rates.rocking_per_year);
-    let mut states = vec![
-        ("rocks".to_string(), rocking),
-        (format!("{}, or overturns", object.too_far()), rates.failure_per_year),
-        ("overturns".to_string(), rates.overturning_per_year),
-    ];
-    states.extend(rates.counted_motions.map(|motions| {
-        let motions = counted(motions as usize, "motion");
-        (format!("overturns, counted among {motions}"), rates.counted_per_year)
-    }));
     let mut lines = vec![vec![String::new(), "a year".to_string(), when(rates)]];
-    for (name, rate) in states {
-        let p = rate.map(|rate| probability_in_years(rate, rates.years.unwrap_or(f64::NAN)));
-        lines.push(vec![name, RATE.value(rate), PERCENT.value(p), PERCENT.limits(p, "")]);
+    for State { name, p, per_year } in answer.states() {
+        lines.push(vec![name, RATE.value(per_year), PERCENT.value(p), PERCENT.limits(p, "")]);
     }
     let widths = target.map_or(String::new(), |target| words_of_target(object, rates, target));
     format!(
@@ -79,8 +68,8 @@ fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String 
         let depth = number::length(depth);
         format!("No width reaches {target} {years}: it then falls over its depth ({depth} m).\n")
     });
-    let by_limit = base(rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
-    match (base(rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
+    let by_limit = base_in_words(rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
+    match (base_in_words(rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
         (None, Some(depth)) => depth,
         (None, None) => format!("No width below its height reaches {target} {years}.\n"),
         (Some(by_estimate), depth) => format!(
@@ -89,12 +78,6 @@ fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String 
             by_limit.unwrap_or("none".to_string())
         ),
     }
-}
-
-/// A width, or the least of both sides, that meets a target.
-fn base(width: Option<f64>, sides: Option<f64>) -> Option<String> {
-    let width = width.map(|width| format!("{width:.2} m"));
-    width.or_else(|| Some(format!("both sides {:.2} m", sides?)))
 }
 
 fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Option<&Path>) -> String {
@@ -112,8 +95,9 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
             PERCENT.limits(rates.p_overturning, ""),
             friction(object),
         ];
-        let base = base(rates.bases.target_width_m, rates.bases.target_sides_m).unwrap_or("-".to_string());
-        cells.extend(target.map(|_| base.replace("both sides", "both")));
+        let base =
+            base_in_words(rates.bases.target_width_m, rates.bases.target_sides_m).unwrap_or("-".to_string());
+        cells.extend(target.map(|_| base.replace("on both sides", "both")));
         cells
     });
     let (name, how_often) = (name(&worst.object.structure), how_often(&worst.row, site));

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::number;
 use crate::object::Part;
-use crate::report::answers::words_of_silent;
 use crate::table::answers::{Answer, ObjectRow};
 use crate::warning::Warning;
 
@@ -108,7 +107,10 @@ pub fn table<R>(
 /// How many of all have no answer, for a line that says that nothing happens.
 pub fn where_silent<R>(all: &[Answer<R>]) -> String {
     let silent = all.iter().filter(|answer| answer.object.p_rad_s.is_none()).count();
-    words_of_silent(silent, all.len()).map_or(String::new(), |words| format!(". {words}"))
+    match silent {
+        0 => String::new(),
+        _ => format!(". For {} of {} there is no answer.", number::count(silent), number::count(all.len())),
+    }
 }
 
 /// How many objects are not printed, and where they are.
