@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::{Case, Cases, Event, grouped};
 use super::level::{Level, Scenarios};
-use super::measure::Measure;
+use super::measure_names::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
 use super::surface::{self, AtIm4, Cut, Kind, Prior, Section};
 use super::tree::Z_95;

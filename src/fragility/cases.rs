@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::measure::Measure;
+use super::measure_names::Measure;
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::{Outcome, Structure};

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample, grouped};
-use super::measure::{Measure, design_row, values};
+use super::measure_names::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::keyword::{Keyword, keywords};
 use crate::motion::IntensityMeasures;

@@ -2,7 +2,7 @@
 //! motion (sections 2.3 and 3).
 //!
 //! ```text
-//! cases        the responses of one structure to one suite of motions; measure: the measures of Eq. 13
+//! cases        the responses of one structure to one suite of motions; measure_names: those of Eq. 13
 //! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18)
 //! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either
 //! tree         the event tree that joins them (Eq. 12)
@@ -20,7 +20,7 @@ mod cases;
 mod demand;
 mod given_peak;
 mod level;
-mod measure;
+mod measure_names;
 mod model;
 mod on_floor;
 mod overturning;
@@ -40,7 +40,7 @@ pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
 pub use given_peak::GivenPeak;
 pub(crate) use level::Level;
 pub use level::Scenarios;
-pub use measure::{Measure, Pair};
+pub use measure_names::{Measure, Pair};
 pub use model::{Direction, Model, paper_probabilities};
 pub use on_floor::Uplift;
 pub use overturning::{CurveFit, fit_curve, fit_curves};

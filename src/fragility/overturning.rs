@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, grouped};
-use super::measure::{Measure, Pair, design_row, values};
+use super::measure_names::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;

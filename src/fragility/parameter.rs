@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::measure::Measure;
+use super::measure_names::Measure;
 use crate::keyword::keywords;
 use crate::statistics::Estimate;
 use crate::statistics::distributions::t_quantile;

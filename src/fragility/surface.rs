@@ -120,13 +120,13 @@ impl Section {
     /// w = ln IM4 - r - 0.4 l.
     pub fn at(&self, at: &AtIm4) -> Cut {
         let AtIm4 { ln_im4, held, x, ln_above } = *at;
-        let w_at_r_0 = held - self.lower;
+        let ([a, b, c], w_at_r_0) = (&self.coefficients, held - self.lower);
         let mut cubic = [0.0; POWERS];
         for w in (0..POWERS).rev() {
             for r in (0..POWERS - w).rev() {
                 let lower = if r > 0 { cubic[r - 1] } else { 0.0 };
-                let [a, b, c] = [0, 1, 2].map(|power| self.coefficients[power][w][r]);
-                cubic[r] = w_at_r_0 * cubic[r] - lower + (a + x * (b + x * c));
+                let by_x = a[w][r] + x * (b[w][r] + x * c[w][r]);
+                cubic[r] = w_at_r_0 * cubic[r] - lower + by_x;
             }
         }
         let Uplift { n, ln_d, k } = self.uplift;
