@@ -20,7 +20,7 @@ pub struct Evaluation {
     pub when: String,
     /// Probability of overturning that is aimed at.
     pub target: Option<f64>,
-    /// The hazard, in words.
+    /// The hazard or the motion, in words: `hazard: pga.csv`.
     pub hazard: String,
     /// Key of the hazard: the same for the same files.
     pub hazard_key: String,

@@ -147,7 +147,7 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
             [pair] => format!("{}, before and after", pair.before.object.name().unwrap_or("One object")),
             _ => format!("{}, before and after", number::counted(pairs.len(), "object")),
         },
-        place: format!("Before: {file_before}. After: {file_after}. Hazard: {hazards}."),
+        place: format!("Before: {file_before}; after: {file_after}; {hazards}"),
         sentence: sentence(&pairs, when, target),
         tiles: match &pairs[..] {
             [_] => Vec::new(),

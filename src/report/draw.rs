@@ -70,10 +70,7 @@ pub fn svg(figure: &Figure, key: &str) -> String {
 /// below a legend, so that they stand beside each other where there is room.
 pub fn html_of_panels(figure: &Figure) -> String {
     let entries: String = legend_entries(figure).into_iter().map(legend_entry).collect();
-    let legend = match entries.as_str() {
-        "" => String::new(),
-        _ => format!("<div class=\"legend\">\n{entries}</div>\n"),
-    };
+    let legend = format!("<div class=\"legend\">{entries}</div>\n");
     // A legend that is of one panel alone stands below it.
     let mut labelled =
         figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
@@ -82,14 +79,11 @@ pub fn html_of_panels(figure: &Figure) -> String {
     let mut panels = String::new();
     for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
-        let caption = match panel.caption.as_str() {
-            "" => String::new(),
-            words => format!("<figcaption>{}</figcaption>\n", html(words)),
-        };
+        let caption = html(&panel.caption);
         let small = svg_of_panel(panel, name, figure, NARROW, if is_wide { "small" } else { "" });
         let wide = if is_wide { svg_of_panel(panel, name, figure, WIDE, "wide") } else { String::new() };
         let own = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
-        panels += &format!("<figure>\n{wide}{small}{own}{caption}</figure>\n");
+        panels += &format!("<figure>\n{wide}{small}{own}<figcaption>{caption}</figcaption></figure>\n");
     }
     let above = if owner.is_some() { "" } else { legend.as_str() };
     let class = match figure.panels.len() {

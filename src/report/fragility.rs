@@ -2,6 +2,7 @@
 
 use super::answers::Outline;
 use super::figure::{Figure, Ink, Layer, Panel, Span};
+use super::list::doubts;
 use super::object::{HEIGHT, averaged, axes, curve, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
@@ -57,11 +58,7 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
 
 /// The page of fragilities, those that need least first; at a site, with its hazard in words.
 pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Option<&str>) -> Page {
-    let mut notes = Vec::new();
-    for one in all {
-        let name = one.object.marked_name();
-        notes.extend(one.doubts.warnings.as_ref().map(|doubts| format!("{name}: {}", literal(doubts))));
-    }
+    let notes = doubts(&all.iter().collect::<Vec<_>>());
     let known = all.iter().find_map(|one| Some((&one.object, one.row.curve.as_ref()?)));
     let Some((weakest, fragility)) = known else {
         return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };

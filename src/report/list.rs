@@ -4,11 +4,13 @@ use std::collections::BTreeSet;
 
 use super::answers::{BANDS, Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
+use super::figures::common::by;
 use super::object::{limits_in_words, model_in_words};
 use super::page::{Column, Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::literal;
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT};
+use crate::table::answers::Answer;
 
 /// The most objects that are drawn, and files whose expected numbers are shown.
 const DRAWN: usize = 60;
@@ -94,7 +96,7 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     Page {
         title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
         place: format!(
-            "{} free-standing, {place}; hazard: {}",
+            "{} free-standing, {place}; {}",
             number::count(answered.len()),
             literal(&hazards.join("; "))
         ),
@@ -219,15 +221,12 @@ fn place(listed: &Listed) -> String {
 }
 
 /// What speaks against answers: a line for those of the same words.
-fn doubts(answered: &[&Rated]) -> Vec<String> {
-    let mut lines: Vec<(&str, Vec<String>)> = Vec::new();
-    for rated in answered {
-        let Some(words) = rated.doubts.warnings.as_deref() else { continue };
-        match lines.iter_mut().find(|(other, _)| *other == words) {
-            Some((_, names)) => names.push(rated.object.marked_name()),
-            None => lines.push((words, vec![rated.object.marked_name()])),
-        }
+pub fn doubts<R>(all: &[&Answer<R>]) -> Vec<String> {
+    let doubted = all.iter().filter_map(|answer| Some((*answer, answer.doubts.warnings.as_deref()?)));
+    let mut lines = Vec::new();
+    for same in by(doubted, |(_, words)| words) {
+        let names: Vec<String> = same.iter().map(|(answer, _)| answer.object.marked_name()).collect();
+        lines.push(format!("{}: {}", number::listed(&names, NAMED), literal(same[0].1)));
     }
-    let lines = lines.into_iter();
-    lines.map(|(words, names)| format!("{}: {}", number::listed(&names, NAMED), literal(words))).collect()
+    lines
 }

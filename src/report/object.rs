@@ -34,9 +34,6 @@ pub fn figure(evaluation: &Evaluation, rated: &Rated) -> Figure {
         panels.push(hazard_panel(hazard));
         panels.extend(shares(hazard));
     }
-    if panels.is_empty() {
-        panels.push(states(evaluation, rated));
-    }
     panels.extend(unknown(rated));
     Figure::new("object", &rated.object.marked_title(), 2, HEIGHT, panels)
 }
@@ -100,11 +97,19 @@ pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<
     marks.collect()
 }
 
+/// An axis of intensities, from the first of these to the last.
+fn peak_axis(peak: Peak, mut intensities: impl DoubleEndedIterator<Item = f64>) -> Axis {
+    let (what, unit, symbol) = peak.words();
+    let axis = Axis::log(&format!("{what} ({symbol})"));
+    match intensities.next().zip(intensities.next_back()) {
+        Some((first, last)) => axis.over(first / unit, last / unit),
+        None => axis,
+    }
+}
+
+/// The axes of fragility curves.
 pub fn axes(fragility: &Fragility) -> (Axis, Axis) {
-    let (what, unit, symbol) = fragility.over.words();
-    let ends = fragility.points.first().zip(fragility.points.last());
-    let x = Axis::log(&format!("{what} ({symbol})"));
-    let x = ends.map_or(x.clone(), |(first, last)| x.over(first.intensity / unit, last.intensity / unit));
+    let x = peak_axis(fragility.over, fragility.points.iter().map(|point| point.intensity));
     (x, Axis::linear("probability, %").over(0.0, 101.0))
 }
 
@@ -187,10 +192,7 @@ impl SiteHazard {
     }
 
     fn axis(&self) -> Axis {
-        let (name, unit, symbol) = self.peak.words();
-        let ends = self.points.first().zip(self.points.last());
-        let axis = Axis::log(&format!("{name} ({symbol})"));
-        ends.map_or(axis.clone(), |(first, last)| axis.over(first.0 / unit, last.0 / unit))
+        peak_axis(self.peak, self.points.iter().map(|point| point.0))
     }
 }
 
@@ -283,19 +285,6 @@ fn what_to_measure(part: Part) -> &'static str {
     }
 }
 
-/// The limit states, where nothing else is known of the object.
-fn states(evaluation: &Evaluation, rated: &Rated) -> Panel {
-    let mut rows = Vec::new();
-    for State { name, p, .. } in rated.states() {
-        let name = name.replace("its slenderness, or overturns", "*α*");
-        rows.push(Row::new(&name, Ink::Data(1), &[p]));
-    }
-    let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p);
-    let x = probabilities::axis(&format!("probability {}", evaluation.when), all);
-    probabilities::panel("How likely", x, &rows, &[(Ink::Data(1), "")], None)
-        .explained("Probability of each limit state with 95 % limits.")
-}
-
 /// The page of one object.
 pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     let place = match rated.object.floor() {
@@ -304,7 +293,7 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     };
     Page {
         title: words(&rated.object.marked_title()),
-        place: format!("{place}; hazard: {}", literal(&evaluation.hazard)),
+        place: format!("{place}; {}", literal(&evaluation.hazard)),
         sentence: [
             Some(format!("It {}.", rated.sentence(&evaluation.when))),
             evaluation.target.map(|target| about_target(rated, target)),
@@ -317,11 +306,15 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
         tiles: tiles(evaluation, rated),
         facts: facts(rated),
         notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
+        table: Some(numbers(evaluation, rated)),
         figures: vec![figure(evaluation, rated)],
-        sections: vec![Section {
-            tables: vec![numbers(evaluation, rated), table_of_changes(evaluation)],
-            ..Section::new("The numbers")
-        }],
+        sections: match &evaluation.portrait.changes[..] {
+            [] => Vec::new(),
+            _ => vec![Section {
+                tables: vec![table_of_changes(evaluation)],
+                ..Section::new("What would change it, in numbers")
+            }],
+        },
         ..Page::default()
     }
 }
@@ -397,10 +390,13 @@ pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
 }
 
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
+    let heads = ["", &evaluation.when, "95 % limits", "rate a year"];
+    // Under one motion there are no rates.
+    let shown = heads.len() - usize::from(rated.row.years.is_none());
     let rows = rated.states().into_iter().map(|State { name, p, per_year }| {
-        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(per_year)]
+        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(per_year)][..shown].to_vec()
     });
-    Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], rows.collect())
+    Table::new(&heads[..shown], rows.collect())
 }
 
 fn table_of_changes(evaluation: &Evaluation) -> Table {
@@ -411,5 +407,5 @@ fn table_of_changes(evaluation: &Evaluation) -> Table {
         vec![words.clone(), joined(p, |p| PERCENT.value(p)), joined(p, |p| PERCENT.limits(p, ""))]
     });
     let overturns = format!("overturns {}", evaluation.when);
-    Table::new(&["What would change it", &overturns, "95 % limits"], rows.collect())
+    Table::new(&["change", &overturns, "95 % limits"], rows.collect())
 }

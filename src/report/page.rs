@@ -107,9 +107,14 @@ impl Page {
             false if !beside.is_empty() => "response",
             false => "",
         };
-        let told =
-            format!("{}{}", self.table.iter().map(write_table).collect::<String>(), notes(&self.notes));
-        let told = if told.is_empty() { told } else { format!("<div>\n{told}</div>\n") };
+        let told = match (&self.table, &self.notes[..]) {
+            (None, []) => String::new(),
+            (table, notes) => format!(
+                "<div>\n{}<div class=\"notes\">{}</div></div>\n",
+                table.iter().map(write_table).collect::<String>(),
+                paragraphs(notes)
+            ),
+        };
         let (before, after) = if is_beside { (told, first.concat()) } else { (first.concat(), told) };
         sealed(format!(
             include_str!("assets/page.html"),
@@ -119,13 +124,13 @@ impl Page {
             byline = escape(&self.byline),
             place = html(&self.place),
             sentence = html(&self.sentence),
-            tiles = tiles(&self.tiles),
+            tiles = self.tiles.iter().map(write_tile).collect::<String>(),
             facts = paragraphs(&self.facts),
             class = class,
             before = before,
             after = after,
             beside = beside,
-            moving = blocks(moving),
+            moving = moving.concat(),
             figures = others.concat(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             version = env!("CARGO_PKG_VERSION"),
@@ -133,27 +138,8 @@ impl Page {
     }
 }
 
-/// What moves, beside each other.
-fn blocks(moving: &[String]) -> String {
-    match moving {
-        [] => String::new(),
-        _ => format!("<div class=\"blocks\">\n{}</div>\n", moving.concat()),
-    }
-}
-
-fn tiles(tiles: &[Tile]) -> String {
-    let mut text = String::new();
-    for Tile { number, words } in tiles {
-        text += &format!("<div><b>{}</b><span>{}</span></div>\n", html(number), html(words));
-    }
-    if text.is_empty() { text } else { format!("<div class=\"tiles\">\n{text}</div>\n") }
-}
-
-fn notes(marked: &[String]) -> String {
-    match marked {
-        [] => String::new(),
-        _ => format!("<div class=\"notes\">\n{}</div>\n", paragraphs(marked)),
-    }
+fn write_tile(Tile { number, words }: &Tile) -> String {
+    format!("<div><b>{}</b><span>{}</span></div>", html(number), html(words))
 }
 
 fn paragraphs(marked: &[String]) -> String {
@@ -169,16 +155,11 @@ fn write_section(section: &Section) -> String {
 
 fn write_figure(figure: &Figure, title: &str) -> String {
     let panels = html_of_panels(figure);
-    let title = match title {
-        "" => String::new(),
-        words => format!("<h2>{}</h2>\n", html(words)),
-    };
-    let caption = match figure.caption.as_str() {
-        "" => String::new(),
-        words => format!("<p class=\"caption\">{}</p>\n", html(words)),
-    };
-    let across = figure.panels.len().min(3);
-    format!("<section class=\"figure\" style=\"--across:{across}\">\n{title}{panels}{caption}</section>\n")
+    let (title, caption, across) = (html(title), html(&figure.caption), figure.panels.len().min(3));
+    format!(
+        "<section class=\"figure\" style=\"--across:{across}\">\n\
+         <h2>{title}</h2>\n{panels}<p class=\"caption\">{caption}</p>\n</section>\n"
+    )
 }
 
 fn write_table(Table { caption, columns, rows }: &Table) -> String {
@@ -194,23 +175,17 @@ fn write_table(Table { caption, columns, rows }: &Table) -> String {
         }
         body += "</tr>\n";
     }
-    let title = if caption.is_empty() {
-        String::new()
-    } else {
-        format!("<p class=\"caption\">{}</p>\n", html(caption))
-    };
-    let table = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n");
-    title + &scrolled(caption, &table)
+    let (title, name) = (html(caption), escape(&words(caption)));
+    // What is wider than a small screen is scrolled, by keys too.
+    format!(
+        "<p class=\"caption\">{title}</p>\n\
+         <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">\n<table>\n\
+         <thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n</div>\n"
+    )
 }
 
 impl Column {
     fn class(&self) -> &'static str {
         if self.is_number { " class=\"number\"" } else { "" }
     }
-}
-
-/// Lets what is wider than a small screen be scrolled, by keys too.
-fn scrolled(name: &str, inner: &str) -> String {
-    let name = escape(&words(name));
-    format!("<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">\n{inner}</div>\n")
 }

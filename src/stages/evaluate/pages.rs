@@ -18,7 +18,7 @@ pub fn over_hazard(rows: Vec<Rated>, made: &Provenance) -> Evaluation {
     Evaluation {
         when: rows.iter().find_map(|answer| answer.row.years).map_or(String::new(), in_years),
         target: made.arguments.get("target").and_then(Value::as_f64),
-        hazard: made.names("hazard").unwrap_or("of another program".to_string()),
+        hazard: format!("hazard: {}", made.names("hazard").unwrap_or("of another program".to_string())),
         hazard_key: made.input("hazard").unwrap_or_default(),
         rows,
         ..Evaluation::default()
@@ -35,7 +35,7 @@ pub fn under_motion(answers: &[Answer<TreeRow>]) -> Evaluation {
     });
     Evaluation {
         when: answers.first().map_or(String::new(), |answer| point::words_of_peaks(&answer.row)),
-        hazard: "one motion".to_string(),
+        hazard: "under one motion".to_string(),
         rows: rows.collect(),
         ..Evaluation::default()
     }
