@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::answers::{BANDS, Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::figures::common::by;
-use super::object::{limits_in_words, model_in_words};
+use super::object::facts;
 use super::page::{Column, Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::literal;
@@ -90,9 +90,7 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     let file = if several { format!(" ({})", literal(&evaluation.file)) } else { String::new() };
     let (table, same) = table(&all);
     let friction = "With less friction than it needs, an object slides instead of rocking.".to_string();
-    let building = "Level: height over that of the building, which is taken as linear; behind it its period.";
-    let building = (upstairs > 0).then(|| building.to_string());
-    let facts = [same, Some(friction), building, limits_in_words(&answered), model_in_words(&worst.object)];
+    let facts = [same, Some(friction)].into_iter().flatten().chain(facts(&answered));
     Page {
         title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
         place: format!(
@@ -110,7 +108,7 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
             ),
         },
         tiles: tiles(evaluations, &evaluation.when),
-        facts: facts.into_iter().flatten().collect(),
+        facts: facts.collect(),
         table: Some(table),
         notes: doubts(&answered),
         figures: vec![figure(evaluations)],
@@ -178,14 +176,14 @@ fn table(all: &[Listed]) -> (Table, Option<String>) {
         ("file", false, |listed| literal(&listed.evaluation.file)),
     ] {
         let cells: Vec<String> = all.iter().map(cell).collect();
-        let differ: BTreeSet<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+        let answered = all.iter().zip(&cells).filter(|(listed, _)| listed.rated.is_answered());
+        let differ: BTreeSet<&String> = answered.map(|(_, cell)| cell).collect();
         if differ.len() > 1 || table.columns.len() < 5 {
             table.columns.push(Column { head: head.to_string(), is_number });
             table.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
         } else if head != "file" {
-            same.extend(
-                differ.first().filter(|value| **value != GROUND).map(|value| format!("{head} {value}")),
-            );
+            let value = differ.first().filter(|value| !["", GROUND].contains(&value.as_str()));
+            same.extend(value.map(|value| format!("{head} {value}")));
         }
     }
     (table, (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", "))))

@@ -304,7 +304,7 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
         .collect::<Vec<_>>()
         .join(" "),
         tiles: tiles(evaluation, rated),
-        facts: facts(rated),
+        facts: facts(&[rated]),
         notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
         table: Some(numbers(evaluation, rated)),
         figures: vec![figure(evaluation, rated)],
@@ -351,8 +351,8 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
         let half = fragility.overturning.theta.value;
         tiles.push(Tile::new(intensity_in_words(fragility.over, half), words));
     }
-    if let Some((hazard, usual)) =
-        hazard.as_ref().and_then(|hazard| Some((hazard, hazard.usual().into_iter().next()?)))
+    if let Some(hazard) = hazard
+        && let Some(usual) = hazard.usual().first()
     {
         let (what, _, symbol) = hazard.peak.words();
         let words = format!("{what} at the site, once in {}", years(usual.years));
@@ -366,9 +366,11 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
 }
 
 /// What the answer rests on.
-fn facts(rated: &Rated) -> Vec<String> {
-    let building = rated.object.floor().map(|_| "The building is taken as linear.".to_string());
-    [building, model_in_words(&rated.object), limits_in_words(&[rated])].into_iter().flatten().collect()
+pub fn facts(all: &[&Rated]) -> Vec<String> {
+    let building = "A level is a height over that of the building, which is taken as linear.".to_string();
+    let is_upstairs = all.iter().any(|rated| rated.object.floor().is_some());
+    let model = all.first().and_then(|worst| model_in_words(&worst.object));
+    [is_upstairs.then_some(building), model, limits_in_words(all)].into_iter().flatten().collect()
 }
 
 /// What predicts.

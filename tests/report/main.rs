@@ -390,6 +390,34 @@ fn values_beyond_all_axes_are_left_out() {
     }
 }
 
+#[test]
+fn a_column_of_one_value_is_said_once() {
+    let mut all = evaluation(3, 1e-3);
+    for rated in &mut all.rows {
+        rated.object.friction = Some(0.25);
+    }
+    all.rows[2].object.count = Some(3.0);
+    let page = list::page(&[all]);
+    let heads = page.table.unwrap().columns.into_iter().map(|column| column.head).collect::<Vec<_>>();
+    assert_eq!(
+        ["friction needed", "number", "where"].map(|head| heads.contains(&head.into())),
+        [false, true, true]
+    );
+    assert!(page.facts[0].contains("friction needed 0.25") && !page.facts[0].contains("number"));
+}
+
+#[test]
+fn what_is_changed_comes_first_and_is_named() {
+    let mut before = evaluation(3, 1e-3);
+    before.rows[2].object.width_m = Some(0.5);
+    let mut after = before.clone();
+    after.rows[2].object.width_m = Some(0.6);
+    after.rows[2].row.p_overturning = limited(0.002);
+    let page = compare::page(&before, &after);
+    assert!(page.tiles.len() == 1 && page.tiles[0].words.contains("width 0.50 → 0.60 m"), "{:?}", page.tiles);
+    assert!(page.table.unwrap().rows[0][0].contains("me\\*2") && page.sentence.contains("target"));
+}
+
 /// The same object may stand in both files.
 #[test]
 fn the_expected_number_is_that_of_each_file() {
