@@ -5,13 +5,13 @@ use serde::Serialize;
 
 use crate::inputs::Renames;
 use crate::inputs::objects::{self, Common};
-use crate::object::{Field, Object, Place, Restitution, SD_OF_PERIOD, Shape, structure_warnings};
+use crate::object::{Field, Object, Place, Restitution, SD_OF_PERIOD, structure_warnings};
 use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, StructuresInput};
 use crate::rocking::Structure;
-use crate::warning::{UNNAMED, Warning, Warnings};
+use crate::warning::{Warning, Warnings};
 
 /// Returns a parser of a number that may be known of an object.
 pub fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
@@ -67,23 +67,6 @@ pub struct ShapeArgs {
     eta: Option<Restitution>,
 }
 
-impl ShapeArgs {
-    fn shape(&self) -> Shape {
-        Shape {
-            width: self.width,
-            depth: self.depth,
-            height: self.height,
-            centre_height: self.centre_height,
-            centre_offset: self.centre_offset,
-            inertia: self.inertia,
-            beam_mass_ratio: self.beam_mass_ratio,
-            p: self.p,
-            alpha: self.alpha,
-            eta: self.eta,
-        }
-    }
-}
-
 /// Where an object stands, and how well it is known; of all objects of a list that do not say so themselves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -118,16 +101,13 @@ pub struct PlaceArgs {
 
 impl PlaceArgs {
     pub fn place(&self) -> Place {
-        Place {
-            period: self.period,
-            level: self.level,
-            period_sd: self.period_sd,
-            friction: self.friction,
-            eta_sd: self.eta_sd,
-            centre_height_sd: self.centre_height_sd,
-            centre_offset_sd: self.centre_offset_sd,
-        }
+        object(self).place
     }
+}
+
+/// Makes an object of options, which have the names of its fields.
+fn object(options: &impl Serialize) -> Object {
+    serde_json::json!(options).to_string().parse().expect("clap has checked the options")
 }
 
 /// The structures of a call.
@@ -210,8 +190,7 @@ impl StructureArgs {
                 (all, unused) = objects::read(path, renames, &common)?;
             }
             None if self.one != ShapeArgs::default() => {
-                let (name, shape) = (UNNAMED.to_string(), self.one.shape());
-                all.push(Object { name, shape, ..Object::default() });
+                all.push(object(&self.one));
             }
             None => all.extend(self.structure.iter().cloned()),
         }
