@@ -74,6 +74,9 @@ pub fn range_of_column(name: &str) -> (RangeInclusive<f64>, &'static str) {
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
+/// PGA, g, that the hazard of any site reaches.
+const REACHED_PGA_G: f64 = 0.03;
+
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{0}")]
@@ -82,6 +85,13 @@ pub struct ImplausibleHazard(pub(crate) String);
 /// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
 pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
+    let (peak, unit, strongest) =
+        if is_velocity { ("PGV", "m/s", STRONGEST_PGV_M_S) } else { ("PGA", "g", STRONGEST_PGA_G) };
+    let most = points.iter().map(|(value, _)| *value).fold(0.0, f64::max);
+    if !is_velocity && most < REACHED_PGA_G && !points.is_empty() {
+        let (most, expected) = (significant(most, 3), format!("expected {REACHED_PGA_G} g or more"));
+        return Err(ImplausibleHazard(format!("PGA of {most} g at most; {expected}: a wrong unit?")));
+    }
     let is_plausible =
         |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
     if is_plausible(|point| point) {
@@ -89,9 +99,7 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
     }
     let worst = points.iter().copied().max_by(|a, b| excess(*a).total_cmp(&excess(*b)));
     let (value, rate) = worst.unwrap_or_default();
-    let (peak, unit, strongest) =
-        if is_velocity { ("PGV", "m/s", STRONGEST_PGV_M_S) } else { ("PGA", "g", STRONGEST_PGA_G) };
-    let is_large = points.iter().any(|(value, _)| *value > strongest);
+    let is_large = most > strongest;
     let are_probabilities = is_plausible(|(value, p)| (value, -(-p.min(1.0 - 1e-9)).ln_1p() / 50.0));
     let guess = match (is_velocity, is_large, are_probabilities) {
         (true, true, _) => "is it in cm/s?",

@@ -74,7 +74,7 @@ impl Warning {
             LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
             OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
-            NotGiven => "NA or the like: answered as if nothing were said of it",
+            NotGiven => "no value: answered as if nothing were known of it",
             NoPartner => "no perpendicular component: left out",
         }
     }

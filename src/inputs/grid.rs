@@ -306,7 +306,7 @@ fn is_word(cell: &str) -> bool {
 
 /// Whether a row has units and nothing else.
 fn is_units(row: &Row) -> bool {
-    const OTHERS: [&str; 8] = ["", "-", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
+    const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
     let mut units = 0;
     for cell in &row.cells {
         let cell = uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase();
@@ -331,6 +331,7 @@ fn with_units(headings: &[Heading], units: &Row) -> Result<Vec<Heading>, InputEr
     for (at, heading) in headings.iter().enumerate() {
         with_units.push(match units.cells.get(at).unwrap_or_default() {
             "" | "-" => heading.clone(),
+            "a" | "[a]" | "(a)" => heading.with_unit("years").unwrap_or(heading.clone()),
             unit => heading
                 .with_unit(uncommented(unit))
                 .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() })?,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::hazard::peak;
 use super::objects::describes_object;
-use super::words::means;
+use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 
@@ -31,6 +31,11 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
     if grid.headings.is_empty() || grid.lines.is_empty() {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
         return Err(InputError::missing(found, "intensities under pga_g and pgv_m_s"));
+    }
+    if let Some(column) = grid.headings.iter().position(|heading| heading.name == "component")
+        && let Some(row) = (0..grid.lines.len()).find(|row| is_vertical(grid.cell(*row, column)))
+    {
+        return Err(grid.refusal(row, column, "horizontal components alone"));
     }
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {

@@ -76,8 +76,11 @@ pub fn in_rows(grid: &Grid) -> Result<Vec<Object>, InputError> {
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
 pub fn describes_object(heading: &Heading) -> bool {
     match meaning(heading) {
+        // Of an earthquake or a station.
+        _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
         Column::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
-        column => matches!(column, Column::Storey | Column::Storeys | Column::Unclear),
+        Column::Unclear => words("of-objects").any(|part| joined(&heading.name).contains(part)),
+        column => matches!(column, Column::Storey | Column::Storeys),
     }
 }
 
@@ -109,13 +112,16 @@ impl List<'_> {
         let columns: Vec<Column> = grid.headings.iter().map(meaning).collect();
         let mut list = List { grid, columns, name: grid.about("name"), ground_floor: 0, place: common.place };
         list.check()?;
-        let has_storey = list.column(Column::Storey).is_some();
+        let has_storey = list.column(Column::Storey).is_some() || list.level_is_of_floors();
         let has_units = list.column(Column::Unit).is_some_and(|at| {
             let mut units = (0..grid.lines.len()).filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
-        for column in &mut list.columns {
+        let is_of_floors = list.level_is_of_floors();
+        for (at, column) in list.columns.iter_mut().enumerate() {
             match column {
+                Column::Known(Field::Level) if is_of_floors => *column = Column::Storey,
+                Column::Count if numbers_rows(grid, at) => *column = Column::Unused,
                 // A ward, perhaps.
                 Column::Unit if !has_units => *column = Column::Unused,
                 // Without a floor, the building says nothing.
@@ -135,6 +141,17 @@ impl List<'_> {
                 .map_err(|lowest| InputError::GroundFloor { heading, lowest })?,
         };
         Ok(list)
+    }
+
+    /// Whether levels are floors: shares of the height of a building do not exceed 1.
+    fn level_is_of_floors(&self) -> bool {
+        let level =
+            self.column(Column::Known(Field::Level)).filter(|_| self.column(Column::Storey).is_none());
+        level.is_some_and(|at| {
+            let rows = 0..self.grid.lines.len();
+            let levels: Vec<f64> = rows.filter_map(|row| self.grid.number(row, at).ok()).collect();
+            levels.iter().any(|level| *level > 1.0) && levels.iter().all(|level| level.fract() == 0.0)
+        })
     }
 
     /// Checks the headings, and the lengths below each.
@@ -198,13 +215,20 @@ impl List<'_> {
         let unused: Vec<&str> = self.headings(Column::Unused).filter(|text| !text.is_empty()).collect();
         let mut doubts: Warnings =
             (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", "))).into_iter().collect();
+        let rows = 0..self.grid.lines.len();
         for (at, column) in self.columns.iter().enumerate() {
-            for row in (0..self.grid.lines.len()).filter(|_| matches!(column, Column::Known(_))) {
-                let cell = self.grid.cell(row, at);
-                if has_no_value(cell) && cell.contains(char::is_alphanumeric) {
-                    let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
-                    doubts.add(Warning::NotGiven, about);
-                }
+            let cells = rows.clone().map(|row| (row, self.grid.cell(row, at)));
+            // A blank cell beside filled ones may be unknown.
+            let is_open = match column {
+                Column::Held => cells.clone().any(|(_, cell)| means(cell, "free")),
+                Column::Known(Field::Depth) => cells.clone().any(|(_, cell)| !has_no_value(cell)),
+                Column::Known(_) => false,
+                _ => continue,
+            };
+            let is_told = |cell: &str| is_open || cell.contains(char::is_alphanumeric);
+            for (row, _) in cells.filter(|(_, cell)| has_no_value(cell) && is_told(cell)) {
+                let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
+                doubts.add(Warning::NotGiven, about);
             }
         }
         doubts
@@ -334,6 +358,13 @@ impl List<'_> {
     }
 }
 
+/// Whether a column that seems to count objects numbers the rows.
+fn numbers_rows(grid: &Grid, column: usize) -> bool {
+    let numbers: Vec<_> = (0..grid.lines.len()).map(|row| grid.number(row, column).ok()).collect();
+    let is_numbered = numbers.windows(2).all(|pair| pair[1] == pair[0].map(|number| number + 1.0));
+    grid.headings[column].name == "number" && numbers.len() > 1 && numbers[0].is_some() && is_numbered
+}
+
 /// Whether a cell says that there is nothing to say; an error of a workbook does not.
 fn has_no_value(cell: &str) -> bool {
     is_missing(cell) && !cell.starts_with('#')
@@ -355,7 +386,7 @@ fn held_by(heading: &str, cell: &str) -> Option<Reason> {
     let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
     if has_no_value(cell) || means(cell, "free") || is_loose {
         None
-    } else if !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
+    } else if text.starts_with("no-") || !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
         Some(Reason::Implausible(format!("{heading}: '{cell}'; expected yes or no")))
     } else if has(&heading, "rolls") || has(&text, "rolls") {
         Some(Reason::NotRocking("on castors: it rolls, and does not rock".to_string()))

@@ -1,29 +1,8 @@
 //! A record as in its file, and options for reading files.
 
+use crate::inputs::words::is_vertical;
 use crate::keyword::keywords;
 use crate::units::Unit;
-
-/// Words for a vertical component, in capitals.
-const VERTICAL: [&str; 20] = [
-    "UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "VRT", "BVRT", "VT", "VRTC", "UPD", "UPDO",
-    "UPWARD", "DOWN", "DOWNWARD", "DWN", "DN",
-];
-
-/// Whether the name of a component is that of a vertical one: a word, alone, numbered (UD2) or after the
-/// station (CHY101-V), or the last letter of a channel code, as in HNZ.
-pub fn is_vertical(component: &str) -> bool {
-    let name = component.to_ascii_uppercase();
-    let mut words = name.split(|sign: char| sign.is_whitespace() || "(),:;".contains(sign));
-    let is_word = |word: &str| {
-        let word = word.trim_matches(['.', '-']);
-        let numbered = word.trim_matches(|sign: char| sign.is_ascii_digit());
-        let last = word.rsplit(['-', '_']).next().unwrap_or_default();
-        VERTICAL.contains(&word)
-            || VERTICAL.contains(&last)
-            || (numbered.len() > 1 || numbered == "V") && VERTICAL.contains(&numbered)
-    };
-    name.len() == 3 && name.ends_with('Z') || words.any(is_word)
-}
 
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]

@@ -43,6 +43,8 @@ fn impossible_lists_of_outcomes_are_refused() {
         ("empty.csv", heading),
         ("none.csv", &changed("fell\n", "remarks\n")),
         ("word.csv", &changed("stood", "perhaps")),
+        ("open.csv", &changed(";fell\n", ";Outcome\n")),
+        ("count.csv", &TOWN.replacen(";fell\n", ";fell;count\n", 1).replace(";yes\n", ";yes;3\n")),
         ("unit.csv", &TOWN.replace(";0,5;6", ";50;6").replace(";0,3;6", ";30;6")),
         ("calm.csv", &format!("{heading}\n{}", rest.replacen("0,4;0,5", "0,1;0,1", 1))),
     ]);
@@ -50,6 +52,8 @@ fn impossible_lists_of_outcomes_are_refused() {
         ("empty.csv", "no rows"),
         ("none.csv", "fell"),
         ("word.csv", "perhaps"),
+        ("open.csv", "fell or stood"),
+        ("count.csv", "several"),
         ("unit.csv", "cm/s"),
         ("calm.csv", "line 2"),
     ] {

@@ -82,6 +82,7 @@ fn one_curve_is_one_curve_however_it_is_written() {
         table("PGA,AFE\n(g),(1/yr)", |a| format!("{a},{}", rate(a))).into_bytes(),
         table("PGA;PoE in 50 years\n[g];[%]", |a| format!("{};{}", comma(a), comma(100.0 * poe(50.0, a))))
             .into_bytes(),
+        table("TR;PGA\n[a];[m/s2]", |a| format!("{};{}", 1.0 / rate(a), a * G_M_S2)).into_bytes(),
         table("Ground Motion (g),AFE PGA", |a| format!("{a},{}", rate(a))).into_bytes(),
         table("IML (g),lambda (1/a)", |a| format!("{a},{}", rate(a))).into_bytes(),
         table("pga_g,PE50", |a| format!("{a},{}", poe(50.0, a))).into_bytes(),
@@ -179,6 +180,7 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         ),
         (curve("PGA (x10 m/s2),AFE"), "", "Heading { heading: \"PGA (x10 m/s2)\""),
         (curve("pga_g,AFE (1/475 yr)"), "", "Heading { heading: \"AFE (1/475 yr)\""),
+        (table("PGA (cm/s2),AFE", |a| format!("{a},{}", rate(a))), "", "wrong unit"),
         (curve("pga_g,monthly rate"), "", "Heading { heading: \"monthly rate\""),
         (curve("pga_g,AFE"), "pgv_m_s=Speed", "Renamed"),
         (curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),

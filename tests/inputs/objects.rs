@@ -193,6 +193,8 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,Anchored\na,0.5,2,tbc\n", "'tbc'"),
         ("name,width,height,Anchored\na,0.5,2,unknown\n", "'unknown'"),
         ("name,width,height,on wheels?\na,0.5,2,maybe\n", "'maybe'"),
+        ("name,width,height,Anchored\na,0.5,2,No (bolts removed)\n", "yes or no"),
+        ("name,width,height,Level,T1 (s)\na,0.5,2,1,0.6\nb,0.5,2,2,0.6\nc,0.5,2,0,0.6\n", "floor 1"),
         ("name,width,height,Secured\na,0.5,2,2 bolts M10\n", "not free to rock"),
         ("name,width,height,Secured\na,0.5,2,x\n", "not free to rock"),
         ("name,width,height,on wheels?\na,0.5,2,yes\n", "rolls"),
@@ -250,6 +252,12 @@ fn columns_that_are_not_used_are_all_named_once() {
     let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
     let lines = warnings.lines();
     assert!(lines.len() == 1 && lines[0].starts_with("depth of a, eta of b:"), "{lines:?}");
+    let open = "name,Number,width,depth,height,anchored\na,1023,0.5,-,2,no\nb,1024,0.5,1,2,\n";
+    std::fs::write(&path, open).unwrap();
+    let (objects, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let lines = warnings.lines().join("\n");
+    assert!(objects.iter().all(|object| object.count.is_none()), "a number of each row counts nothing");
+    assert!(["depth of a, anchored of b", "Number"].iter().all(|about| lines.contains(about)), "{lines}");
 }
 
 #[test]

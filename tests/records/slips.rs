@@ -47,6 +47,13 @@ fn what_is_meant_is_read() {
         (csv("time (s),acc (g)", G).replace(',', " ").replace('.', ",").replace('\n', "\r\n"), ""),
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "dt=0.01"),
         (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), ""),
+        (
+            lines("time,acc_g", G, |k, a| match (time(k) - 2.0) {
+                before if before < 0.0 => format!("23:59:{:05.2},{a:.6}", 60.0 + before),
+                after => format!("00:00:{after:05.2},{a:.6}"),
+            }),
+            "",
+        ),
     ] {
         let beginning = text.get(..60).unwrap_or_default();
         let (dt_s, samples) = read(&text, options).unwrap_or_else(|why| panic!("{why}: {beginning}"));

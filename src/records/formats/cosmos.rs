@@ -4,7 +4,8 @@
 
 use super::error::RecordFileError;
 use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit_of, words};
-use crate::records::{HeaderPga, ReadOptions, RecordedMotion, is_vertical};
+use crate::inputs::words::is_vertical;
+use crate::records::{HeaderPga, ReadOptions, RecordedMotion};
 
 /// Index of the azimuth among the integers.
 const AZIMUTH: usize = 53;

@@ -3,11 +3,13 @@
 
 use super::error::RecordFileError;
 use super::header::{azimuth_of, expect_step, expect_unit, first_number, given_unit, time_step};
+use crate::inputs::words::is_vertical;
 use crate::inputs::{Grid, Heading};
 use crate::motion::measures::peak;
-use crate::records::{ReadOptions, RecordedMotion, is_vertical};
+use crate::records::{ReadOptions, RecordedMotion};
 use crate::units::{Quantity, Unit};
 
+const DAY_S: f64 = 86400.0;
 /// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
 /// Relative difference of the peaks of two columns up to which they are one motion, such as in two units.
@@ -256,7 +258,13 @@ impl Samples<'_> {
         let (mut times, mut decimals) = (Vec::new(), 0);
         for row in 0..grid.lines.len() {
             let cell = grid.cell(row, column);
-            times.push(clock_s(cell).map_or_else(|| grid.number(row, column).map(|time| in_s * time), Ok)?);
+            let time = match clock_s(cell) {
+                // Past midnight.
+                Some(clock) if times.last().is_some_and(|last| clock < last - 0.5 * DAY_S) => clock + DAY_S,
+                Some(clock) => clock,
+                None => in_s * grid.number(row, column)?,
+            };
+            times.push(time);
             decimals = decimals.max(cell.split(['.', ',']).nth(1).map_or(0, str::len));
         }
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();

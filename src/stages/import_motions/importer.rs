@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use rayon::prelude::*;
 
+use crate::inputs::words::is_vertical;
 use crate::inputs::{About, Known, Member, unpack};
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
@@ -15,7 +16,7 @@ use crate::pipeline::context::Context;
 use crate::records::implausibility::Implausibility;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
 use crate::records::rotation::{Component, pairs};
-use crate::records::{ReadOptions, RecordFileError, RecordedMotion, is_vertical, read_records};
+use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;

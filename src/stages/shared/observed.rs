@@ -40,7 +40,8 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
     let [pga, pgv] = [Peak::Pga, Peak::Pgv]
         .map(|wanted| peaks.iter().position(|found| found.is_some_and(|(peak, _)| peak == wanted)));
     let (Some(pga), Some(pgv), Some(fell)) = (pga, pgv, sheet.about("outcome")) else {
-        bail!("expected objects with pga_g, pgv_m_s and fell (yes or no), each");
+        let expected = "objects, and of each pga_g, pgv_m_s and fell (yes or no)";
+        bail!("{}; expected {expected}", sheet.found());
     };
     let peak_in = |row: usize, column: usize| {
         let unit = peaks[column].map_or(1.0, |(_, unit)| unit);
@@ -53,6 +54,9 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
     let mut read = Vec::new();
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", sheet.lines[row]);
+        if object.count.is_some_and(|count| count != 1) {
+            bail!("{line}: several objects; expected one in each row");
+        }
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let structure = sides[0].structure.clone();
@@ -83,7 +87,11 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
 }
 
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
+    let is_open = ["outcome", "state"].contains(&&*sheet.headings[column].name);
     match sheet.cell(row, column) {
+        cell if is_open && (means(cell, "yes") || means(cell, "free")) => {
+            Err(sheet.refusal(row, column, "fell or stood"))
+        }
         cell if means(cell, "fell") => Ok(true),
         cell if means(cell, "stood") => Ok(false),
         _ => Err(sheet.refusal(row, column, "fell or stood, or yes or no")),
