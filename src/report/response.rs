@@ -168,20 +168,27 @@ pub fn figure(response: &Trace) -> Figure {
 
 /// The page of responses: what moves, and what came of each.
 pub fn page(all: &[Trace]) -> Page {
-    let title = match all {
-        [one] => words(&one.title()),
-        several => format!("{} over time", number::counted(several.len(), "response")),
-    };
-    Page {
-        title,
-        place: all.first().map_or(String::new(), Trace::size),
-        sentence: all.first().map_or(String::new(), Trace::sentence),
-        moving: match all {
-            [one] => vec![format!("<div>\n{}</div>\n", moving(one, 0))],
-            several => several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
+    let figures = all.iter().map(figure).collect();
+    match all {
+        [one] => Page {
+            title: words(&one.title()),
+            place: one.size(),
+            sentence: one.sentence(),
+            moving: vec![format!("<div>\n{}</div>\n", moving(one, 0))],
+            figures,
+            ..Page::default()
         },
-        figures: all.iter().map(figure).collect(),
-        ..Page::default()
+        several => Page {
+            title: format!("{} over time", number::counted(several.len(), "response")),
+            sentence: format!(
+                "{} of {} overturn. Each moves in real time.",
+                several.iter().filter(|response| response.overturned_at().is_some()).count(),
+                several.len()
+            ),
+            moving: several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
+            figures,
+            ..Page::default()
+        },
     }
 }
 
