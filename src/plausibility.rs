@@ -4,6 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::number::{period, significant};
+use crate::statistics::scores::sample_quantile;
 use crate::units::Unit;
 
 /// Moment magnitudes: the largest was 9.5 (Valdivia 1960), and weaker earthquakes rock nothing.
@@ -146,7 +147,5 @@ pub fn judge_lengths(
 
 /// The median of values that are above 0 and finite.
 pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| *value > 0.0 && value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    sample_quantile(values.filter(|value| *value > 0.0 && value.is_finite()).collect(), 0.5)
 }

@@ -59,7 +59,7 @@ pub(super) struct Section {
     /// ln p of the structure, and within the domain.
     ln_p: f64,
     ln_p_held: f64,
-    uplift: Uplift,
+    rise: Rise,
     /// M = intercept + slope ln(PGV / PGA), within the magnitudes of the data.
     intercept: f64,
     slope: f64,
@@ -102,7 +102,7 @@ impl Section {
             lower: 0.4 * limit,
             ln_p: structure.p_rad_s.ln(),
             ln_p_held: p.ln(),
-            uplift: curve.uplift,
+            rise: curve.rise,
             intercept,
             slope,
             magnitudes: range,
@@ -129,7 +129,7 @@ impl Section {
                 cubic[r] = w_at_r_0 * cubic[r] - lower + by_x;
             }
         }
-        let Uplift { n, ln_d, k } = self.uplift;
+        let Rise { n, ln_d, k } = self.rise;
         let ln_gain = n * (ln_d - ln_above - k * (self.ln_p + ln_im4));
         Cut {
             cubic,
@@ -295,7 +295,7 @@ struct KindOfMotion {
 /// A probability under a kind of motion.
 struct Curve {
     terms: Vec<Term>,
-    uplift: Uplift,
+    rise: Rise,
     prior: Prior,
 }
 
@@ -310,7 +310,7 @@ struct ExpectedMagnitude {
 
 /// How fast a probability rises from uplift on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Uplift {
+struct Rise {
     n: f64,
     ln_d: f64,
     k: f64,
@@ -391,7 +391,7 @@ impl Curve {
             terms: terms
                 .map(|row| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number")))
                 .collect(),
-            uplift: Uplift { n, ln_d: d.ln(), k },
+            rise: Rise { n, ln_d: d.ln(), k },
             prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
         }
     }

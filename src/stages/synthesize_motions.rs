@@ -88,7 +88,7 @@ struct MotionName {
 }
 
 /// A synthetic motion: what names it, its scenario, its samples as they are written and what they measure.
-struct Motion {
+struct SyntheticMotion {
     name: MotionName,
     scenario: Scenario,
     acceleration_m_s2: Vec<f32>,
@@ -141,7 +141,7 @@ impl Stage for SynthesizeMotions {
                 let motions = some.par_iter().flat_map_iter(|scenario| {
                     pool.with(|scratch| synthesize(scenario, suites, &plan, scratch))
                 });
-                let motions: Vec<Motion> = motions.collect();
+                let motions: Vec<SyntheticMotion> = motions.collect();
                 bar.advance(some.len())?;
                 batch(&motions, &periods)
             },
@@ -220,7 +220,7 @@ fn synthesize(
     suites: &[SyntheticSuite],
     plan: &MeasurePlan,
     (synthesizer, scratch): &mut (Synthesizer, MeasureScratch),
-) -> Vec<Motion> {
+) -> Vec<SyntheticMotion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
     let motions = suites.iter().map(|&suite| {
@@ -229,12 +229,12 @@ fn synthesize(
         let measured = plan.measure(&written, dt_s, scratch);
         let motion_id = suite.motion_id(scenario.scenario_id).to_string();
         let name = MotionName { motion_id, suite, dt_s };
-        Motion { name, scenario: *scenario, acceleration_m_s2, measured }
+        SyntheticMotion { name, scenario: *scenario, acceleration_m_s2, measured }
     });
     motions.collect()
 }
 
-fn batch(some: &[Motion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
+fn batch(some: &[SyntheticMotion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
     let known = [
         rows::batch(some.iter().map(|motion| &motion.name))?,

@@ -51,6 +51,13 @@ impl Estimate {
 
 /// A value with its limits of which something may be missing: all of what is not known, the value of what only
 /// has bounds.
+///
+/// ```
+/// use rockfrag::statistics::{Estimate, Limited};
+/// let known: Limited = Estimate::around(2.0, 0.5).into();
+/// let bounds = Limited { value: None, ..known }.map(|x| 2.0 * x);
+/// assert_eq!((known.estimate().is_some(), bounds.estimate(), bounds.high), (true, None, Some(5.0)));
+/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct Limited {

@@ -106,7 +106,7 @@ struct Contest {
     clusters: Vec<u32>,
 }
 
-enum Model {
+enum Fitted {
     /// Below the transition and above it; the same for a single form.
     Demand([LinearFit; 2]),
     Overturning(ProbitFit),
@@ -239,34 +239,34 @@ impl Contest {
         least_squares(&self.columns(set, rows), &y)
     }
 
-    fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Model, FitStatus> {
+    fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Fitted, FitStatus> {
         match (self.target, form) {
             (Target::Overturning, _) => {
                 let events: Vec<bool> = rows.iter().map(|&row| self.events[row]).collect();
-                Ok(Model::Overturning(probit(&self.columns(set, rows), &events)?))
+                Ok(Fitted::Overturning(probit(&self.columns(set, rows), &events)?))
             }
             (Target::Demand, Form::Single) => {
-                self.law(set, rows).map(|law| Model::Demand([law.clone(), law]))
+                self.law(set, rows).map(|law| Fitted::Demand([law.clone(), law]))
             }
             (Target::Demand, Form::Biplanar) => {
                 let (low, high): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&row| self.is_low[row]);
-                Ok(Model::Demand([self.law(set, &low)?, self.law(set, &high)?]))
+                Ok(Fitted::Demand([self.law(set, &low)?, self.law(set, &high)?]))
             }
         }
     }
 
     /// Computes the log-likelihood of each case; `sd` is the standard deviation of ln EDP.
-    fn log_likelihoods(&self, set: &[usize], model: &Model, sd: impl Fn(&LinearFit) -> f64) -> Vec<f64> {
+    fn log_likelihoods(&self, set: &[usize], model: &Fitted, sd: impl Fn(&LinearFit) -> f64) -> Vec<f64> {
         let x: Vec<&[f64]> = set.iter().map(|&k| self.ln_im[k].as_slice()).collect();
         match model {
-            Model::Overturning(probit) => {
+            Fitted::Overturning(probit) => {
                 let z = predict(probit.fit.coefficients.as_slice(), &x);
                 z.iter()
                     .zip(&self.events)
                     .map(|(z, event)| normal::ln_cdf(if *event { *z } else { -z }))
                     .collect()
             }
-            Model::Demand(laws) => {
+            Fitted::Demand(laws) => {
                 let means = laws.each_ref().map(|law| predict(law.fit.coefficients.as_slice(), &x));
                 let densities = (0..self.y.len()).map(|row| {
                     let side = usize::from(!self.is_low[row]);

@@ -26,7 +26,9 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
     let planes = |of: &Cases| fit_demand(of, Some(1.3), 0.95, true);
     let write = |name: &str, write: &dyn Fn(&Path)| write(&folder.path().join(name));
     fn put<R: Row>(path: &Path, rows: Vec<R>) {
-        Context::default().write(path, &rows, "").unwrap();
+        let context = Context::default();
+        context.write(path, &rows, "").unwrap();
+        context.persist().unwrap();
     }
     write("pro.calibration.parquet", &|path| {
         put(path, all.iter().map(|of| Calibration::fit(of, None)).collect())
