@@ -102,7 +102,8 @@ pub fn fit_curve<'py>(
     confidence: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let im = numbers(im);
-    let fit = |_| -> anyhow::Result<_> {
+    let happened: Vec<bool> = outcomes.iter().map(|outcome| *outcome != 0).collect();
+    let fit = move |_| -> anyhow::Result<_> {
         let refuse = |problem: String| Err(UsageError::because(problem));
         if let Some(at) = im.iter().position(|im| !(im.is_finite() && *im > 0.0)) {
             return refuse(format!("im[{at}] is {}; expected a finite number above 0", im[at]));
@@ -111,7 +112,6 @@ pub fn fit_curve<'py>(
             return refuse(format!("confidence is {confidence}; expected a level from 0.5 to 1"));
         }
         let ln_im: Vec<f64> = im.iter().map(|im| im.ln()).collect();
-        let happened: Vec<bool> = outcomes.iter().map(|outcome| *outcome != 0).collect();
         Ok((tested_probit(&[&ln_im], &happened, &[]), happened))
     };
     // Many cases are fitted on several threads.

@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{RecvTimeoutError::Timeout, sync_channel};
 use std::thread;
 use std::time::Duration;
 
@@ -15,6 +15,8 @@ use crate::error::to_python;
 
 /// The time between two checks of signals and progress.
 const CHECK_EVERY: Duration = Duration::from_millis(50);
+/// Checks for which an interrupted stage may end; then it is left alone, and gives no file its name.
+const LAST_CHECKS: usize = 10;
 
 /// The first process that uses rockfrag. A child made by fork lacks its threads and would wait for them.
 static OWNER: OnceLock<u32> = OnceLock::new();
@@ -29,11 +31,11 @@ fn expect_own_threads() -> anyhow::Result<()> {
 
 /// Runs `work` on a thread of its own, with `threads` threads (all processors if none), until it is done or
 /// interrupted.
-pub fn run<T: Send>(
+pub fn run<T: Send + 'static>(
     py: Python,
     threads: Option<usize>,
     progress: Option<&Py<PyAny>>,
-    work: impl FnOnce(Context) -> anyhow::Result<T> + Send,
+    work: impl FnOnce(Context) -> anyhow::Result<T> + Send + 'static,
 ) -> PyResult<T> {
     forget_pipes();
     expect_own_threads().map_err(|error| to_python(&error))?;
@@ -41,27 +43,21 @@ pub fn run<T: Send>(
     context.common.quiet = true;
     let observed = &context.observed.clone();
     let (finished, wait) = sync_channel(1);
-    let (result, interrupted) = py.detach(move || {
-        thread::scope(|scope| {
-            let worker = scope.spawn(move || {
-                let result = on_threads(threads, || work(context));
-                // Whoever waits is there until this is sent.
-                let _ = finished.send(());
-                result
-            });
-            let mut interrupted = None;
-            while wait.recv_timeout(CHECK_EVERY) == Err(RecvTimeoutError::Timeout) {
-                if interrupted.is_none() {
+    // Nobody waits for an interrupted one.
+    thread::spawn(move || drop(finished.send(on_threads(threads, || work(context)))));
+    let result = py.detach(move || {
+        let (mut interrupted, mut last) = (None, 0..LAST_CHECKS);
+        loop {
+            match wait.recv_timeout(CHECK_EVERY) {
+                Err(Timeout) if interrupted.is_none() => {
                     interrupted = Python::attach(|py| check(py, progress, observed)).err();
-                    observed.stop.store(interrupted.is_some(), Ordering::Relaxed);
+                    interrupted.iter().for_each(|_| observed.stop());
                 }
+                Err(Timeout) if last.next().is_some() => {}
+                done => return interrupted.map_or(Ok(done), Err),
             }
-            (worker.join(), interrupted)
-        })
-    });
-    if let Some(error) = interrupted {
-        return Err(error);
-    }
+        }
+    })?;
     let result = result.unwrap_or_else(|_| Err(anyhow::anyhow!("the stage stopped unexpectedly")));
     let result = result.map_err(|error| to_python(&error))?;
     check(py, progress, observed)?;

@@ -48,15 +48,14 @@ pub fn call(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Made> {
-    let commands = stage_commands();
-    let command = commands.iter().find(|command| command.get_name() == stage);
+    let command = stage_commands().into_iter().find(|command| command.get_name() == stage);
     let command = command.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
     let options: BTreeMap<String, Value> =
         serde_json::from_str(options).map_err(|error| PyTypeError::new_err(error.to_string()))?;
-    let words = arguments(command, options, Path::new(""))
+    let words = arguments(&command, options, Path::new(""))
         .map_err(|error| PyTypeError::new_err(in_python(&error.to_string())))?;
     run(py, threads, progress.as_ref(), move |mut context| {
-        let call = configured(command, &words)?;
+        let call = configured(&command, &words)?;
         context.common.force = call.common.force;
         make(&call, &context, &mut HashMap::new())
     })
@@ -80,7 +79,7 @@ pub fn run_pipeline(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Made>> {
-    run(py, threads, progress.as_ref(), |mut context| {
+    run(py, threads, progress.as_ref(), move |mut context| {
         let calls = calls_of(&pipeline, out, seed)?;
         context.common.force = force;
         let mut made = HashMap::new();

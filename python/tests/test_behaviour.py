@@ -144,6 +144,7 @@ print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
     [
         "rockfrag.evaluate(structures=frame, hazard='hazard.csv')",
         "rockfrag.export(to='openquake', structures=frame, out='x.xml')",
+        "rockfrag.evaluate(rows, width=0.5, height=2.0, out='e.parquet')",
         "rockfrag.sample_scenarios(samples=500_000)",
         "rockfrag.ida(MOTIONS, out='ida.parquet', p=1.5, alpha=0.15, eta=0.92, steps=600)",
     ],
@@ -155,6 +156,7 @@ import os, signal, time, pandas, rockfrag
 number = range(3000)
 frame = pandas.DataFrame(dict(name=[f"object {{k}}" for k in number],
     width=[0.3 + 1e-4 * k for k in number], height=[2.0] * len(number)))
+rows = pandas.DataFrame(dict(pga_g=[0.2 + 1e-5 * k for k in range(60_000)], pgv_m_s=0.5))
 seen = []
 def progress(done, total):
     if done and not seen:

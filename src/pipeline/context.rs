@@ -109,7 +109,24 @@ impl Plan {
 pub struct Observed {
     pub done: AtomicUsize,
     pub total: AtomicUsize,
-    pub stop: AtomicBool,
+    stop: AtomicBool,
+    /// The temporary names of the tables that it writes.
+    begun: Mutex<Vec<PathBuf>>,
+}
+
+impl Observed {
+    /// Stops the stage: what it writes goes, and gets no name, whenever it hears of it.
+    pub fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+        for path in self.begun.lock().iter().flat_map(|begun| begun.iter()) {
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    fn expect_running(&self) -> anyhow::Result<()> {
+        anyhow::ensure!(!self.stop.load(Ordering::Relaxed), "interrupted");
+        Ok(())
+    }
 }
 
 #[derive(Clone, Default)]
@@ -147,8 +164,13 @@ impl Context {
         self.warnings.lock().map(|all| all.clone()).unwrap_or_default()
     }
 
-    pub fn create(&self, path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
-        TableWriter::create(path, schema)
+    pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
+        let writer = TableWriter::create(path, schema)?;
+        if let Ok(mut begun) = self.observed.begun.lock() {
+            begun.push(writer.partial().to_path_buf());
+        }
+        self.observed.expect_running()?;
+        Ok(writer)
     }
 
     /// Ends a table with its [`Context::provenance`].
@@ -173,10 +195,11 @@ impl Context {
         }
     }
 
-    /// Gives all files that were written their names.
-    pub fn persist(&self) -> Result<(), TableError> {
+    /// Gives all files that were written their names, unless another program stops the stage.
+    pub fn persist(&self) -> anyhow::Result<()> {
+        self.observed.expect_running()?;
         let written = self.written.lock().map(|mut all| std::mem::take(&mut *all)).unwrap_or_default();
-        written.into_iter().try_for_each(Written::persist)
+        Ok(written.into_iter().try_for_each(Written::persist)?)
     }
 
     /// Returns the provenance of a finished output. A changed input is an error.
@@ -207,7 +230,8 @@ impl Context {
 
     /// Writes a file. One with the same content stays untouched.
     pub fn replace(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
-        if !std::fs::read(path).is_ok_and(|there| there == content) {
+        let is_there = std::fs::read(path).is_ok_and(|there| there == content);
+        if !is_there && self.observed.expect_running().is_ok() {
             self.keep(Written::new(path, content)?);
         }
         Ok(())
@@ -244,7 +268,6 @@ impl Progress {
     pub fn advance(&self, steps: usize) -> anyhow::Result<()> {
         self.bar.inc(steps as u64);
         self.observed.done.fetch_add(steps, Ordering::Relaxed);
-        anyhow::ensure!(!self.observed.stop.load(Ordering::Relaxed), "interrupted");
-        Ok(())
+        self.observed.expect_running()
     }
 }

@@ -41,6 +41,11 @@ impl TableWriter {
         &self.path
     }
 
+    /// Its temporary name.
+    pub fn partial(&self) -> &Path {
+        self.writer.inner().path()
+    }
+
     pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
         self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
     }

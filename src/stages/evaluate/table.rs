@@ -70,6 +70,7 @@ pub fn evaluate(
     expect_units(&batches)?;
     let mut known = HashMap::new();
     let mut evaluated = Vec::new();
+    let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
     for batch in &batches {
         let names = vec!["structure".into(); batch.rows.num_rows()];
         let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
@@ -81,6 +82,7 @@ pub fn evaluate(
         }
         let subject = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
         evaluated.push(with_probabilities(batch, subject, magnitude, context)?);
+        bar.advance(batch.rows.num_rows())?;
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
         0 => Err(TableError::table(path, "no rows; expected intensities").into()),

@@ -97,7 +97,7 @@ impl Stage for Report {
         let figures: Vec<&Figure> = head.figures.iter().chain(&others).collect();
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().chain(&notes).map(|note| format!("{note}\n")).collect();
-        let summary = format!("{}: {}\n{left_out}", page.display(), counted(figures.len(), "figure"));
+        let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
         let mut made = context.provenance(&page, &summary)?;
         let files =
             figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
