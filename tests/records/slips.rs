@@ -48,7 +48,7 @@ fn what_is_meant_is_read() {
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "dt=0.01"),
         (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), ""),
         (
-            lines("time,acc_g", G, |k, a| match (time(k) - 2.0) {
+            lines("time,acc_g", G, |k, a| match time(k) - 2.0 {
                 before if before < 0.0 => format!("23:59:{:05.2},{a:.6}", 60.0 + before),
                 after => format!("00:00:{after:05.2},{a:.6}"),
             }),
