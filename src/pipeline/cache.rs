@@ -85,6 +85,7 @@ fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()
         _ if is_read => "is read and cannot be written too",
         _ if real.is_dir() => "is a folder; expected a file",
         _ if is_pipe(&real) => "is a pipe or device; expected a file",
+        _ if !force && real.metadata()?.permissions().readonly() => "is read-only; --force replaces it",
         _ if force || is_text(&real) || is_ours(&real, &[]) => return Ok(()),
         _ => return Err(TableError::not_ours(out).into()),
     };

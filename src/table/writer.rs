@@ -85,9 +85,14 @@ impl Written {
         Ok(Written { partial, path: path.to_path_buf() })
     }
 
-    /// Gives it its name.
+    /// Gives it its name, and the permissions of the file that it replaces.
     pub fn persist(self) -> Result<(), TableError> {
-        let renamed = self.partial.persist(linked(&self.path));
+        let target = linked(&self.path);
+        if let Ok(former) = target.metadata() {
+            let set = self.partial.as_file().set_permissions(former.permissions());
+            set.map_err(|source| cannot_write(&self.path, source))?;
+        }
+        let renamed = self.partial.persist(target);
         renamed.map(drop).map_err(|refused| cannot_write(&self.path, refused.error))
     }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{Cursor, Read, Write};
-use std::os::unix::fs::symlink;
+use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 use std::process::Command;
 
@@ -84,7 +84,20 @@ fn what_is_in_the_way_is_kept_unless_it_is_given_up() {
         assert_eq!(bytes(&folder.path().join(name)), before);
         succeed(folder.path(), &simulate(name, "--force"));
     }
-    succeed(folder.path(), &simulate("out/responses.parquet", ""));
+    let responses = folder.path().join("out/responses.parquet");
+    for mode in [0o600, 0o400] {
+        fs::set_permissions(&responses, fs::Permissions::from_mode(mode)).unwrap();
+        match mode {
+            0o600 => drop(succeed(folder.path(), &simulate("out/responses.parquet", ""))),
+            _ => fail(
+                folder.path(),
+                &simulate("out/responses.parquet", "--trace 0"),
+                2,
+                &["read-only", "--force"],
+            ),
+        }
+        assert_eq!(fs::metadata(&responses).unwrap().permissions().mode() & 0o777, mode, "stays private");
+    }
 }
 
 #[test]
