@@ -89,12 +89,6 @@ impl<T: Copy> LimitStates<T> {
     }
 }
 
-impl<T> From<[T; 3]> for LimitStates<T> {
-    fn from([rocking, failure, overturning]: [T; 3]) -> LimitStates<T> {
-        LimitStates { rocking, failure, overturning }
-    }
-}
-
 /// What no model gives: NaN.
 pub(super) const UNKNOWN: Estimate = Estimate::exact(f64::NAN);
 

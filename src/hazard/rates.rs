@@ -1,7 +1,7 @@
 //! Annual rates of the limit states of a structure at a site: the hazard, of one peak or of pairs of peaks,
 //! times the probabilities of a model.
 
-use super::curve::HazardCurve;
+use super::curve::{HazardCurve, Node};
 use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
 use crate::motion::Peaks;
 
@@ -56,15 +56,53 @@ impl Rate {
 
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
-    let sums = curve.mean_annual_rates(&given_peak.breaks(), given_peak.widest_panel(), |intensity| {
-        given_peak.limit_states(intensity).into_array()
-    });
-    let [_, (last, rate_beyond)] = curve.ends();
-    LimitStates::from(sums).zip(given_peak.limit_states(last), |value, at_last| Rate {
-        value,
-        at_last: at_last * rate_beyond,
-        beyond: (1.0 - at_last).max(0.0) * rate_beyond,
-    })
+    OverCurve::new(given_peak, curve).rates()
+}
+
+/// The probabilities of an object at intensities that stand for all of a curve, and at its last one, which
+/// stands for those beyond.
+pub(super) struct OverCurve {
+    within: Vec<(Node, LimitStates<f64>)>,
+    beyond: (Node, LimitStates<f64>),
+}
+
+impl OverCurve {
+    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve) -> OverCurve {
+        let at = |node: Node| (node, given_peak.limit_states(node.intensity));
+        let [_, (intensity, annual_rate)] = curve.ends();
+        let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel()).into_iter();
+        OverCurve { within: nodes.map(at).collect(), beyond: at(Node { intensity, annual_rate }) }
+    }
+
+    pub fn rates(&self) -> LimitStates<Rate> {
+        let mut sums = LimitStates::all(0.0);
+        for (node, states) in self.within.iter().chain([&self.beyond]) {
+            sums = sums.zip(*states, |sum, p| sum + p * node.annual_rate);
+        }
+        let (Node { annual_rate, .. }, at_last) = self.beyond;
+        sums.zip(at_last, |value, at_last| Rate {
+            value,
+            at_last: at_last * annual_rate,
+            beyond: (1.0 - at_last).max(0.0) * annual_rate,
+        })
+    }
+
+    /// Finds the intensity above which half of the annual rate of overturning comes from.
+    pub fn median_intensity(&self) -> f64 {
+        let half = 0.5 * self.rates().overturning.value;
+        // A part lies half below its node, half above.
+        let (mut before, mut below, mut last) = (0.0, 0.0, None);
+        for (node, states) in &self.within {
+            let part = states.overturning * node.annual_rate;
+            let at_node = below + 0.5 * part;
+            let from = last.replace(node.intensity).unwrap_or(node.intensity);
+            if at_node >= half {
+                return from * (node.intensity / from).powf((half - before) / (at_node - before));
+            }
+            (before, below) = (at_node, below + part);
+        }
+        self.beyond.0.intensity
+    }
 }
 
 /// Sums the probabilities of an object in its directions, times the rates, over bins of PGA and PGV.
@@ -82,25 +120,4 @@ pub(super) fn rates_over_pairs(
         rates = rates.zip(ready.limit_states(bin.peaks, Level::Estimate), |sum, p| sum + p * bin.annual_rate);
     }
     rates.map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })
-}
-
-/// Finds the intensity above which half of the annual rate of overturning comes from.
-pub(super) fn median_intensity(given_peak: &GivenPeak, curve: &HazardCurve) -> f64 {
-    let overturning = |intensity| given_peak.limit_states(intensity).overturning;
-    let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel());
-    let parts: Vec<f64> = nodes.iter().map(|node| overturning(node.intensity) * node.annual_rate).collect();
-    let [_, (last, rate_beyond)] = curve.ends();
-    let half = 0.5 * (parts.iter().sum::<f64>() + overturning(last) * rate_beyond);
-    // A part lies half below its node, half above.
-    let (mut before, mut below) = (0.0, 0.0);
-    for (k, part) in parts.iter().enumerate() {
-        let at_node = below + 0.5 * part;
-        if at_node >= half {
-            let share = (half - before) / (at_node - before);
-            let from = nodes[k.saturating_sub(1)].intensity;
-            return from * (nodes[k].intensity / from).powf(share);
-        }
-        (before, below) = (at_node, below + part);
-    }
-    last
 }

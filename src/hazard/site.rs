@@ -6,7 +6,7 @@ use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::motions::Motions;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
-use super::rates::{PairOfPeaks, Rate, median_intensity, rates_over_curve, rates_over_pairs};
+use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
 use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
@@ -134,8 +134,8 @@ impl Site {
             Hazard::Joint(bins) => rates_over_pairs(&subject.directions, self.mw, bins),
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
-                let Integrated { rates, ends_early, .. } = self.integrated(hazard, &given);
-                Some(rates).filter(|_| !ends_early)?
+                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given);
+                Some(over.rates()).filter(|_| !ends_early)?
             }
         };
         Some(rates.overturning.value).filter(|rate| !rate.is_nan())
@@ -143,17 +143,17 @@ impl Site {
 
     /// Integrates the probabilities over a curve, which is extrapolated if it ends too early and is to be.
     pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak) -> Integrated {
-        let (curve, rates) = (hazard.curve.clone(), rates_over_curve(given, &hazard.curve));
+        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve));
         let [_, (last, _)] = curve.ends();
-        let overturning = rates.overturning;
+        let overturning = over.rates().overturning;
         let ends_early = last < strongest(hazard.peak) && overturning.beyond > NEGLIGIBLE * overturning.value;
         if !(ends_early && self.extrapolate) {
-            return Integrated { curve, rates, ends_early, beyond: None };
+            return Integrated { curve, over, ends_early, beyond: None };
         }
         let curve = curve.extrapolated();
-        let rates = rates_over_curve(given, &curve);
-        let beyond = Some(1.0 - overturning.least() / rates.overturning.value);
-        Integrated { curve, rates, ends_early: false, beyond }
+        let over = OverCurve::new(given, &curve);
+        let beyond = Some(1.0 - overturning.least() / over.rates().overturning.value);
+        Integrated { curve, over, ends_early: false, beyond }
     }
 
     /// Returns the motions of a curve of one peak, with all that is not given of them at its median.
@@ -166,7 +166,7 @@ impl Site {
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
         let motions = self.motions(hazard, subject);
         let middle = motions.given(&subject.directions, 0.0);
-        let Integrated { curve, rates, ends_early, beyond } = self.integrated(hazard, &middle);
+        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle);
         let mut ends =
             motions.ends(subject, &subject.model_errors(), |given| rates_over_curve(given, &curve));
         if let Some([low, high]) = &hazard.fractiles {
@@ -175,7 +175,7 @@ impl Site {
                 None => rates_over_curve(&middle, fractile),
             }));
         }
-        let motion = middle.peaks(median_intensity(&middle, &curve), 0.0);
+        let motion = middle.peaks(over.median_intensity(), 0.0);
         let [(first, _), _] = hazard.curve.ends();
         let warnings = [
             beyond.map(|_| Warning::HazardExtrapolated),
@@ -188,7 +188,7 @@ impl Site {
             beyond,
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().flatten().collect(),
-            ..Varied { rates, ends }.with_limits(motion, ends_early)
+            ..Varied { rates: over.rates(), ends }.with_limits(motion, ends_early)
         }
     }
 
@@ -212,10 +212,10 @@ impl Site {
     }
 }
 
-/// Rates over a curve, as it is or extrapolated.
+/// An object over a curve, as it is or extrapolated.
 pub(super) struct Integrated {
     pub curve: HazardCurve,
-    pub rates: LimitStates<Rate>,
+    pub over: OverCurve,
     /// Whether it ends too early for the rate of overturning.
     pub ends_early: bool,
     /// The share of that rate beyond the last point of a curve that is extrapolated.
