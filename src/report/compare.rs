@@ -190,7 +190,10 @@ fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
 }
 
 fn worst<'a>(all: &[&'a Rated]) -> Option<&'a Rated> {
-    all.iter().copied().max_by(|a, b| a.severity().total_cmp(&b.severity()))
+    all.iter()
+        .copied()
+        .filter(|rated| rated.is_answered())
+        .max_by(|a, b| a.severity().total_cmp(&b.severity()))
 }
 
 /// What is changed of an object, and what comes of it.

@@ -88,25 +88,26 @@ pub fn page(evaluations: &[Evaluation]) -> Page {
     hazards.dedup();
     let several = evaluations.len() > 1;
     let file = if several { format!(" ({})", literal(&evaluation.file)) } else { String::new() };
+    let title = format!("{}: how likely they are to overturn", number::counted(all.len(), "object"));
     let (table, same) = table(&all);
+    if answered.is_empty() {
+        return Page { title, sentence: not_assessed(&all), table: Some(table), ..Page::default() };
+    }
     let friction = "With less friction than it needs, an object slides instead of rocking.".to_string();
     let facts = [same, Some(friction)].into_iter().flatten().chain(facts(&answered));
     Page {
-        title: format!("{}: how likely they are to overturn", number::counted(all.len(), "object")),
+        title,
         place: format!(
             "{} free-standing, {place}; {}",
             number::count(answered.len()),
             literal(&hazards.join("; "))
         ),
-        sentence: match answered.is_empty() {
-            true => not_assessed(&all),
-            false => format!(
-                "{}{file} is the most likely to overturn: it {}. {}",
-                worst.object.marked_name(),
-                worst.sentence(&evaluation.when),
-                not_assessed(&all)
-            ),
-        },
+        sentence: format!(
+            "{}{file} is the most likely to overturn: it {}. {}",
+            worst.object.marked_name(),
+            worst.sentence(&evaluation.when),
+            not_assessed(&all)
+        ),
         tiles: tiles(evaluations, &evaluation.when),
         facts: facts.collect(),
         table: Some(table),

@@ -183,7 +183,12 @@ impl Tables {
             let name = other.object.structure;
             tables.left_out.push(format!("{name} is not shown: its fragility is over another peak."));
         }
-        let first = tables.evaluations.first().map_or(String::new(), |first| first.when.clone());
+        // Where no object has an answer there is no time.
+        let mut whens = tables.evaluations.iter().map(|evaluation| evaluation.when.clone());
+        let first = whens.find(|when| !when.is_empty()).unwrap_or_default();
+        for silent in tables.evaluations.iter_mut().filter(|evaluation| evaluation.when.is_empty()) {
+            silent.when.clone_from(&first);
+        }
         for other in tables.evaluations.extract_if(.., |evaluation| evaluation.when != first) {
             let Evaluation { file, when, .. } = other;
             tables.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
