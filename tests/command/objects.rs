@@ -76,18 +76,28 @@ fn on_a_roof_an_object_falls_more_often_than_on_the_ground() {
 }
 
 #[test]
-fn the_width_for_a_target_meets_it() {
-    let object = "--height 2.2 --centre-height 1 --depth 0.9";
-    let answer = row(&format!("--width 0.6 --centre-offset 0.03 {object} --target 1%"));
-    for (width, of) in [("target_width_m", "p_overturning"), ("target_width_m_high", "p_overturning_high")] {
-        let Some(width) = answer[width].as_f64() else { continue };
-        let resized = format!("--width {width} --centre-offset {} {object}", 0.05 * width);
-        let p = number(&row(&resized), of);
-        assert!(near(p, 0.01, 0.01), "{of} {p} at {width}");
+fn the_base_for_a_target_meets_it() {
+    let tall = "--height 2.2 --centre-height 1 --depth 0.9";
+    let wider = |width: f64| format!("--width {width} --centre-offset {} {tall}", 0.05 * width);
+    let larger = |side: f64| format!("--width {side} --depth {side} --height 1.9");
+    let by_width = row(&format!("{} --target 1%", wider(0.6)));
+    // Where the depth is too small, both sides meet the target.
+    let by_both = row("--width 0.5 --depth 0.4 --height 1.9 --target 0.5%");
+    let bases: [(_, _, _, &dyn Fn(f64) -> String); 2] =
+        [(&by_width, "target_width_m", 0.01, &wider), (&by_both, "target_sides_m", 0.005, &larger)];
+    for (answer, base, target, resized) in bases {
+        assert!(number(answer, base) > 0.3);
+        for limit in ["", "_high"] {
+            let Some(side) = answer[format!("{base}{limit}")].as_f64() else { continue };
+            let p = number(&row(&resized(side)), &format!("p_overturning{limit}"));
+            assert!(near(p, target, 0.01), "{base}{limit} {p} at {side}");
+        }
     }
-    assert!(number(&answer, "target_width_m") > 0.3);
-    let none = row("--width 0.2 --height 2.2 --target 1e-7%");
-    assert!(none["target_width_m"].is_null());
+    assert!(by_both["target_width_m"].is_null() && number(&by_both, "target_sides_m") > 0.4);
+    // Where the width is enough, the depth stays.
+    let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
+    assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
+    assert!(row("--width 0.2 --height 2.2 --target 1e-7%")["target_width_m"].is_null());
 }
 
 const HOSPITAL: &str = "\
@@ -157,21 +167,6 @@ fn slips_are_named() {
         std::fs::write(folder.path().join("list.csv"), list).unwrap();
         fail(folder.path(), &format!("evaluate --structures list.csv {HAZARD}"), 1, &["list.csv", named]);
     }
-}
-
-#[test]
-fn where_the_depth_is_too_small_both_sides_meet_the_target() {
-    let answer = row("--width 0.5 --depth 0.4 --height 1.9 --target 0.5%");
-    assert!(answer["target_width_m"].is_null());
-    for (side, of) in [("target_sides_m", "p_overturning"), ("target_sides_m_high", "p_overturning_high")] {
-        let Some(side) = answer[side].as_f64() else { continue };
-        let p = number(&row(&format!("--width {side} --depth {side} --height 1.9")), of);
-        assert!(near(p, 0.005, 0.01), "{of} {p} at {side}");
-    }
-    assert!(number(&answer, "target_sides_m") > 0.4);
-    // Where the width is enough, the depth stays.
-    let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
-    assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
 }
 
 #[test]
