@@ -87,27 +87,52 @@ def left_out():
         low, p, high = (pl.Series(logistic(cases["z"].to_numpy() + 1.96 * tau * side)) for side in (-1, 0, 1))
         counts = cases.with_columns(p=p, low=low, high=high).group_by("cluster").agg(
             pl.col("happened").sum(), pl.col("p", "low", "high").sum(), pl.first("mw")).sort("mw")  # fmt: skip
-        happened, p = cases["happened"].to_numpy(), np.clip(p.to_numpy(), 1e-9, 1 - 1e-9)
-        score = np.where(happened, np.log(p), np.log1p(-p)).mean()
+        happened, p, straight = cases["happened"].to_numpy(), p.to_numpy(), lines_left_out(cases)
         drawn = np.random.default_rng(1).integers(0, len(counts), (4000, len(counts)))
         ratios = counts["happened"].to_numpy()[drawn].sum(axis=1) / counts["p"].to_numpy()[drawn].sum(axis=1)
         held = counts.filter((pl.col("happened") >= pl.col("low")) & (pl.col("happened") <= pl.col("high")))
         print(f"left out, {name}: {happened.sum()} of {p.sum():.0f} expected,",
               f"ratio {happened.sum() / p.sum():.2f}", np.quantile(ratios, [0.025, 0.975]).round(2),
-              f"score {score:.4f}, {len(cases)} cases; {len(held)} of {len(counts)} within limits")
+              f"{len(cases)} cases; {len(held)} of {len(counts)} within limits")
+        for of_what, found in (("surface", p), ("logistic line", straight)):
+            print(f"  {of_what}: mean ln of the likelihood {ln_likelihood(found, happened).mean():.3f},",
+                  f"Brier {((found - happened) ** 2).mean():.3f}, AUC {auc(found, happened):.3f}")  # fmt: skip
         for low, high, label in ((0, 0.005, "0 to .005"), (0.005, 0.05, ".005 to .05"), (0.05, 0.4, ".05 to .4")):
             within = (p >= low) & (p < high)
             print(f"  P {label}: {happened[within].sum()} of {p[within].sum():.0f}")
         expected = counts["p"].to_numpy()
         error = np.abs(np.stack([counts["low"], counts["high"]]) - expected) / expected
-        axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3)
-        axes.scatter(counts["mw"], counts["happened"] / expected, s=4 + np.sqrt(expected), color="C0", zorder=3)
+        axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3,
+                      label="95 % limits for one earthquake")  # fmt: skip
+        axes.scatter(counts["mw"], counts["happened"] / expected, s=4 + np.sqrt(expected), color="C0", zorder=3,
+                     label="an earthquake, larger where more are expected")  # fmt: skip
         axes.axhline(1, color="k", lw=0.8)
         axes.set(yscale="log", ylim=(0.3, 3), xlabel="magnitude", title=name)
         axes.set_yticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
         axes.minorticks_off()
     both[0].set_ylabel("observed over expected")
+    figure.legend(*both[0].get_legend_handles_labels(), frameon=False, fontsize=8, loc="outside lower center", ncol=2)
     save(figure, "evidence_left_out")
+
+
+def ln_likelihood(p, happened):
+    p = np.clip(p, 1e-9, 1 - 1e-9)
+    return np.where(happened, np.log(p), np.log1p(-p))
+
+
+def lines_left_out(cases):
+    """P of each case by a logistic line in the peaks, magnitude and structure, fitted to the other earthquakes."""
+    p, alpha, eta, pga, pgv, mw = (
+        cases[name].to_numpy() for name in ("p_rad_s", "alpha_rad", "eta", "pga_m_s2", "pgv_m_s", "mw")
+    )
+    uplift = G * np.tan(alpha)
+    columns = np.stack([np.ones(len(p)), np.log(pga / uplift), np.log(p * pgv / uplift), mw - 7, eta, np.log(alpha)], 1)
+    happened, clusters = cases["happened"].to_numpy(), cases["cluster"].to_numpy()
+    z = np.empty(len(p))
+    for cluster in np.unique(clusters):
+        own = clusters == cluster
+        z[own] = columns[own] @ line(columns[~own], happened[~own])
+    return logistic(z)
 
 
 def p58():
@@ -164,7 +189,8 @@ def line(columns, fell):
 
 
 def shaking_table():
-    """A granite stone of 354 kg on a table, in two azimuths: 20 tests, every 29th, calibrate, the others judge."""
+    """A granite stone of 354 kg on a table, in two series: 20 tests, every 29th, calibrate, the others judge; by each of
+    the 29 ways to begin, of which one is drawn."""
     peaks = {row[1]: row[2:4] for row in sheet("PGVA-zchen")[1:] if row[1] is not None}
     tests = [row for row in sheet("Results_Granite")[1:] if row[0] in peaks]
     pga = np.array([peaks[row[0]][0] for row in tests])
@@ -172,21 +198,25 @@ def shaking_table():
     # Of the scan: the centre of mass .294 m above the base, I/m .057 m2, its contacts .08 m to one side at least.
     p, eta = 4.5, 0.92
     figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2), sharey=True)
-    for azimuth, axes in enumerate(both):
-        fell = np.array([row[1 + azimuth] == 1 for row in tests])
-        chosen = np.arange(len(tests)) % 29 == 7
+    for series, axes in enumerate(both):
+        fell = np.array([row[1 + series] == 1 for row in tests])
         rows = pl.DataFrame({"pga_g": pga, "pgv_m_s": pgv, "fell": fell.astype(int)})
         columns = np.stack([np.ones(len(pga)), np.log(pga), np.log(pgv)], axis=1)
-        straight = logistic(columns @ line(columns[chosen], fell[chosen]))
-        brier = lambda of: ((of - fell) ** 2)[~chosen].mean()
-        print(f"azimuth {azimuth + 1}: {len(tests)} tests, {fell.sum()} fell, of {chosen.sum()}: {fell[chosen].sum()};",
-              f"AUC of PGV {auc(pgv, fell):.3f}; logistic line: Brier {brier(straight):.3f},",
-              f"hits {((straight > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
-        for alpha in (0.26, None):
-            best = alpha or min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(rows, chosen, p, a, eta))
-            found = calibrated(rows, chosen, p, best, eta)
-            print(f"  alpha {best:.2f} ({'of the scan' if alpha else 'of 20 tests'}): AUC {auc(found, fell):.3f},",
-                  f"Brier {brier(found):.3f}, hits {((found > HALF) == fell)[~chosen].mean():.3f}")  # fmt: skip
+        judged = []
+        for first in [*range(7), *range(8, 29), 7]:
+            chosen = np.arange(len(tests)) % 29 == first
+            best = min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(rows, chosen, p, a, eta))
+            of_scan, of_tests = (calibrated(rows, chosen, p, alpha, eta) for alpha in (0.26, best))
+            straight = logistic(columns @ line(columns[chosen], fell[chosen]))
+            found = {"alpha of the scan": of_scan, "alpha of 20 tests": of_tests, "logistic line": straight}
+            for name, of in found.items():
+                brier, hits = ((of - fell) ** 2)[~chosen].mean(), ((of > HALF) == fell)[~chosen].mean()
+                judged.append((name, best, auc(of, fell), brier, hits))
+        print(f"series {series + 1}: {len(tests)} tests, {fell.sum()} fell; AUC of PGV {auc(pgv, fell):.3f}")
+        frame = pl.DataFrame(judged, ["by", "alpha", "AUC", "Brier", "hits"], orient="row")
+        numbers = pl.exclude("by")
+        print(frame.group_by("by", maintain_order=True).agg(
+            numbers.median(), numbers.min().name.suffix(" min"), numbers.max().name.suffix(" max")), frame[-3:])  # fmt: skip
         axes.scatter(pgv[~fell], pga[~fell], s=9, color="C0", label="stood")
         axes.scatter(pgv[fell], pga[fell], s=9, color="C3", label="fell")
         grid_v, grid_a = np.meshgrid(np.geomspace(0.003, 3, 60), np.geomspace(0.02, 2, 50))
@@ -196,7 +226,7 @@ def shaking_table():
         on_grid = evaluated(grid, p, best, eta).reshape(grid_v.shape)
         on_grid[possible != grid_v] = np.nan
         axes.contour(grid_v, grid_a, on_grid, [0.1, 0.5, 0.9], colors="k", linewidths=[0.6, 1.2, 0.6])
-        axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"azimuth {azimuth + 1}", ylim=(0.02, 2.2))
+        axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"series {series + 1}", ylim=(0.02, 2.2))
     both[0].set_ylabel("PGA, g")
     both[0].legend(frameon=False, fontsize=8)
     save(figure, "evidence_table")

@@ -23,7 +23,8 @@
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
 //! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
-//! // PGA in m/s2, and how often a year it is exceeded; PGV / PGA is that of generic sites.
+//! // PGA in m/s2, and how often a year it is exceeded. PGV / PGA is that of generic sites: if you have the
+//! // curve of the spectral acceleration at 1 s, Hazard::with_spectrum takes both and is far more certain.
 //! let curve = HazardCurve::new(vec![(0.5, 2e-2), (1.0, 7e-3), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 //! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
 //! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };

@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::motions::Motions;
-use super::pgv_pga::{PgvPgaRatio, VelocitySource};
+use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
 use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
@@ -41,6 +41,17 @@ pub struct PeakHazard {
 }
 
 impl Hazard {
+    /// Makes the hazard of the curves of PGA and of the spectral acceleration at 1 s (m/s2), which tells PGV.
+    ///
+    /// # Errors
+    /// If they cannot be of one site.
+    pub fn with_spectrum(curve: HazardCurve, sa_1s: &HazardCurve) -> Result<Hazard, MatchError> {
+        let pgv = velocity_of_spectrum(&curve, sa_1s);
+        let velocity = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Spectrum)?);
+        let peak = Peak::Pga;
+        Ok(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
+    }
+
     /// Makes the hazard of a curve of one peak; PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
         Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None })

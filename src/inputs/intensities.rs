@@ -44,6 +44,9 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
             "" => Ok(None),
             _ => grid.number(row, at).map(Some),
         });
+        if let Some(row) = rows.clone().find(|row| means(grid.cell(*row, at), "total")) {
+            return Err(grid.refusal(row, at, "motions alone"));
+        }
         let cells = match numbers.collect() {
             Ok(numbers) => Cells::Numbers(numbers),
             Err(error) if peak(heading).is_some() => return Err(error),

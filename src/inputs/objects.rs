@@ -33,6 +33,8 @@ enum Column {
     Building,
     /// A property of the object that is not understood.
     Unclear,
+    /// Of what befell the object.
+    Other,
     Unused,
 }
 
@@ -68,9 +70,11 @@ pub fn read(
     read.map_err(|error| error.in_file(path))
 }
 
-/// The objects of the rows of a grid.
-pub fn in_rows(grid: &Grid) -> Result<Vec<Object>, InputError> {
-    Ok(List::new(grid, &Common::default())?.objects())
+/// The objects of the rows of a grid, and what of it is not used but for these other columns.
+pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings), InputError> {
+    let mut list = List::new(grid, &Common::default())?;
+    others.iter().for_each(|at| list.columns[*at] = Column::Other);
+    Ok((list.objects(), list.doubts()))
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
@@ -174,7 +178,7 @@ impl List<'_> {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::missing(found, "m, cm or mm in brackets, or no unit"));
             }
-            let is_one = !matches!(column, Column::Held | Column::Unclear | Column::Unused);
+            let is_one = !matches!(column, Column::Held | Column::Unclear | Column::Other | Column::Unused);
             if is_one && self.columns[..at].contains(column) {
                 return Err(InputError::missing(format!("two columns '{}'", heading.text), "one"));
             }

@@ -62,7 +62,9 @@ impl Stage for FitPro {
         let (mut fits, mut calibrations, mut texts) = (Vec::new(), Vec::new(), Vec::new());
         if observed::is_list(&self.input)? {
             // What stood and what fell gives no curve.
-            calibrations.extend(Calibration::fit_outcomes(&observed::read(&self.input)?));
+            let (outcomes, unused) = observed::read(&self.input)?;
+            context.warn(unused);
+            calibrations.extend(Calibration::fit_outcomes(&outcomes));
             texts.push(calibrations_text(&calibrations, ["rocked", "fell"], &calibration));
         } else {
             let groups = responses::read(&self.input)?;

@@ -278,6 +278,14 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
         assert_eq!(has(found, Warning::AtRim), (2..5).contains(&row), "row {row}");
     }
     fail(folder.path(), &format!("evaluate {BLOCK} --in units.csv"), 1, &["units.csv", "m/s2"]);
+    for (row, named) in [("mean,0.45,0.55,", "mean"), ("b,0.5,0.6,UD", "UD")] {
+        let table = format!("station,PGA (g),PGV (m/s),component\na,0.4,0.5,NS\n{row}\n");
+        std::fs::write(folder.path().join("stations.csv"), table).unwrap();
+        fail(folder.path(), &format!("evaluate {BLOCK} --in stations.csv"), 1, &["line 3", named]);
+    }
+    let stations = "station,PGA (g),PGV (m/s),PGD (cm),distance (km)\na,0.4,0.5,8,12\n";
+    std::fs::write(folder.path().join("stations.csv"), stations).unwrap();
+    assert_eq!(rows("stations.csv").len(), 1);
     // A magnitude holds for rows without one.
     let with = evaluated(folder.path(), &format!("{BLOCK} --pga 0.4 --pgv 0.5 --magnitude 7.5"));
     let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_f");

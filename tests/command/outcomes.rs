@@ -3,18 +3,19 @@
 use crate::common::{evaluated, fail, folder, near, number, numbers, succeed, texts, write};
 
 const TOWN: &str = "\
-name;width (cm);height (cm);PGA (g);PGV (m/s);magnitude;earthquake;fell
-a;20;80;0,4;0,5;6,5;Main;yes
-b;20;60;0,4;0,5;6,5;Main;stood
-c;30;90;0,5;0,3;6,5;Main;no
-d;15;90;0,3;0,4;6,5;Main;fell
+name;width (cm);height (cm);PGA (g);PGV (m/s);magnitude;earthquake;remarks;fell
+a;20;80;0,4;0,5;6,5;Main;old;yes
+b;20;60;0,4;0,5;6,5;Main;;stood
+c;30;90;0,5;0,3;6,5;Main;;no
+d;15;90;0,3;0,4;6,5;Main;;fell
 ";
 
 #[test]
 fn a_list_of_what_fell_calibrates_other_objects() {
     let folder = folder(&[("town.csv", TOWN), ("others.csv", "name,width,height\nx,0.2,0.7\ny,0.25,0.8\n")]);
     let path = folder.path();
-    succeed(path, "fit-pro --in town.csv --out csv/pro.parquet");
+    let (_, warnings) = succeed(path, "fit-pro --in town.csv --out csv/pro.parquet");
+    assert!(warnings.contains("remarks") && !warnings.contains("magnitude"), "{warnings}");
     // The same as Parquet.
     let columns = vec![
         ("width_m", numbers(&[0.2, 0.2, 0.3, 0.15])),
@@ -41,7 +42,7 @@ fn impossible_lists_of_outcomes_are_refused() {
     let (heading, rest) = TOWN.split_once('\n').unwrap();
     let folder = folder(&[
         ("empty.csv", heading),
-        ("none.csv", &changed("fell\n", "remarks\n")),
+        ("none.csv", &changed(";fell\n", ";notes\n")),
         ("word.csv", &changed("stood", "perhaps")),
         ("open.csv", &changed(";fell\n", ";Outcome\n")),
         ("count.csv", &TOWN.replacen(";fell\n", ";fell;count\n", 1).replace(";yes\n", ";yes;3\n")),
@@ -50,7 +51,7 @@ fn impossible_lists_of_outcomes_are_refused() {
     ]);
     for (name, named) in [
         ("empty.csv", "no rows"),
-        ("none.csv", "fell"),
+        ("none.csv", "notes"),
         ("word.csv", "perhaps"),
         ("open.csv", "fell or stood"),
         ("count.csv", "several"),

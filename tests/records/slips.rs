@@ -121,6 +121,11 @@ fn what_is_wrong_is_refused_for_its_reason() {
             "",
             "Column",
         ),
+        (
+            lines("time,acc (g),filtered acc (g)", G, |k, a| format!("{:.2},{a:.6},{:.6}", time(k), 0.9 * a)),
+            "",
+            "Column",
+        ),
         (lines("0.005", G, |_, a| format!("{a:.6}")), "unit=g dt=0.01", "Contradiction { line: 1"),
         (
             lines("#SamplingFrequency(Hz)\n#200\ntime,acc_g", G, |k, a| format!("{:.2},{a:.6}", time(k))),

@@ -18,6 +18,9 @@ const SAME_PEAK: f64 = 1e-3;
 const HORIZONTAL: [&str; 10] =
     ["L", "T", "R", "LONG", "TRAN", "TRANS", "LONGITUDINAL", "TRANSVERSE", "RADIAL", "TANGENTIAL"];
 
+/// Words of a heading for a motion that stands beside another state of it.
+const PROCESSED: [&str; 5] = ["filtered", "corrected", "uncorrected", "raw", "processed"];
+
 /// A table of samples.
 struct Samples<'a> {
     grid: Grid,
@@ -210,7 +213,13 @@ impl Samples<'_> {
                 }
             }
         }
+        let is_processed = |column: &usize| {
+            let words = grid.headings.get(*column).map_or("", |heading| &*heading.name).split('_');
+            words.into_iter().any(|word| PROCESSED.contains(&word))
+        };
         match (named.is_empty(), directions.len(), unknown.len()) {
+            // The same motion before and after.
+            (false, ..) if named.len() > 1 && named.iter().any(is_processed) => Err(self.which_column()),
             (false, ..) => Ok(named),
             (.., 1) => Ok(unknown),
             (.., 0) => Err(RecordFileError::NotAcceleration { line, found: self.columns() }),

@@ -12,6 +12,7 @@ use crate::motion::{Peaks, judge_medians};
 use crate::plausibility::MAGNITUDES;
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
+use crate::warning::Warnings;
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {
@@ -22,8 +23,8 @@ fn is_text(path: &Path) -> bool {
     path.is_file() && !is_table(path)
 }
 
-/// Reads outcomes from CSV or Parquet.
-pub fn read(path: &Path) -> anyhow::Result<Vec<ObservedOutcome>> {
+/// Reads outcomes from CSV or Parquet, and what of it is not used.
+pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let grid = match is_text(path) {
         true => Grid::read(path),
         false => {
@@ -34,8 +35,7 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<ObservedOutcome>> {
     grid.map_err(Into::into).and_then(|grid| outcomes(&grid)).with_context(|| path.display().to_string())
 }
 
-fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
-    let objects = objects::in_rows(sheet)?;
+fn outcomes(sheet: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let peaks: Vec<_> = sheet.headings.iter().map(peak).collect();
     let [pga, pgv] = [Peak::Pga, Peak::Pgv]
         .map(|wanted| peaks.iter().position(|found| found.is_some_and(|(peak, _)| peak == wanted)));
@@ -50,6 +50,9 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
             .map(|value| unit * value)
     };
     let (magnitude, earthquake) = (sheet.about("magnitude"), sheet.about("earthquake"));
+    let others: Vec<usize> =
+        [Some(pga), Some(pgv), Some(fell), magnitude, earthquake].into_iter().flatten().collect();
+    let (objects, unused) = objects::in_rows(sheet, &others)?;
     let mut earthquakes: Vec<&str> = Vec::new();
     let mut read = Vec::new();
     for (row, object) in objects.into_iter().enumerate() {
@@ -83,7 +86,7 @@ fn outcomes(sheet: &Grid) -> anyhow::Result<Vec<ObservedOutcome>> {
         });
     }
     judge_medians(read.iter().map(|outcome| outcome.peaks))?;
-    Ok(read)
+    Ok((read, unused))
 }
 
 fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
