@@ -33,7 +33,7 @@ enum Column {
     Building,
     /// A property of the object that is not understood.
     Unclear,
-    /// Of what befell the object.
+    /// What befell the object.
     Other,
     Unused,
 }

@@ -180,11 +180,11 @@ fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
         sentences.push(format!("The most likely to overturn {when} is {was} before, {is} after."));
     }
     let [old, new] = [&before, &after].map(|all| Expected::new(all.iter().copied()).number());
-    sentences.push(format!("Expected to overturn are {old} before, {new} after."));
+    sentences.push(format!("{old} objects are expected to overturn before, {new} after."));
     sentences.extend(target.map(|target| {
         let [old, new] = [&before, &after]
             .map(|all| number::count(all.iter().filter(|rated| rated.severity() > target).count()));
-        format!("Above the target of {} are {old} before, {new} after.", PERCENT.one(target))
+        format!("The target of {} is exceeded by {old} before, {new} after.", PERCENT.one(target))
     }));
     sentences.join(" ")
 }
@@ -205,7 +205,8 @@ fn tile(pair: &Pair) -> Tile {
 
 fn table(pairs: &[Pair], when: &str) -> Table {
     let before = format!("before, % {when}");
-    let heads = ["object", &before, "after, %", "95 % limits", "times as often", "95 % limits"];
+    let heads =
+        ["object", &before, "after, %", "95 % limits of after", "times as often", "95 % limits of that"];
     let mut rows = Vec::new();
     for pair in pairs {
         let (times, limits) = match (pair.is_changed(), pair.ratio.value) {

@@ -64,11 +64,11 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
         return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };
     };
     let what = fragility.over.words().0;
-    let (title, name) = match all {
-        [one] => (words(&one.object.marked_title()), "it".to_string()),
+    let (title, half) = match all {
+        [one] => (words(&one.object.marked_title()), "Half".to_string()),
         _ => (
             format!("{}: how strong a motion overturns them", number::counted(all.len(), "object")),
-            weakest.marked_name(),
+            format!("{} is the weakest: half", weakest.marked_name()),
         ),
     };
     Page {
@@ -78,7 +78,7 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
             None => format!("Fragility over {what}, of generic sites"),
         },
         sentence: format!(
-            "Half of the motions overturn {name} at a {}.",
+            "{half} of the motions overturn it at a {}.",
             half_in_words(fragility.over, &fragility.overturning)
         ),
         facts: model_in_words(weakest).into_iter().collect(),

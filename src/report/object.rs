@@ -266,8 +266,8 @@ fn unknown(rated: &Rated) -> Option<Panel> {
         panel.words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
     }
     let caption = format!(
-        "What is not known: what would tell. The factor by which each moves the {what} of overturning, up or \
-         down, at its 95 % limits."
+        "What is not known, and after the colon what would tell it: the factor by which each moves the {what} \
+         of overturning, up or down, at its 95 % limits."
     );
     Some(panel.explained(caption))
 }
@@ -321,12 +321,14 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
 
 /// The target, and the base that meets it.
 fn about_target(rated: &Rated, target: f64) -> String {
+    let is_met = rated.row.p_overturning.value.is_some_and(|p| p <= target);
     let (row, target) = (&rated.row, PERCENT.one(target));
+    if is_met {
+        return format!("It meets the target of {target}.");
+    }
     let base = base_in_words(row.bases.target_width_m, row.bases.target_sides_m);
-    format!(
-        "The target is {target}{}.",
-        base.map_or(String::new(), |base| format!("; a base of {base} meets it"))
-    )
+    let base = base.map_or(String::new(), |base| format!("; a base of {base} meets it"));
+    format!("The target is {target}{base}.")
 }
 
 /// The change of the object that helps most; nothing that is only measured.
@@ -344,8 +346,10 @@ fn what_helps(changes: &[Change]) -> Option<String> {
 
 fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
     let (Portrait { fragility, hazard, .. }, object) = (&evaluation.portrait, &rated.object);
-    let mut tiles =
-        vec![Tile::new(PERCENT.value(rated.row.p_failure), format!("{}, or overturns", object.too_far()))];
+    let mut tiles = vec![Tile::new(
+        PERCENT.value(rated.row.p_failure),
+        format!("{}, or overturns, {}", object.too_far(), evaluation.when),
+    )];
     if let Some(fragility) = fragility {
         let words = format!("{} at which half of the motions overturn it", fragility.over.words().0);
         let half = fragility.overturning.theta.value;
