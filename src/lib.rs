@@ -16,21 +16,21 @@
 //! Without simulation, by the universal surface: a regression on the responses of many structures.
 //!
 //! ```
-//! use rockfrag::fragility::{Kind, Peak};
+//! use rockfrag::fragility::Kind;
 //! use rockfrag::hazard::{Hazard, HazardCurve, Site, probability_in_years};
 //! use rockfrag::object::{Object, Subject};
 //!
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
 //! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
-//! // PGA in m/s2, and how often a year it is exceeded. PGV / PGA is that of generic sites: if you have the
-//! // curve of the spectral acceleration at 1 s, Hazard::with_spectrum takes both and is far more certain.
-//! let curve = HazardCurve::new(vec![(0.5, 2e-2), (1.0, 7e-3), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
-//! let rates = Site::new(Hazard::over(Peak::Pga, curve)).rates(&subject);
+//! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded. With PGA alone
+//! // (Hazard::over), PGV / PGA is that of generic sites, and the limits are wider.
+//! let curve = |values: [f64; 4]| HazardCurve::new(values.into_iter().zip([2e-2, 5e-4, 8e-6, 4e-7]).collect());
+//! let (pga, sa_1s) = (curve([0.5, 5.0, 20.0, 45.0])?, curve([0.5, 4.0, 15.0, 32.0])?);
+//! let rates = Site::new(Hazard::with_spectrum(pga, &sa_1s)?).rates(&subject);
 //! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };
-//! let in_50_years = rate.map(|rate| probability_in_years(rate, 50.0));
-//! println!("{:.1} % ({:.1} to {:.1} %)", 100.0 * in_50_years.value, 100.0 * in_50_years.low, 100.0 *
-//! in_50_years.high);
+//! let p = rate.map(|rate| 100.0 * probability_in_years(rate, 50.0));
+//! println!("{:.1} % in 50 years ({:.1} to {:.1} %)", p.value, p.low, p.high);
 //! # assert!(0.0 < rate.low && rate.low < rate.value && rate.value < rate.high && rate.high < 0.1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -91,12 +91,8 @@
 //! # Conventions
 //!
 //! Names end in their unit: `pga_m_s2`, `p_rad_s`. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
-//! Eq. 13. A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k ×
-//! k, row by row. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the
-//! same numbers for any number of threads.
-//!
-//! The modules above read no files. Fits, counts and rankings share their work among the threads of rayon.
-//! Before 1.0, any version may change them.
+//! Eq. 13. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
+//! numbers for any number of threads. The modules above read no files.
 //!
 //! The command `rockfrag` runs these steps over Parquet files: `rockfrag --help`.
 

@@ -14,6 +14,9 @@
 //! distributions  t, F and chi squared
 //! numerics       quadrature, bisection and steps of equal ratio
 //! ```
+//!
+//! A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k × k, row by
+//! row.
 
 mod binary;
 pub mod clusters;
