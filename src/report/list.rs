@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::answers::{BANDS, Evaluation, Expected, Rated};
+use super::answers::{BANDS, Evaluation, Expected, Rated, base_in_words};
 use super::figure::{Figure, Ink};
 use super::figures::common::by;
 use super::object::facts;
@@ -170,6 +170,7 @@ fn table(all: &[Listed]) -> (Table, Option<String>) {
             true => OF_HUNDRED.value(listed.rated.row.p_failure),
             false => String::new(),
         }),
+        ("base for the target", false, base),
         ("friction needed", true, friction),
         ("size", false, |listed| listed.rated.object.set_size().replace(' ', "\u{a0}")),
         ("number", true, |listed| listed.rated.object.count.map_or(String::new(), number::plain)),
@@ -204,6 +205,14 @@ fn limits(Listed { rated, .. }: &Listed) -> String {
         true => OF_HUNDRED.limits(rated.row.p_overturning, "").replace(['(', ')'], ""),
         false => literal(rated.doubts.warnings.as_deref().unwrap_or_default()),
     }
+}
+
+/// The base with which an object meets the target, if there is one.
+fn base(Listed { evaluation, rated }: &Listed) -> String {
+    let p = rated.row.p_overturning;
+    let is_met = evaluation.target.zip(p.value.or(p.high)).is_some_and(|(target, p)| p <= target);
+    let base = base_in_words(rated.row.bases.target_width_m, rated.row.bases.target_sides_m);
+    if is_met { "meets it".to_string() } else { base.unwrap_or_default() }
 }
 
 /// The friction that an object needs; nothing if it is known to have enough.
