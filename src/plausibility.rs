@@ -83,15 +83,16 @@ const REACHED_PGA_G: f64 = 0.03;
 #[error("{0}")]
 pub struct ImplausibleHazard(pub(crate) String);
 
-/// Judges annual rates at which PGA (g), or PGV (m/s), is exceeded, and guesses what they are instead.
-pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
+/// Judges annual rates at which PGV (m/s), or PGA or a spectral acceleration (g), is exceeded, and guesses what
+/// they are instead.
+pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
+    let is_velocity = measure == "PGV";
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
-    let (peak, unit, strongest) =
-        if is_velocity { ("PGV", "m/s", STRONGEST_PGV_M_S) } else { ("PGA", "g", STRONGEST_PGA_G) };
+    let (unit, strongest) = if is_velocity { ("m/s", STRONGEST_PGV_M_S) } else { ("g", STRONGEST_PGA_G) };
     let most = points.iter().map(|(value, _)| *value).fold(0.0, f64::max);
     if !is_velocity && most < REACHED_PGA_G && !points.is_empty() {
         let (most, expected) = (significant(most, 3), format!("expected {REACHED_PGA_G} g or more"));
-        return Err(ImplausibleHazard(format!("PGA of {most} g at most; {expected}: a wrong unit?")));
+        return Err(ImplausibleHazard(format!("{measure} of {most} g at most; {expected}: a wrong unit?")));
     }
     let is_plausible =
         |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
@@ -109,7 +110,7 @@ pub fn judge_hazard(is_velocity: bool, points: &[(f64, f64)]) -> Result<(), Impl
         _ => "is the unit or the column wrong?",
     };
     let (value, years) = (significant(value, 3), period(1.0 / rate));
-    let hazard = format!("{peak} of {value} {unit} once in {years} years");
+    let hazard = format!("{measure} of {value} {unit} once in {years} years");
     Err(ImplausibleHazard(format!("{hazard} exceeds any known hazard: {guess}")))
 }
 

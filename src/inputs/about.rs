@@ -108,7 +108,7 @@ fn value(
     column: Option<usize>,
     (range, expected): (&RangeInclusive<f64>, &str),
 ) -> Result<Option<f64>, InputError> {
-    match column.filter(|at| !grid.cell(row, *at).is_empty()) {
+    match column.filter(|at| grid.value(row, *at).is_some()) {
         Some(at) if grid.number(row, at)? > UNKNOWN => grid.within(row, at, range, expected).map(Some),
         _ => Ok(None),
     }

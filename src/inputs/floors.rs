@@ -1,6 +1,6 @@
 //! Floors as people write them, as the level and the first period of a building.
 
-use super::words::{joined, means, words};
+use super::words::{is_one_of, joined, means};
 use crate::object::Place;
 
 /// Height of a storey, m.
@@ -29,14 +29,14 @@ impl Storey {
         let digits: String = text.chars().filter(char::is_ascii_digit).collect();
         let letters = text.replace(|sign: char| sign.is_ascii_digit(), "-");
         let letters: Vec<&str> = letters.split('-').filter(|word| !word.is_empty()).collect();
-        let are_all = |meaning: &str| letters.iter().all(|word| words(meaning).any(|known| known == *word));
+        let are_all = |meaning: &str| letters.iter().all(|word| is_one_of(word, meaning));
         if means(cell, "ground") {
             return Some(Storey::Ground);
         }
         if means(cell, "roof") {
             return Some(Storey::Roof);
         }
-        if letters.iter().any(|word| words("basement").any(|known| known == *word)) {
+        if letters.iter().any(|word| is_one_of(word, "basement")) {
             return Some(Storey::Basement);
         }
         let number = cell.trim().parse().ok().filter(|number: &f64| number.fract() == 0.0);

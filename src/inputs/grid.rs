@@ -95,6 +95,12 @@ impl Grid {
             if cells.iter().skip(columns).any(|cell| !cell.is_empty()) {
                 return Err(InputError::Cells { line, found: cells.len(), expected: columns });
             }
+            let cells: StringRecord = match headings.is_empty() {
+                true => cells,
+                false => {
+                    cells.iter().zip(&headings).map(|(cell, heading)| heading.without_unit(cell)).collect()
+                }
+            };
             evidence.iter_mut().zip(&cells).for_each(|(column, cell)| column.add(cell));
             lines.push(line);
             kept.push(cells);
@@ -112,6 +118,11 @@ impl Grid {
     /// Returns the text of a cell; empty beyond the end of a short row.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         self.rows[row].get(column).unwrap_or_default()
+    }
+
+    /// What a cell says; none where there is nothing to say. An error of a workbook says something.
+    pub fn value(&self, row: usize, column: usize) -> Option<&str> {
+        Some(self.cell(row, column)).filter(|cell| cell.starts_with('#') || !is_missing(cell))
     }
 
     /// Whether the numbers of a cell are percent.

@@ -30,6 +30,13 @@ impl Heading {
         Heading { text: text.to_string(), name, bare, unit, is_scaled, is_percent }
     }
 
+    /// A cell without the unit behind its number, which is that of the heading: 40 cm below `Width (cm)`.
+    pub fn without_unit<'a>(&self, cell: &'a str) -> &'a str {
+        let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
+        let unit = self.unit.filter(|unit| end > 0 && Unit::parse(&cell[end..]) == Some(*unit));
+        unit.map_or(cell, |_| cell[..end].trim_end())
+    }
+
     /// The heading with the unit in a cell below it; none where it has another one.
     pub fn with_unit(&self, below: &str) -> Option<Heading> {
         let unit = below.trim_matches(['(', ')', '[', ']', ' ']);

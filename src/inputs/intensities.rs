@@ -7,6 +7,9 @@ use super::objects::describes_object;
 use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
+use crate::motion::{Peaks, judge_medians};
+use crate::plausibility::MAGNITUDES;
+use crate::warning::{Warning, Warnings};
 
 /// The cells of a column.
 pub enum Cells {
@@ -40,10 +43,7 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let rows = 0..grid.lines.len();
-        let numbers = rows.clone().map(|row| match grid.cell(row, at) {
-            "" => Ok(None),
-            _ => grid.number(row, at).map(Some),
-        });
+        let numbers = rows.clone().map(|row| grid.value(row, at).map(|_| grid.number(row, at)).transpose());
         if let Some(row) = rows.clone().find(|row| means(grid.cell(*row, at), "total")) {
             return Err(grid.refusal(row, at, "motions alone"));
         }
@@ -63,6 +63,44 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
         columns.push((name.to_string(), cells));
     }
     Ok(columns)
+}
+
+/// The motions in the rows of a table.
+pub struct Motions {
+    /// Peaks as they are given, and none beyond any record.
+    pub given: Vec<Peaks>,
+    pub peaks: Vec<Peaks>,
+    pub mw: Vec<Option<f64>>,
+    /// Columns of PGA, PGV and magnitude.
+    pub columns: Vec<usize>,
+}
+
+/// Reads the motions of a table with both peaks, which must show no wrong unit, and warns of those beyond any
+/// record.
+pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, InputError> {
+    let headings = || grid.headings.iter().enumerate().filter_map(|(at, heading)| Some((at, peak(heading)?)));
+    let [Some((pga, (_, pga_unit))), Some((pgv, (_, pgv_unit)))] =
+        [Peak::Pga, Peak::Pgv].map(|wanted| headings().find(|(_, (peak, _))| *peak == wanted))
+    else {
+        return Ok(None);
+    };
+    let magnitude = grid.about("magnitude");
+    let (mut given, mut mw) = (Vec::new(), Vec::new());
+    for row in 0..grid.lines.len() {
+        let [pga, pgv] =
+            [pga, pgv].map(|at| grid.within(row, at, &(0.0..=f64::MAX), "a number of 0 or more"));
+        given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
+        let known = magnitude.filter(|at| grid.value(row, *at).is_some());
+        mw.push(known.map(|at| grid.within(row, at, &MAGNITUDES, "a magnitude from 1 to 9.9")).transpose()?);
+    }
+    judge_medians(given.iter().copied())?;
+    let peaks: Vec<Peaks> = given.iter().map(|peaks| peaks.at_rim()).collect();
+    let beyond = given.iter().zip(&peaks).filter(|(given, peaks)| given != peaks).count();
+    if beyond > 0 {
+        warnings.add(Warning::AtRim, format!("{beyond} of {} rows", given.len()));
+    }
+    let columns = [Some(pga), Some(pgv), magnitude].into_iter().flatten().collect();
+    Ok(Some(Motions { given, peaks, mw, columns }))
 }
 
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.

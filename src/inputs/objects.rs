@@ -4,8 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use super::floors::{self, Building, Storey};
-use super::numbers::is_missing;
-use super::words::{joined, means, words};
+use super::words::{is_one_of, joined, means, words};
 use super::{Grid, Heading, InputError, Renames};
 use crate::keyword::Keyword;
 use crate::number::rounded;
@@ -63,16 +62,16 @@ pub fn read(
     common: &Common,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
     let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
-    let read = grid.and_then(|grid| {
-        let list = List::new(&grid, common)?;
-        Ok((list.objects(), list.doubts()))
-    });
-    read.map_err(|error| error.in_file(path))
+    grid.and_then(|grid| in_rows(&grid, &[], common)).map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.
-pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings), InputError> {
-    let mut list = List::new(grid, &Common::default())?;
+pub fn in_rows(
+    grid: &Grid,
+    others: &[usize],
+    common: &Common,
+) -> Result<(Vec<Object>, Warnings), InputError> {
+    let mut list = List::new(grid, common)?;
     others.iter().for_each(|at| list.columns[*at] = Column::Other);
     Ok((list.objects(), list.doubts()))
 }
@@ -97,9 +96,9 @@ fn meaning(heading: &Heading) -> Column {
         ("building", Column::Building),
     ];
     let (name, quantity) = (joined(&heading.name), heading.unit.map(|unit| unit.quantity));
-    let is = |meaning: &str| words(meaning).any(|word| word == name);
-    let field = Field::ALL.iter().find(|field| field.as_str() == name || is(field.as_str()));
-    let other = || OTHERS.iter().find(|(meaning, _)| is(meaning)).map(|(_, column)| *column);
+    let is_named = |meaning: &str| name == meaning || is_one_of(&name, meaning);
+    let field = Field::ALL.iter().find(|field| is_named(field.as_str()));
+    let other = || OTHERS.iter().find(|(meaning, _)| is_named(meaning)).map(|(_, column)| *column);
     match field.map(|field| Column::Known(*field)).or_else(other) {
         _ if quantity == Some(Quantity::Counts) => Column::Count,
         Some(column) => column,
@@ -116,12 +115,13 @@ impl List<'_> {
         let columns: Vec<Column> = grid.headings.iter().map(meaning).collect();
         let mut list = List { grid, columns, name: grid.about("name"), ground_floor: 0, place: common.place };
         list.check()?;
-        let has_storey = list.column(Column::Storey).is_some() || list.level_is_of_floors();
+        let rows = 0..grid.lines.len();
         let has_units = list.column(Column::Unit).is_some_and(|at| {
-            let mut units = (0..grid.lines.len()).filter_map(|row| Unit::parse(grid.cell(row, at)));
+            let mut units = rows.clone().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
         let is_of_floors = list.level_is_of_floors();
+        let has_storey = list.column(Column::Storey).is_some() || is_of_floors;
         for (at, column) in list.columns.iter_mut().enumerate() {
             match column {
                 Column::Known(Field::Level) if is_of_floors => *column = Column::Storey,
@@ -134,16 +134,13 @@ impl List<'_> {
             }
         }
         let Some(at) = list.column(Column::Storey) else { return Ok(list) };
-        let storeys: Vec<Storey> = (0..grid.lines.len())
-            .filter(|row| list.cell(*row, Column::Known(Field::Level)).is_none())
-            .filter_map(|row| Storey::parse(grid.cell(row, at)))
-            .collect();
+        let open = rows.filter(|row| list.cell(*row, Column::Known(Field::Level)).is_none());
+        let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
         let heading = grid.headings[at].text.clone();
-        list.ground_floor = match common.ground_floor {
-            Some(number) => number,
-            None => floors::ground_floor(&storeys)
-                .map_err(|lowest| InputError::GroundFloor { heading, lowest })?,
-        };
+        list.ground_floor = common
+            .ground_floor
+            .map_or_else(|| floors::ground_floor(&storeys), Ok)
+            .map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
         Ok(list)
     }
 
@@ -163,8 +160,9 @@ impl List<'_> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
         if self.column(Column::Known(Field::Height)).or(self.column(Column::Known(Field::P))).is_none() {
             let found = grid.found();
-            return Err(match self.headings(Column::Unused).next() {
-                Some(heading) => InputError::Heading { heading: heading.to_string(), expected, found },
+            let mut unknown = self.headings(Column::Unused).chain(self.headings(Column::Unclear));
+            return Err(match unknown.next().map(str::to_string) {
+                Some(heading) => InputError::Heading { heading, expected, found },
                 None => InputError::missing(found, expected),
             });
         }
@@ -179,8 +177,10 @@ impl List<'_> {
                 return Err(InputError::missing(found, "m, cm or mm in brackets, or no unit"));
             }
             let is_one = !matches!(column, Column::Held | Column::Unclear | Column::Other | Column::Unused);
-            if is_one && self.columns[..at].contains(column) {
-                return Err(InputError::missing(format!("two columns '{}'", heading.text), "one"));
+            let before = self.columns[..at].iter().position(|before| before == column).filter(|_| is_one);
+            if let Some(before) = before {
+                let found = format!("columns '{}' and '{}'", grid.headings[before].text, heading.text);
+                return Err(InputError::missing(found, "one of them"));
             }
             let Column::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
                 continue;
@@ -211,7 +211,7 @@ impl List<'_> {
 
     /// What stands in a column, if it says anything.
     fn cell(&self, row: usize, column: Column) -> Option<&str> {
-        self.column(column).map(|at| self.grid.cell(row, at)).filter(|cell| !has_no_value(cell))
+        self.column(column).and_then(|at| self.grid.value(row, at))
     }
 
     /// The columns that are not used, named once, and the words that are taken as no value.
@@ -221,18 +221,19 @@ impl List<'_> {
             (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", "))).into_iter().collect();
         let rows = 0..self.grid.lines.len();
         for (at, column) in self.columns.iter().enumerate() {
-            let cells = rows.clone().map(|row| (row, self.grid.cell(row, at)));
+            let mut values = rows.clone().filter_map(|row| self.grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
             let is_open = match column {
-                Column::Held => cells.clone().any(|(_, cell)| means(cell, "free")),
-                Column::Known(Field::Depth) => cells.clone().any(|(_, cell)| !has_no_value(cell)),
+                Column::Held => values.any(|cell| means(cell, "free")),
+                Column::Known(Field::Depth) => values.next().is_some(),
                 Column::Known(_) => false,
                 _ => continue,
             };
-            let is_told = |cell: &str| is_open || cell.contains(char::is_alphanumeric);
-            for (row, _) in cells.filter(|(_, cell)| has_no_value(cell) && is_told(cell)) {
-                let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
-                doubts.add(Warning::NotGiven, about);
+            for row in rows.clone().filter(|row| self.grid.value(*row, at).is_none()) {
+                if is_open || self.grid.cell(row, at).contains(char::is_alphanumeric) {
+                    let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
+                    doubts.add(Warning::NotGiven, about);
+                }
             }
         }
         doubts
@@ -282,10 +283,10 @@ impl List<'_> {
             let is_needed =
                 [Field::Width, Field::Height, Field::P, Field::Alpha].map(Column::Known).contains(column);
             let (name, size) = match column {
-                _ if cell.is_empty() || has_no_value(cell) && !is_needed => continue,
+                _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
                 Column::Known(field) => (field.as_str(), self.size(row, at, *field)?),
                 Column::Count => ("count", 1.0),
-                Column::Unclear if !is_missing(cell) => {
+                Column::Unclear => {
                     let text = &self.grid.headings[at].text;
                     let problem = "is not understood: rename it (--columns) or leave it out";
                     return Err(format!("column '{text}' {problem}"));
@@ -294,7 +295,10 @@ impl List<'_> {
             };
             match self.grid.number(row, at) {
                 Ok(number) => object.set(name, &rounded(size * number).to_string())?,
-                Err(error @ InputError::Thousands { .. }) => return Err(error.to_string()),
+                // Other fields may be words, or know what is expected.
+                Err(error) if is_needed || matches!(error, InputError::Thousands { .. }) => {
+                    return Err(error.to_string());
+                }
                 Err(_) => object.set(name, cell)?,
             }
         }
@@ -358,7 +362,7 @@ impl List<'_> {
     /// Why the object of a row is not free to rock.
     fn held(&self, row: usize) -> Option<Reason> {
         let held = self.columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
-        held.filter_map(|(at, _)| held_by(&self.grid.headings[at].text, self.grid.cell(row, at))).next()
+        held.filter_map(|(at, _)| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?)).next()
     }
 }
 
@@ -367,11 +371,6 @@ fn numbers_rows(grid: &Grid, column: usize) -> bool {
     let numbers: Vec<_> = (0..grid.lines.len()).map(|row| grid.number(row, column).ok()).collect();
     let is_numbered = numbers.windows(2).all(|pair| pair[1] == pair[0].map(|number| number + 1.0));
     grid.headings[column].name == "number" && numbers.len() > 1 && numbers[0].is_some() && is_numbered
-}
-
-/// Whether a cell says that there is nothing to say; an error of a workbook does not.
-fn has_no_value(cell: &str) -> bool {
-    is_missing(cell) && !cell.starts_with('#')
 }
 
 /// Whether a line above the headings names a unit of lengths other than m.
@@ -388,7 +387,7 @@ fn held_by(heading: &str, cell: &str) -> Option<Reason> {
     let has = |text: &str, meaning: &str| words(meaning).any(|part| text.contains(part));
     let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
     let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
-    if has_no_value(cell) || means(cell, "free") || is_loose {
+    if means(cell, "free") || is_loose {
         None
     } else if text.starts_with("no-") || !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
         Some(Reason::Implausible(format!("{heading}: '{cell}'; expected yes or no")))

@@ -14,8 +14,12 @@ pub fn words(meaning: &str) -> impl Iterator<Item = &'static str> {
 
 /// Whether a text has a meaning.
 pub fn means(text: &str, meaning: &str) -> bool {
-    let text = joined(text);
-    words(meaning).any(|word| word == text)
+    is_one_of(&joined(text), meaning)
+}
+
+/// Whether a word, as in the table, has a meaning.
+pub fn is_one_of(word: &str, meaning: &str) -> bool {
+    words(meaning).any(|known| known == word)
 }
 
 /// The letters and digits of a text in lower case, its parts joined by hyphens.

@@ -28,6 +28,8 @@ const LEAST_ETA: f64 = 0.01;
 const FARTHEST: f64 = 0.98;
 /// Depth of an object over its height that no object has.
 const LONGEST: f64 = 20.0;
+/// Height of a centre of mass over that of the object that no object falls below.
+const LOWEST: f64 = 0.05;
 
 impl Object {
     /// Finds the directions in which it rocks, the weaker first, without those in which it would slide.
@@ -92,9 +94,9 @@ impl Object {
         let (offset, inertia) =
             (shape.centre_offset.map(f64::abs), 3.0 * Body::solid_inertia_m2(width, height));
         let most = [
-            ("width", Some(side), height, "m, the height: were they exchanged?"),
+            ("width", Some(side), height, "m, the height: exchanged, or another unit?"),
             ("depth", shape.depth, LONGEST * height, "m, 20 times the height: is it in cm or mm?"),
-            ("centre-height", shape.centre_height, height, "m, the height: were they exchanged?"),
+            ("centre-height", shape.centre_height, height, "m, the height: exchanged, or another unit?"),
             (
                 "centre-offset",
                 offset,
@@ -105,6 +107,11 @@ impl Object {
             ("centre-height-sd", place.centre_height_sd, height, "m, the height: is it in cm?"),
             ("centre-offset-sd", place.centre_offset_sd, width, "m, the width: is it in cm?"),
         ];
+        if let Some(centre) = shape.centre_height.filter(|centre| *centre < LOWEST * height) {
+            let least = LOWEST * height;
+            let problem = format!("centre-height is {centre}; expected {least} m or more: another unit?");
+            return Err(Reason::Implausible(problem));
+        }
         for (name, value, most, expected) in most {
             if let Some(value) = value.filter(|value| *value > most) {
                 let problem = format!("{name} is {value}; expected up to {most} {expected}");

@@ -20,6 +20,10 @@ const SPIKE: (f64, f64) = (0.02, 0.25);
 /// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground
 /// is at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
+/// The last share of a record, and the share of the PGA that it does not reach: of 579 components (PEER, FEMA
+/// P695) the loudest end has 0.21.
+const QUIET_END: (f64, f64) = (0.05, 0.3);
+
 fn digits(value: &f64) -> String {
     significant(*value, 3)
 }
@@ -50,6 +54,8 @@ pub enum Implausibility {
     Fast { frequency_hz: f64 },
     #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", digits(.pga_g))]
     WeakPga { pga_g: f64 },
+    #[error("{} % of its PGA in the last 5 %; expected a quiet end: cut off?", digits(&(100.0 * .share)))]
+    CutOff { share: f64 },
     #[error("PGA {} g; few records exceed 2 g: is it in m/s2?", digits(.pga_g))]
     RarePga { pga_g: f64 },
     #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in another unit?", digits(.pgv_m_s))]
@@ -61,7 +67,10 @@ impl Implausibility {
     pub fn is_impossible(&self) -> bool {
         !matches!(
             self,
-            Implausibility::WeakPga { .. } | Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }
+            Implausibility::WeakPga { .. }
+                | Implausibility::CutOff { .. }
+                | Implausibility::RarePga { .. }
+                | Implausibility::RarePgv { .. }
         )
     }
 }
@@ -83,6 +92,8 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     let velocity_m_s = velocity.last().map_or(0.0, |last| last.abs());
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
+    let end = ((1.0 - QUIET_END.0) * samples as f64) as usize;
+    let share = peak(&acceleration[end..]) / pga_m_s2;
     let warnings = [
         (!RECORDED_STEPS_S.contains(&dt_s), Implausibility::TimeStep { dt_s }),
         (samples < FEWEST_SAMPLES, Implausibility::FewSamples { samples }),
@@ -98,6 +109,7 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
             Implausibility::Fast { frequency_hz },
         ),
         (pga_g < WEAKEST_PGA_G, Implausibility::WeakPga { pga_g }),
+        (share > QUIET_END.1, Implausibility::CutOff { share }),
         (pga_g > RARE_PGA_G, Implausibility::RarePga { pga_g }),
         (pgv_m_s > RARE_PGV_M_S, Implausibility::RarePgv { pgv_m_s }),
     ];

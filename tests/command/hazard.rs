@@ -172,7 +172,7 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
         (&curve("vertical PGA (g),AFE", 1.0), ["a.csv", "vertical"]),
         ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", ["a.csv", "one site"]),
         ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", ["a.csv", "contradict"]),
-        ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "point 2"]),
+        ("pga_g,AFE\n0.1,1e-3\n0.2,2e-3\n", ["a.csv", "line 3"]),
         ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", ["a.csv", "intensity of 0 or more"]),
         (&curve("PGA rock (g),AFE", 1.0), ["a.csv", "PGA rock (g)"]),
         (

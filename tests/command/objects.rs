@@ -159,7 +159,7 @@ fn slips_are_named() {
         fail(folder.path(), &call, 2, &named);
     }
     for (list, named) in [
-        ("name,width (m),width (cm),height\na,0.5,50,2\n", "two columns"),
+        ("name,width (m),width (cm),height\na,0.5,50,2\n", "columns 'width (m)'"),
         ("name,width\",height\"\na,20,75\n", "cm"),
         ("name,width,height,level (m)\na,0.5,2,3\n", "level"),
         ("name,width,height\n", "rows"),

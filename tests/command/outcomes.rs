@@ -16,6 +16,10 @@ fn a_list_of_what_fell_calibrates_other_objects() {
     let path = folder.path();
     let (_, warnings) = succeed(path, "fit-pro --in town.csv --out csv/pro.parquet");
     assert!(warnings.contains("remarks") && !warnings.contains("magnitude"), "{warnings}");
+    let (heading, rows) = TOWN.split_once('\n').unwrap();
+    std::fs::write(path.join("twice.csv"), format!("{heading}\n{rows}{rows}")).unwrap();
+    let (_, warnings) = succeed(path, "fit-pro --in twice.csv --out twice/pro.parquet");
+    assert!(warnings.contains("line 6 as line 2"), "{warnings}");
     // The same as Parquet.
     let columns = vec![
         ("width_m", numbers(&[0.2, 0.2, 0.3, 0.15])),
@@ -45,6 +49,7 @@ fn impossible_lists_of_outcomes_are_refused() {
         ("none.csv", &changed(";fell\n", ";notes\n")),
         ("word.csv", &changed("stood", "perhaps")),
         ("open.csv", &changed(";fell\n", ";Outcome\n")),
+        ("two.csv", &TOWN.replace(";fell\n", ";fell;stood\n").replace(";yes\n", ";yes;yes\n")),
         ("count.csv", &TOWN.replacen(";fell\n", ";fell;count\n", 1).replace(";yes\n", ";yes;3\n")),
         ("unit.csv", &TOWN.replace(";0,5;6", ";50;6").replace(";0,3;6", ";30;6")),
         ("calm.csv", &format!("{heading}\n{}", rest.replacen("0,4;0,5", "0,1;0,1", 1))),
@@ -54,6 +59,7 @@ fn impossible_lists_of_outcomes_are_refused() {
         ("none.csv", "notes"),
         ("word.csv", "perhaps"),
         ("open.csv", "fell or stood"),
+        ("two.csv", "columns fell, stood"),
         ("count.csv", "several"),
         ("unit.csv", "cm/s"),
         ("calm.csv", "line 2"),

@@ -118,6 +118,31 @@ fn a_time_step_that_lowers_the_peak_is_told() {
     assert!(!kept.contains("lower") && lowered.contains("% lower"), "{kept} {lowered}");
 }
 
+#[test]
+fn what_is_wrong_with_a_column_is_told_with_its_heading() {
+    let row = |k: u32| {
+        let a = 3.0 * (-(0.01 * f64::from(k) - 2.0).powi(2) / 0.5).exp() * (0.3 * f64::from(k)).cos();
+        format!("{:.2},{a:.5},{:.5}\n", 0.01 * f64::from(k), 1.1 * a.abs())
+    };
+    let rows: String = (0..400).map(row).collect();
+    let folder = folder(&[
+        ("r.csv", &*format!("time (s),NS (m/s2),resultant (m/s2)\n{rows}")),
+        (
+            "cut.csv",
+            &format!(
+                "time (s),NS (m/s2)\n{}",
+                rows.lines()
+                    .take(210)
+                    .map(|row| { row.rsplit_once(',').unwrap().0.to_string() + "\n" })
+                    .collect::<String>()
+            ),
+        ),
+    ]);
+    fail(folder.path(), "import-motions r.csv", 1, &["column 'resultant (m/s2)'", "no sample below 0"]);
+    let (_, told) = succeed(folder.path(), "import-motions cut.csv");
+    assert!(told.contains("cut off?"), "{told}");
+}
+
 /// Names of motions and structures in the responses.
 fn responses(folder: &Path) -> Vec<(String, String)> {
     let name = |row: &Value, column: &str| row[column].as_str().unwrap().to_string();

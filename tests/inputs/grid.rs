@@ -32,6 +32,13 @@ const CASES: &[Case] = &[
     ("#;name;h_m\n1;a;2\n2;b;3\n", " name h:m", 2, "1 a 2; 2 b 3"),
     ("rack;600\nshelf;500\n", "", 1, "rack 600; shelf 500"),
     ("a;b;c\nd;n/a\ne;1;2\nf;3;4;\n\ng;;5\n", "a b c", 2, "d n/a ; e 1 2; f 3 4; g  5"),
+    // Units behind numbers, as in the heading.
+    (
+        "name;w (cm);h (cm)\na;40 cm;180\nb;1.029,5cm;1.900 mm\n",
+        "name w:cm h:cm",
+        2,
+        "a 40 180; b 1029.5 1.900 mm",
+    ),
     // Agencies.
     (
         "#,,,\"generated_by='OpenQuake engine 3.16', kind='mean', investigation_time=50.0\"\n\

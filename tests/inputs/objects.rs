@@ -201,6 +201,9 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height\na,60,190\n", "width is 60"),
         ("name,width,height\na,20,101\n", "height is 101"),
         ("name,width,height,centre offset\na,0.5,2,0.25\n", "does not stand"),
+        ("name,width (cm),height (cm),Centre height (cm)\na,50,200,1.1\n", "another unit"),
+        ("name,width (cm),height (cm)\na,40 mm,200\nb,40,200\n", "line 2, column 'width (cm)': '40 mm'"),
+        ("name,width (cm),height (cm)\na,~40,200\nb,40,200\n", "line 2, column 'width (cm)': '~40'"),
     ] {
         assert!(reason(list).contains(named), "{named}: {}", reason(list));
     }
@@ -226,6 +229,8 @@ fn lengths_that_no_list_has_are_refused_with_what_is_meant() {
         ("name;width (mm);height (mm)\na;600;1.900\nb;850;2.100\n", "height (mm)"),
         ("name;width (mm);height (mm)\na;0.6;1.9\n", "in m"),
         ("name;width (cm);height (cm)\na;0.6;1.9\n", "in m"),
+        ("name,width (in),width (cm),height (cm)\na,20,51,190\n", "'width (in)' and 'width (cm)'"),
+        ("Item,Building height (m),Object height (m)\na,17,2\n", "'Building height (m)'"),
         (",Dimensions (mm),,\nname,width,depth,height\na,600,900,1900\n", "Dimensions (mm)"),
         (";Dimensions [cm];;\nname;width;depth;height\na;60;90;190\n", "Dimensions [cm]"),
     ] {

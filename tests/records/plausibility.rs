@@ -12,6 +12,8 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
         match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
             None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}
+            // Two sines have no end.
+            Some(Implausibility::CutOff { .. }) => {}
             // Half-sine and rectangular pulses end with a velocity, or never turn.
             Some(Implausibility::Drift { .. } | Implausibility::OneSided) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
@@ -41,6 +43,8 @@ fn every_limit_is_kept() {
         (kind(DT, &|k, _| slow(k)), "Some(Slow { ratio_s: 3.18"),
         (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
         (format!("{:?}", implausibility(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
+        (format!("{:?}", implausibility(&motion(1000)[..540], DT)), "Some(CutOff { share: 0.9"),
+        (format!("{:?}", implausibility(&motion(1000)[..900], DT)), "None"),
     ] {
         assert!(found.starts_with(expected), "{expected}: {found}");
     }

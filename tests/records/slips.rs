@@ -73,6 +73,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (csv("time,acc_cm_s2", 0.01), "unit=g", "Contradiction { line: 2, field: \"unit\""),
         (csv("time,acc (counts)", 1e-4), "unit=g", "Value { line: 2, field: \"unit\""),
         (csv("time,acc", G), "", "NoUnit { line: 2 }"),
+        (csv("time,acc (furlong)", G), "", "Value { line: 2, field: \"unit\", found: \"acc (furlong)"),
         (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
         (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
         (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),
@@ -98,6 +99,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (csv("# dt = 0.005 s\ntime,acc_g", G), "", "Contradiction { line: 3, field: \"time step\""),
         (csv("Period (s),PSA (g)", G), "", "NotAcceleration { line: 2, found: \"'Period (s)': a spectrum"),
         (csv("T (s),Sa (g)", G), "", "NotAcceleration"),
+        (csv("time (s),jerk (m/s3)", G), "unit=g", "NotAcceleration { line: 2, found: \"'jerk (m/s3)': jerk"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
         (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Input(Cell { line: 32"),

@@ -1,8 +1,10 @@
 //! What the headings of a hazard say: measures by their units, rates, probabilities and return periods, means
 //! and fractiles.
 
+use std::ops::RangeInclusive;
+
 use crate::fragility::Peak;
-use crate::inputs::words::{means, words};
+use crate::inputs::words::{is_one_of, means};
 use crate::inputs::{Grid, Heading, InputError};
 use crate::keyword::keywords;
 use crate::units::Quantity;
@@ -69,11 +71,6 @@ pub struct Column {
     pub statistic: Statistic,
 }
 
-/// Whether a word has a meaning.
-fn is(word: &str, meaning: &str) -> bool {
-    words(meaning).any(|known| known == word)
-}
-
 fn is_numeric(word: &str) -> bool {
     word.starts_with(|sign: char| sign.is_ascii_digit())
 }
@@ -82,13 +79,14 @@ impl Column {
     /// Reads the heading of a column of a file whose probabilities are for so many years, if it says so.
     pub fn new(at: usize, heading: &Heading, investigation_years: Option<f64>) -> Column {
         // A fractile may stand behind the unit: pga_g_16.
-        let (text, rank) = heading.text.rsplit_once('_').unwrap_or_default();
-        let is_ranked = matches!(rank, "16" | "84" | "p16" | "p84");
-        let Heading { bare, unit, name, .. } = if is_ranked { Heading::new(text) } else { heading.clone() };
+        let ranked = heading.text.rsplit_once('_');
+        let ranked = ranked.filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
+        let (text, rank) = ranked.unwrap_or((&heading.text, ""));
+        let Heading { bare, unit, .. } = Heading::new(text);
         let unit = unit.or(heading.unit);
         let quantity = unit.map(|unit| unit.quantity);
-        let text = format!("{bare} {}", if is_ranked { rank } else { "" }).to_lowercase();
-        let mut words = parts(&text);
+        let text = parted(&format!("{bare} {rank}"));
+        let mut words: Vec<&str> = text.split_whitespace().collect();
         // A unit at the end of `PoE in 50 years`.
         words.extend((quantity == Some(Quantity::Time)).then_some("years"));
         let measure = take_measure(&mut words);
@@ -98,30 +96,27 @@ impl Column {
         let content = match (measured, frequency) {
             (Some(unit), _) => Content::Values(unit.si),
             (None, Some(frequency)) => Content::Frequencies(frequency),
-            _ if means(&name, "magnitude") => Content::Magnitude,
-            _ if means(&name, "spectral-period") => Content::Period,
+            _ if means(&heading.name, "magnitude") => Content::Magnitude,
+            _ if means(&heading.name, "spectral-period") => Content::Period,
             _ => Content::Unknown,
         };
         let is_velocity = quantity == Some(Quantity::Velocity);
         let measure = measure.or(is_velocity.then_some(Measure::Pgv));
         Column { at, content, measure, statistic }
     }
-
-    /// The unit of the values of a measure, in m/s2 or m/s. An acceleration without a name is PGA.
-    pub fn unit_of(&self, measure: Measure) -> Option<f64> {
-        match self.content {
-            Content::Values(unit) if self.measure.unwrap_or(Measure::Pga) == measure => Some(unit),
-            _ => None,
-        }
-    }
 }
 
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
-/// word more, which may change the meaning: `vertical PGA`.
+/// word more, which may change the meaning: `vertical PGA`. An acceleration without a name is PGA.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let column = Column::new(0, heading, None);
-    let pga = column.unit_of(Measure::Pga).map(|unit| (Peak::Pga, unit));
-    pga.or(column.unit_of(Measure::Pgv).map(|unit| (Peak::Pgv, unit)))
+    let Column { content: Content::Values(unit), measure, .. } = Column::new(0, heading, None) else {
+        return None;
+    };
+    match measure {
+        None | Some(Measure::Pga) => Some((Peak::Pga, unit)),
+        Some(Measure::Pgv) => Some((Peak::Pgv, unit)),
+        Some(Measure::Spectral | Measure::Other) => None,
+    }
 }
 
 /// Whether a heading in a unit, with these words beside a measure, is of values.
@@ -132,25 +127,22 @@ fn are_of_values(words: &[&str], measure: Option<Measure>, quantity: Option<Quan
         (Some(Quantity::Velocity), None | Some(Measure::Pgv)) => "velocity",
         _ => return false,
     };
-    let is_named = measure.is_some() || words.iter().any(|word| is(word, name));
-    is_named && words.iter().all(|word| is(word, name) || is(word, "of-values"))
+    let is_named = measure.is_some() || words.iter().any(|word| is_one_of(word, name));
+    is_named && words.iter().all(|word| is_one_of(word, name) || is_one_of(word, "of-values"))
 }
 
-/// Splits a text into words and numbers: `pe50` is `pe` and `50`.
-fn parts(text: &str) -> Vec<&str> {
-    let mut parts = Vec::new();
-    for word in text.split(|sign: char| !sign.is_alphanumeric() && sign != '.') {
-        let is_digit = |sign: char| sign.is_ascii_digit() || sign == '.';
-        let mut start = 0;
-        for ((at, sign), (_, before)) in word.char_indices().skip(1).zip(word.char_indices()) {
-            if is_digit(sign) != is_digit(before) {
-                parts.push(&word[start..at]);
-                start = at;
-            }
+/// A text in lower case with blanks between words and numbers: `pe50` is `pe 50`.
+fn parted(text: &str) -> String {
+    let is_digit = |sign: char| sign.is_ascii_digit() || sign == '.';
+    let mut parted = String::new();
+    for sign in text.to_lowercase().chars() {
+        let last = parted.chars().last().unwrap_or(' ');
+        if is_digit(sign) != is_digit(last) {
+            parted.push(' ');
         }
-        parts.push(&word[start..]);
+        parted.push(if sign.is_alphanumeric() || sign == '.' { sign } else { ' ' });
     }
-    parts.into_iter().map(|part| part.trim_matches('.')).filter(|part| !part.is_empty()).collect()
+    parted.replace(". ", " ").replace(" .", " ").trim_matches('.').to_string()
 }
 
 /// Takes the words that name a measure out of a heading.
@@ -181,36 +173,32 @@ fn take_measure(words: &mut Vec<&str>) -> Option<Measure> {
 /// Words beside the number of a fractile.
 const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
 
-/// Whether a word beside that at this place says that it is the number of a fractile.
-fn is_ranked(words: &[&str], at: usize) -> bool {
-    let before = at.checked_sub(1).map(|before| words[before]);
-    before.into_iter().chain(words.get(at + 1).copied()).any(|word| RANKS.contains(&word))
+/// Finds a fractile among the words of a heading, and its place. A number of years is none; in a sentence a
+/// number is one with a word of rank beside it.
+fn find_statistic(words: &[&str], in_sentence: bool) -> Option<(usize, Statistic)> {
+    (0..words.len()).find_map(|at| {
+        let before = at.checked_sub(1).map_or("", |before| words[before]);
+        let after = words.get(at + 1).copied().unwrap_or_default();
+        let is_ranked = [before, after].iter().any(|word| RANKS.contains(word));
+        let are_years = is_one_of(after, "years") || is_one_of(before, "probability");
+        let statistic = match words[at] {
+            "median" => return Some((at, Statistic::Median)),
+            "50" if !is_ranked => return None,
+            "50" | "0.5" => Statistic::Median,
+            "16" | "0.16" => Statistic::Low,
+            "84" | "0.84" => Statistic::High,
+            _ => return None,
+        };
+        (is_ranked || !in_sentence && !are_years).then_some((at, statistic))
+    })
 }
 
-/// Takes the words that name a fractile out of a heading. A number of years is none.
+/// Takes the words that name a fractile out of a heading.
 fn take_statistic(words: &mut Vec<&str>) -> Statistic {
-    let found = (0..words.len()).find_map(|at| {
-        let before = at.checked_sub(1).map_or("", |before| words[before]);
-        let are_years = words.get(at + 1).is_some_and(|next| is(next, "years")) || is(before, "probability");
-        match words[at] {
-            "50" if !is_ranked(words, at) => None,
-            "16" | "84" if are_years => None,
-            word => Some((at, fractile(word)?)),
-        }
-    });
-    let Some((at, statistic)) = found else { return Statistic::Mean };
+    let Some((at, statistic)) = find_statistic(words, false) else { return Statistic::Mean };
     words.remove(at);
     words.retain(|word| !RANKS.contains(word));
     statistic
-}
-
-fn fractile(word: &str) -> Option<Statistic> {
-    match word {
-        "median" | "50" | "0.5" => Some(Statistic::Median),
-        "16" | "0.16" => Some(Statistic::Low),
-        "84" | "0.84" => Some(Statistic::High),
-        _ => None,
-    }
 }
 
 /// Finds the statistic that a comment, or a column of statistics, names for the curves of a file.
@@ -226,26 +214,24 @@ pub fn noted_statistic(grid: &Grid) -> Result<Statistic, InputError> {
         texts.extend(cells.first().map(|cell| cell.to_string()));
     }
     let named = texts.iter().find_map(|text| {
-        let text = text.to_lowercase();
-        let words = parts(&text);
-        let is_named = |at: &usize| words[*at] == "median" || is_ranked(&words, *at);
-        let place = (0..words.len()).filter(is_named).find(|at| fractile(words[*at]).is_some())?;
-        fractile(words[place]).filter(|_| !words.contains(&"mean"))
+        let text = parted(text);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        find_statistic(&words, true).filter(|_| !words.contains(&"mean"))
     });
-    Ok(named.unwrap_or(Statistic::Mean))
+    Ok(named.map_or(Statistic::Mean, |(_, statistic)| statistic))
 }
 
-/// More motions a year than any site has that a hazard counts.
-const MOST_FREQUENT: f64 = 1000.0;
+/// Motions a year: no site has more that a hazard counts.
+const MOST_FREQUENT: RangeInclusive<f64> = 0.0..=1000.0;
 
 impl Frequency {
     /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
     fn new(words: &[&str], investigation_years: Option<f64>) -> Option<Frequency> {
         const MEANINGS: [&str; 5] = ["rate", "return-period", "probability", "years", "of-rates"];
         let (numbers, words): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_numeric(word));
-        let has = |meaning: &str| words.iter().any(|word| is(word, meaning));
+        let has = |meaning: &str| words.iter().any(|word| is_one_of(word, meaning));
         let years: Option<f64> = numbers.first().and_then(|number| number.parse().ok());
-        match words.iter().all(|word| MEANINGS.iter().any(|meaning| is(word, meaning))) {
+        match words.iter().all(|word| MEANINGS.iter().any(|meaning| is_one_of(word, meaning))) {
             false => None,
             _ if has("probability") => {
                 let annual = words.iter().any(|word| matches!(*word, "annual" | "aep" | "ape"));
@@ -262,22 +248,21 @@ impl Frequency {
     /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
     pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<Option<f64>, InputError> {
         let number = grid.number(row, column)?;
-        let expected = match self {
+        let is_share = (0.0..1.0).contains(&number);
+        let (rate, expected) = match self {
             Frequency::Rate | Frequency::Occurrence if grid.is_percent(row, column) => {
-                "a rate a year, such as 0.002; percent are probabilities"
+                (None, "a rate a year, such as 0.002; percent are probabilities")
             }
-            Frequency::Rate | Frequency::Occurrence if (0.0..=MOST_FREQUENT).contains(&number) => {
-                return Ok(Some(number));
+            Frequency::Rate | Frequency::Occurrence => {
+                (Some(number).filter(|rate| MOST_FREQUENT.contains(rate)), "a rate a year from 0 to 1000")
             }
-            Frequency::Rate | Frequency::Occurrence => "a rate a year from 0 to 1000",
-            Frequency::ReturnPeriod if number > 0.0 => return Ok(Some(1.0 / number)),
-            Frequency::ReturnPeriod => "years above 0",
-            Frequency::ProbabilityIn(years) if (0.0..1.0).contains(&number) => {
-                return Ok(Some(-(-number).ln_1p() / years));
-            }
+            Frequency::ReturnPeriod => ((number > 0.0).then_some(1.0 / number), "years above 0"),
             Frequency::ProbabilityIn(_) if number == 1.0 => return Ok(None),
-            Frequency::ProbabilityIn(_) => "a probability from 0 to 1, or with a percent sign",
+            Frequency::ProbabilityIn(years) => (
+                is_share.then(|| -(-number).ln_1p() / years),
+                "a probability from 0 to 1, or with a percent sign",
+            ),
         };
-        Err(grid.refusal(row, column, expected))
+        rate.map(Some).ok_or_else(|| grid.refusal(row, column, expected))
     }
 }

@@ -9,14 +9,14 @@ use std::path::{Path, PathBuf};
 
 pub use self::columns::peak;
 use self::columns::{Column, Content, Frequency, Measure, Statistic, noted_statistic};
+use super::intensities::{Motions, motions};
 use super::words::means;
 use super::{Grid, InputError, Renames};
 use crate::fragility::Peak;
-use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PeakHazard, PgvPgaRatio, VelocitySource};
-use crate::hazard::{exceedance, velocity_of_spectrum};
-use crate::motion::{Peaks, judge_medians};
+use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
+use crate::keyword::Keyword;
 use crate::number::period;
-use crate::plausibility::{MAGNITUDES, judge_hazard, judge_spectrum};
+use crate::plausibility::{judge_hazard, judge_spectrum};
 use crate::units::G_M_S2;
 use crate::warning::{Warning, Warnings};
 
@@ -31,14 +31,23 @@ pub fn read(
     for path in paths {
         found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
     }
-    let hazard = match (found.joint.pop(), paths) {
+    let hazard = match (found.joint, paths) {
         (Some(bins), [_]) => Hazard::Joint(bins),
         (Some(_), _) => {
             return Err(InputError::missing("a hazard of PGA and PGV together among others", "it alone"));
         }
-        (None, _) => Hazard::Curve(joined(&found.curves, &mut found.warnings)?),
+        (None, _) => joined(&found.curves, &mut found.warnings)?,
     };
     Ok((hazard, found.warnings))
+}
+
+/// A point of a curve, and the cell of its rate, which is unknown of a motion that is certain.
+struct Point {
+    /// In m/s2 or m/s.
+    value: f64,
+    annual_rate: Option<f64>,
+    row: usize,
+    column: usize,
 }
 
 /// A curve, and the file that it is from.
@@ -50,76 +59,79 @@ struct Curve {
 }
 
 impl Curve {
-    /// Makes a curve of values in m/s2 or m/s and annual rates that some place on earth can have. Tables
-    /// often begin with motions that are certain to come, and end with some that never do: these tell
-    /// nothing.
+    /// Makes a curve that some place on earth can have. Tables often begin with motions that are certain to
+    /// come, and end with some that never do: these tell nothing.
     fn new(
         (measure, statistic): (Measure, Statistic),
-        mut points: Vec<(f64, Option<f64>)>,
+        mut points: Vec<Point>,
+        grid: &Grid,
         file: &Path,
     ) -> Result<Curve, InputError> {
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let known = points.into_iter().filter_map(|(value, rate)| Some((value, rate?)));
-        let curve = HazardCurve::new(known.filter(|(value, rate)| *value != 0.0 && *rate > 0.0).collect())?;
-        let is_velocity = measure == Measure::Pgv;
-        let unit = if is_velocity { 1.0 } else { G_M_S2 };
+        points.retain(|point| point.value != 0.0);
+        points.sort_by(|a, b| a.value.total_cmp(&b.value));
+        for pair in points.windows(2) {
+            let [before, rate] = [0, 1].map(|at: usize| pair[at].annual_rate.unwrap_or(f64::INFINITY));
+            let expected = match rate > before {
+                _ if pair[0].value == pair[1].value => "one row of each intensity",
+                true => "motions no more frequent than weaker ones",
+                false => continue,
+            };
+            return Err(grid.refusal(pair[1].row, pair[1].column, expected));
+        }
+        let known = points.iter().filter_map(|point| Some((point.value, point.annual_rate?)));
+        let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
+        let unit = if measure == Measure::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
-        judge_hazard(is_velocity, &points)?;
+        judge_hazard(measure.as_str(), &points)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }
 
 /// The hazard of one peak, with what the other curves tell of it.
-fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<PeakHazard, InputError> {
+fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputError> {
     let find = |measure: Measure, statistic: Statistic| {
         curves.iter().find(|curve| (curve.measure, curve.statistic) == (measure, statistic))
     };
     let central = |measure| find(measure, Statistic::Mean).or(find(measure, Statistic::Median));
     let (pga, pgv) = (central(Measure::Pga), central(Measure::Pgv));
     let spectral = central(Measure::Spectral).filter(|_| pgv.is_none());
-    let (peak, main) = match (pga, pgv, spectral) {
-        (Some(pga), ..) => (Peak::Pga, pga),
-        (None, Some(pgv), _) => (Peak::Pgv, pgv),
+    let (main, mut hazard) = match (pga, pgv, spectral) {
+        (Some(pga), None, Some(spectral)) => {
+            let points = spectral.curve.points().iter();
+            judge_spectrum(points.map(|(sa, rate)| sa / pga.curve.intensity(*rate)))
+                .map_err(|error| InputError::from(error).in_file(Path::new(&spectral.file)))?;
+            (pga, Hazard::with_spectrum(pga.curve.clone(), &spectral.curve)?)
+        }
+        (Some(pga), ..) => (pga, Hazard::over(Peak::Pga, pga.curve.clone())),
+        (None, Some(pgv), _) => (pgv, Hazard::over(Peak::Pgv, pgv.curve.clone())),
         (.., Some(_)) => return Err(InputError::missing("SA(1.0 s) without PGA", "the curve of PGA too")),
         _ => return Err(InputError::missing("fractiles alone", "the mean curve too")),
     };
-    let curve = &main.curve;
-    let velocity = match (pga.and(pgv), pga.and(spectral)) {
-        (Some(pgv), _) => Some(PgvPgaRatio::by_curves(curve, &pgv.curve, VelocitySource::Velocity)?),
-        (None, Some(spectral)) => {
-            let points = spectral.curve.points().iter();
-            judge_spectrum(points.map(|(sa, rate)| sa / curve.intensity(*rate)))
-                .map_err(|error| InputError::from(error).in_file(Path::new(&spectral.file)))?;
-            let pgv = velocity_of_spectrum(curve, &spectral.curve);
-            Some(PgvPgaRatio::by_curves(curve, &pgv, VelocitySource::Spectrum)?)
-        }
-        (None, None) => None,
-    };
     let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
     let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
-    let mut is_median = false;
-    for curve in curves {
-        let is_used = used.into_iter().flatten().any(|used| std::ptr::eq(used, curve));
-        let doubt = match (is_used, curve.statistic) {
-            (true, Statistic::Median) => {
-                is_median = true;
-                (Warning::MedianHazard, curve.file.clone())
-            }
-            (true, _) => continue,
-            (false, statistic) => {
-                (Warning::UnusedColumns, format!("{} ({statistic}) of {}", curve.measure, curve.file))
-            }
-        };
-        warnings.extend([doubt].into_iter().collect());
+    let used: Vec<&Curve> = used.into_iter().flatten().collect();
+    for curve in curves.iter().filter(|curve| !used.iter().any(|used| std::ptr::eq(*used, *curve))) {
+        let about = format!("{} ({}) of {}", curve.measure, curve.statistic, curve.file);
+        warnings.add(Warning::UnusedColumns, about);
     }
-    let fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
-    Ok(PeakHazard { peak, curve: curve.clone(), is_median, fractiles, velocity })
+    for curve in used.iter().filter(|curve| curve.statistic == Statistic::Median) {
+        warnings.add(Warning::MedianHazard, curve.file.clone());
+    }
+    if let Hazard::Curve(hazard) = &mut hazard {
+        hazard.is_median = used.iter().any(|curve| curve.statistic == Statistic::Median);
+        hazard.fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
+        if let (Some(pga), Some(pgv)) = (pga, pgv) {
+            let by_curves = PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?;
+            hazard.velocity = Some(by_curves);
+        }
+    }
+    Ok(hazard)
 }
 
 #[derive(Default)]
 struct Found {
     curves: Vec<Curve>,
-    joint: Vec<Vec<PairOfPeaks>>,
+    joint: Option<Vec<PairOfPeaks>>,
     /// What rows and comments say of the site.
     site: BTreeMap<String, String>,
     /// About columns that say nothing of the curves, and about medians.
@@ -139,7 +151,6 @@ impl Found {
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
             ["gmv_", "poe-"].map(|start| grid.headings.iter().any(|heading| heading.text.starts_with(start)));
-        let years = openquake::investigation_years(&grid);
         match (are_fields, effective_years) {
             (true, None) => {
                 let expected = "--effective-years: investigation time x stochastic event sets x branches";
@@ -153,32 +164,35 @@ impl Found {
             (false, None) if is_exported => return self.add_curve(openquake::probabilities(&grid, path)?),
             (false, None) => {}
         }
+        let years = openquake::investigation_years(&grid);
         let columns = grid.headings.iter().enumerate().map(|(at, heading)| Column::new(at, heading, years));
         let mut columns: Vec<Column> = columns.collect();
         if columns.iter().all(|column| column.statistic == Statistic::Mean) {
             let statistic = noted_statistic(&grid)?;
             columns.iter_mut().for_each(|column| column.statistic = statistic);
         }
-        let is_joint = are_fields || columns.iter().any(|column| column.content == OCCURRENCE);
+        let occurrence = columns.iter().find(|column| column.content == OCCURRENCE).map(|column| column.at);
+        let is_joint = are_fields || occurrence.is_some();
+        let before = self.curves.len();
         if is_joint {
-            self.add_joint(joint(&grid, &columns, effective_years)?, path)?;
+            self.joint = Some(joint(&grid, occurrence, effective_years, &mut self.warnings)?);
         } else {
-            let before = self.curves.len();
             for (values, rates) in columns.iter().flat_map(|a| columns.iter().map(move |b| (a, b))) {
                 if let Some(curve) = curve_of(&grid, values, rates, path)? {
                     self.add_curve(curve)?;
                 }
             }
-            if before == self.curves.len() {
-                return Err(not_understood(&grid, &columns));
-            }
         }
-        for Column { at, content, .. } in columns {
+        if !is_joint && before == self.curves.len() {
+            return Err(not_understood(&grid, &columns));
+        }
+        for Column { at, content, .. } in
+            columns.into_iter().filter(|_| !are_fields && !grid.lines.is_empty())
+        {
             let is_unused = content == Content::Unknown || content == Content::Magnitude && !is_joint;
             let heading = &grid.headings[at];
-            let is_number = !grid.lines.is_empty() && grid.number(0, at).is_ok();
-            if is_unused && !are_fields && !means(&heading.name, "place") && is_number {
-                self.warnings.extend([(Warning::UnusedColumns, heading.text.clone())].into_iter().collect());
+            if is_unused && !means(&heading.name, "place") && grid.number(0, at).is_ok() {
+                self.warnings.add(Warning::UnusedColumns, heading.text.clone());
             }
         }
         Ok(())
@@ -188,8 +202,7 @@ impl Found {
     fn add_curve(&mut self, curve: Curve) -> Result<(), InputError> {
         const SAME: f64 = 0.1;
         let same = (curve.measure, curve.statistic);
-        let mut known = self.curves.iter().filter(|known| (known.measure, known.statistic) == same);
-        let Some(known) = known.next() else {
+        let Some(known) = self.curves.iter().find(|known| (known.measure, known.statistic) == same) else {
             self.curves.push(curve);
             return Ok(());
         };
@@ -197,47 +210,25 @@ impl Found {
         let mut points = curve.curve.points().iter();
         let other = points.find(|(value, rate)| (known.curve.exceedance(*value) / rate).ln().abs() > SAME);
         let found = match other {
-            None if first == second => return Ok(()),
-            Some((_, rate)) if first == second => {
-                format!(
-                    "two columns of {measure} that contradict, one of them once in {} years",
-                    period(1.0 / rate)
-                )
+            _ if first != second => format!("two curves of {measure}: {first} and {second}"),
+            None => return Ok(()),
+            Some((_, rate)) => {
+                let years = period(1.0 / rate);
+                format!("two columns of {measure} that contradict, one of them once in {years} years")
             }
-            _ => format!("two curves of {measure}: {first} and {second}"),
         };
         Err(InputError::missing(found, "one"))
-    }
-
-    /// Adds motions with both peaks; those beyond any record count at the rim.
-    fn add_joint(&mut self, mut bins: Vec<PairOfPeaks>, path: &Path) -> Result<(), InputError> {
-        judge_medians(bins.iter().map(|bin| bin.peaks))?;
-        let mut beyond = 0;
-        for bin in &mut bins {
-            let peaks = bin.peaks.at_rim();
-            beyond += usize::from(peaks != bin.peaks);
-            bin.peaks = peaks;
-        }
-        judge_hazard(false, &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))?;
-        judge_hazard(true, &exceedance(&bins, |bin| bin.peaks.pgv_m_s))?;
-        if beyond > 0 {
-            let rows = format!("{beyond} of {} rows of {}", bins.len(), path.display());
-            self.warnings.extend([(Warning::AtRim, rows)].into_iter().collect());
-        }
-        self.joint.push(bins);
-        Ok(())
     }
 
     /// Checks that rows and comments are about the site of those before, in this file and in others.
     fn expect_one_site(&mut self, grid: &Grid) -> Result<(), InputError> {
         const SAME: f64 = 1e-4;
         let noted = ["lon", "lat", "longitude", "latitude", "vs30"].into_iter();
-        let noted = noted.filter_map(|key| Some((key, openquake::noted(grid, key)?)));
-        let mut told: Vec<(&str, &str)> = noted.collect();
-        for (at, heading) in
-            grid.headings.iter().enumerate().filter(|(_, heading)| means(&heading.name, "place"))
-        {
-            told.extend((0..grid.lines.len()).map(|row| (heading.name.as_str(), grid.cell(row, at))));
+        let mut told: Vec<(&str, &str)> =
+            noted.filter_map(|key| Some((key, openquake::noted(grid, key)?))).collect();
+        for (at, heading) in grid.headings.iter().enumerate() {
+            let rows = (0..grid.lines.len()).filter(|_| means(&heading.name, "place"));
+            told.extend(rows.map(|row| (heading.name.as_str(), grid.cell(row, at))));
         }
         for (key, value) in told {
             let known = self.site.entry(key.to_string()).or_insert(value.to_string());
@@ -308,41 +299,43 @@ fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result
     }
     let mut points = Vec::new();
     for row in 0..grid.lines.len() {
-        let value = grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
-        points.push((value * unit, frequency.annual_rate(grid, row, rates.at)?));
+        let value = unit * grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
+        points.push(Point {
+            value,
+            annual_rate: frequency.annual_rate(grid, row, rates.at)?,
+            row,
+            column: rates.at,
+        });
     }
-    Curve::new((measure, statistic), points, file).map(Some)
+    Curve::new((measure, statistic), points, grid, file).map(Some)
 }
 
 /// Motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or equal.
 fn joint(
     grid: &Grid,
-    columns: &[Column],
+    occurrence: Option<usize>,
     effective_years: Option<f64>,
+    warnings: &mut Warnings,
 ) -> Result<Vec<PairOfPeaks>, InputError> {
-    let [Some((pga, pga_unit)), Some((pgv, pgv_unit))] = [Measure::Pga, Measure::Pgv]
-        .map(|peak| columns.iter().find_map(|column| Some((column.at, column.unit_of(peak)?))))
-    else {
+    let Some(Motions { given, peaks, mw, .. }) = motions(grid, warnings)? else {
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
         return Err(InputError::missing(found, "both, or rates of exceedance"));
     };
-    let [magnitude, rate] = [Content::Magnitude, OCCURRENCE]
-        .map(|content| columns.iter().find(|column| column.content == content).map(|column| column.at));
     let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
     for (row, line) in grid.lines.iter().enumerate() {
-        let mw = magnitude.map(|at| grid.within(row, at, &MAGNITUDES, "a moment magnitude")).transpose()?;
-        let (pga_m_s2, pgv_m_s) = (grid.number(row, pga)? * pga_unit, grid.number(row, pgv)? * pgv_unit);
-        let same = [pga_m_s2, pgv_m_s, mw.unwrap_or(0.0)].map(f64::to_bits);
-        let annual_rate = match (rate, effective_years) {
+        let annual_rate = match (occurrence, effective_years) {
             (Some(at), None) => Frequency::Occurrence.annual_rate(grid, row, at)?.unwrap_or_default(),
             (_, years) => 1.0 / years.unwrap_or(f64::INFINITY),
         };
+        let same = [given[row].pga_m_s2, given[row].pgv_m_s, mw[row].unwrap_or(0.0)].map(f64::to_bits);
         if let Some(first) = lines.insert(same, line).filter(|_| effective_years.is_none()) {
             let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
             return Err(InputError::missing(found, "one row of each bin"));
         }
-        bins.push(PairOfPeaks { peaks: Peaks { pga_m_s2, pgv_m_s }, annual_rate, mw });
+        bins.push(PairOfPeaks { peaks: peaks[row], annual_rate, mw: mw[row] });
     }
+    judge_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))?;
+    judge_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s))?;
     match bins.is_empty() {
         true => Err(InputError::missing("no rows", "motions with PGA and PGV")),
         false => Ok(bins),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::Curve;
 use super::columns::{Frequency, Measure, Statistic};
+use super::{Curve, Point};
 use crate::inputs::{Grid, Heading, InputError};
 use crate::units::{CM_PER_M, G_M_S2};
 
@@ -38,9 +38,10 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
         let level: f64 = level
             .parse()
             .map_err(|_| InputError::missing(format!("heading {}", heading.text), "poe- and a level"))?;
-        points.push((level * unit, frequency.annual_rate(grid, 0, at)?));
+        let annual_rate = frequency.annual_rate(grid, 0, at)?;
+        points.push(Point { value: level * unit, annual_rate, row: 0, column: at });
     }
-    Curve::new((measure, statistic), points, file)
+    Curve::new((measure, statistic), points, grid, file)
 }
 
 /// Which of several curves it is. What is not known to be the mean is not taken for it.
@@ -54,11 +55,7 @@ fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
         "quantile-0.84" => Ok(Statistic::High),
         "quantile-0.5" | "quantile-0.50" | "median" => Ok(Statistic::Median),
         _ => {
-            let found = if kind.is_empty() {
-                "a curve of no kind".into()
-            } else {
-                format!("a curve of kind '{kind}'")
-            };
+            let found = format!("a curve of kind '{kind}'");
             Err(InputError::missing(found, "the mean, and quantiles 0.16 and 0.84 beside it"))
         }
     }

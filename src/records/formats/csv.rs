@@ -14,18 +14,31 @@ const DAY_S: f64 = 86400.0;
 const UNEVEN: f64 = 0.05;
 /// Relative difference of the peaks of two columns up to which they are one motion, such as in two units.
 const SAME_PEAK: f64 = 1e-3;
+/// Usual time steps, s: one alone above the samples is none of them.
+const USUAL_S: [f64; 9] = [0.001, 0.002, 0.0025, 0.004, 0.005, 0.01, 0.02, 0.04, 0.05];
 /// Names of horizontal components without an azimuth.
 const HORIZONTAL: [&str; 10] =
     ["L", "T", "R", "LONG", "TRAN", "TRANS", "LONGITUDINAL", "TRANSVERSE", "RADIAL", "TANGENTIAL"];
-
 /// Words of a heading for a motion that stands beside another state of it.
 const PROCESSED: [&str; 5] = ["filtered", "corrected", "uncorrected", "raw", "processed"];
+/// Beginnings of words in the headings of what is no acceleration over time, and what it is.
+const OTHERS: [(&str, &str); 7] = [
+    ("sa", "a spectrum"),
+    ("psa", "a spectrum"),
+    ("psv", "a spectrum"),
+    ("period", "a spectrum"),
+    ("freq", "a spectrum"),
+    ("spectr", "a spectrum"),
+    ("jerk", "jerk"),
+];
 
-/// A table of samples.
+/// A table of samples, with a heading for each column, which may be empty.
 struct Samples<'a> {
     grid: Grid,
-    /// Comments, and lines above the headings.
-    notes: Vec<Heading>,
+    headings: Vec<Heading>,
+    quantities: Vec<Option<Quantity>>,
+    /// The column of times: of numbers, else of a clock.
+    times: Option<usize>,
     /// The line of the first row.
     line: usize,
     options: &'a ReadOptions,
@@ -33,63 +46,92 @@ struct Samples<'a> {
 
 /// Reads the motions in a table.
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    let grid = Grid::parse(bytes, None)?;
-    let first = grid.lines.first().filter(|_| (0..grid.columns).any(|column| grid.number(0, column).is_ok()));
-    let Some(&line) = first else {
-        let heading = grid.headings.first().map(|heading| &heading.text);
-        let found = grid.notes.first().or(heading).cloned().unwrap_or_default();
-        return Err(RecordFileError::Unrecognised { found });
-    };
-    let notes = grid.notes.iter().map(|note| Heading::new(note)).collect();
-    Samples { grid, notes, line, options }.motions()
+    let table = Samples::new(Grid::parse(bytes, None)?, options)?;
+    if options.column.as_deref() == Some("all") {
+        let step = noted_step(&table.grid.notes);
+        return Ok(vec![table.motion(&Heading::new(""), table.wrapped()?, step)?]);
+    }
+    let columns = table.accelerations()?;
+    table.expect_one_series(false)?;
+    let step = table.step()?;
+    let mut motions = Vec::<RecordedMotion>::new();
+    for column in columns {
+        let motion = table.motion(&table.headings[column], table.samples(column, step)?, step)?;
+        if motions.iter().any(|other| is_same(other, &motion)) {
+            return Err(table.which_column());
+        }
+        motions.push(motion);
+    }
+    Ok(motions)
+}
+
+/// Whether two columns have one motion, such as in two units, or two instruments in one direction.
+fn is_same(motion: &RecordedMotion, other: &RecordedMotion) -> bool {
+    let [pga, other_pga] = [motion, other].map(|motion| peak(&motion.acceleration_m_s2));
+    (pga - other_pga).abs() < SAME_PEAK * pga
+        || motion.azimuth_deg.is_some() && motion.azimuth_deg == other.azimuth_deg
 }
 
 impl Samples<'_> {
-    fn motions(&self) -> Result<Vec<RecordedMotion>, RecordFileError> {
-        let noted = self.notes.iter().find_map(noted_step).or_else(|| noted_frequency(&self.grid.notes));
-        let choice = self.options.column.as_deref();
-        if choice == Some("all") {
-            let series = self.series()?;
-            self.expect_one_series()?;
-            return Ok(vec![self.motion(None, series, noted)?]);
+    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>, RecordFileError> {
+        let has_numbers = !grid.lines.is_empty() && (0..grid.columns).any(|at| grid.number(0, at).is_ok());
+        let mut headings = grid.headings.clone();
+        if !has_numbers {
+            let found = grid.notes.first().or(headings.first().map(|heading| &heading.text));
+            return Err(RecordFileError::Unrecognised { found: found.cloned().unwrap_or_default() });
         }
-        self.expect_one_series()?;
-        let quantities = self.quantities();
-        let columns = match choice {
-            Some(choice) => vec![self.chosen(choice, &quantities)?],
-            None => self.accelerations(&quantities)?,
-        };
-        let mut found = noted;
-        if let Some(times) = self.times(&quantities) {
-            let step = self.step(times)?;
-            expect_step(&ReadOptions { dt_s: noted, ..ReadOptions::default() }, step, self.line)?;
-            found = Some(step);
-        }
-        let mut motions = Vec::<RecordedMotion>::new();
-        for &column in &columns {
-            let mut samples = self.numbers(column)?;
-            if self.grid.headings.is_empty() && found.is_none() {
-                self.expect_no_other_step(column)?;
-                drop_header(&mut samples, self.options.dt_s);
-            }
-            let read = self.motion(Some(column), samples, found)?;
-            let pga = peak(&read.acceleration_m_s2);
-            let is_same = |other: &RecordedMotion| {
-                (peak(&other.acceleration_m_s2) - pga).abs() < SAME_PEAK * pga
-                    || read.azimuth_deg.is_some() && other.azimuth_deg == read.azimuth_deg
-            };
-            if motions.iter().any(is_same) {
-                return Err(self.which_column());
-            }
-            motions.push(read);
-        }
-        Ok(motions)
+        headings.resize(grid.columns, Heading::new(""));
+        let (quantities, line) = (quantities(&grid, &headings), grid.lines[0]);
+        let times = || (0..grid.columns).filter(|at| quantities[*at] == Some(Quantity::Time));
+        let times = times().find(|at| grid.number(0, *at).is_ok()).or(times().next());
+        Ok(Samples { grid, headings, quantities, times, line, options })
     }
 
-    /// The motion of samples from a column, or from all cells, with the time step (s) found in the file.
+    /// Finds the columns of acceleration: that which the user names by its number or heading, those with such
+    /// a heading, those of directions, or the only one that may be it.
+    fn accelerations(&self) -> Result<Vec<usize>, RecordFileError> {
+        let not_acceleration =
+            |found: String| Err(RecordFileError::NotAcceleration { line: self.line, found });
+        if let Some(choice) = &self.options.column {
+            let is_chosen = |heading: &Heading| heading.text == *choice || heading.name == *choice;
+            let number = choice.parse::<usize>().ok();
+            let column =
+                number.map_or(self.headings.iter().position(is_chosen), |number| number.checked_sub(1));
+            return match column.and_then(|at| Some((at, *self.quantities.get(at)?))) {
+                Some((at, None | Some(Quantity::Acceleration))) => Ok(vec![at]),
+                Some((_, Some(other))) => not_acceleration(format!("{other:?}").to_lowercase()),
+                None => Err(self.which_column()),
+            };
+        }
+        if let Some((heading, what)) =
+            self.headings.iter().find_map(|heading| Some((heading, other(heading)?)))
+        {
+            return not_acceleration(format!("'{}': {what}", heading.text));
+        }
+        let filled = (0..self.grid.columns).filter(|&at| !self.grid.cell(0, at).is_empty());
+        let (named, others): (Vec<usize>, Vec<usize>) =
+            filled.partition(|&at| self.quantities[at] == Some(Quantity::Acceleration));
+        let unknown = || others.iter().copied().filter(|&at| self.quantities[at].is_none());
+        let directions: Vec<usize> =
+            unknown().filter(|&at| direction(&self.headings[at]).is_some()).collect();
+        let is_processed =
+            |at: &usize| self.headings[*at].name.split('_').any(|word| PROCESSED.contains(&word));
+        match (named.len(), directions.len(), unknown().count()) {
+            // The same motion before and after.
+            (2.., ..) if named.iter().any(is_processed) => Err(self.which_column()),
+            (1.., ..) => Ok(named),
+            (.., 1) => Ok(unknown().collect()),
+            (.., 0) => not_acceleration(self.found()),
+            // One alone may be a number n, or s for a time.
+            (_, 2.., _) => Ok(directions),
+            _ => Err(self.which_column()),
+        }
+    }
+
+    /// The motion of samples under a heading, with the time step (s) found in the file.
     fn motion(
         &self,
-        column: Option<usize>,
+        heading: &Heading,
         samples: Vec<f64>,
         found: Option<f64>,
     ) -> Result<RecordedMotion, RecordFileError> {
@@ -97,160 +139,31 @@ impl Samples<'_> {
         if samples.len() < 2 {
             return Err(RecordFileError::Count { announced: 2, found: samples.len() });
         }
-        let heading = column.and_then(|column| self.grid.headings.get(column));
         let unit = self.unit(heading)?;
         let expected = "a column of times, or a comment such as dt = 0.005 s";
         let dt_s = options.dt_s.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?;
         expect_step(options, found.unwrap_or(dt_s), line)?;
+        let (name, direction) = (Some(&*heading.text).filter(|text| !text.is_empty()), direction(heading));
         Ok(RecordedMotion {
-            component: heading.map(|heading| direction(heading).unwrap_or(&heading.text).to_string()),
-            azimuth_deg: heading.and_then(direction).and_then(azimuth_of),
+            component: direction.or(name).map(str::to_string),
+            azimuth_deg: direction.and_then(azimuth_of),
             ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit)
         })
     }
 
-    /// Refuses samples without times among which another line stands: another series may begin there.
-    fn expect_one_series(&self) -> Result<(), RecordFileError> {
-        let has_times = self.times(&self.quantities()).is_some();
-        let gap = self.grid.lines.windows(2).find(|pair| pair[1] != pair[0] + 1).filter(|_| !has_times);
-        let short = |pair: &[usize]| RecordFileError::ShortLine {
-            line: pair[0] + 1,
-            found: 0,
-            expected: self.grid.columns,
-        };
-        gap.map_or(Ok(()), |pair| Err(short(pair)))
-    }
-
-    /// Refuses a first line that seems to be a time step: a usual one, written otherwise than the samples.
-    fn expect_no_other_step(&self, column: usize) -> Result<(), RecordFileError> {
-        const USUAL_S: [f64; 9] = [0.001, 0.002, 0.0025, 0.004, 0.005, 0.01, 0.02, 0.04, 0.05];
-        let decimals = |row: usize| self.grid.cell(row, column).split(['.', ',']).nth(1).map(str::len);
-        let first = self.grid.number(0, column)?;
-        match USUAL_S.contains(&first) && self.grid.lines.len() > 1 && decimals(0) != decimals(1) {
-            true => expect_step(self.options, first, self.line),
-            false => Ok(()),
-        }
-    }
-
-    /// Reads a column.
-    fn numbers(&self, column: usize) -> Result<Vec<f64>, RecordFileError> {
-        (0..self.grid.lines.len()).map(|row| Ok(self.grid.number(row, column)?)).collect()
-    }
-
-    /// Reads all cells as one series, of which the last row alone may be short: another one shows that the
-    /// file has several series, or is damaged.
-    fn series(&self) -> Result<Vec<f64>, RecordFileError> {
-        let (grid, mut series) = (&self.grid, Vec::new());
-        for (row, &line) in grid.lines.iter().enumerate() {
-            let found = (0..grid.columns).take_while(|&column| !grid.cell(row, column).is_empty()).count();
-            if found < grid.columns && row + 1 < grid.lines.len() {
-                return Err(RecordFileError::ShortLine { line, found, expected: grid.columns });
-            }
-            for column in 0..found {
-                series.push(grid.number(row, column)?);
-            }
-        }
-        Ok(series)
-    }
-
-    /// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
-    fn quantities(&self) -> Vec<Option<Quantity>> {
-        let grid = &self.grid;
-        let are_components = grid.headings.iter().any(|heading| matches!(&*heading.name, "l" | "r"));
-        let mut quantities: Vec<Option<Quantity>> =
-            grid.headings.iter().map(|heading| quantity(heading, are_components)).collect();
-        quantities.resize(grid.columns, None);
-        let may_be_time = grid.columns > 1 && !quantities.contains(&Some(Quantity::Time));
-        if may_be_time && quantities[0].is_none() {
-            let is_time = clock_s(grid.cell(0, 0)).is_some()
-                || self.numbers(0).is_ok_and(|times| times.is_sorted_by(|time, next| time < next));
-            quantities[0] = is_time.then_some(Quantity::Time);
-        }
-        quantities
-    }
-
-    /// The column of times: of numbers, else of a clock.
-    fn times(&self, quantities: &[Option<Quantity>]) -> Option<usize> {
-        let mut times: Vec<usize> = (0..self.grid.columns).collect();
-        times.retain(|&column| quantities[column] == Some(Quantity::Time));
-        let numeric = times.iter().find(|&&column| self.grid.number(0, column).is_ok());
-        numeric.or(times.first()).copied()
-    }
-
-    /// The column that the user names by its number or heading.
-    fn chosen(&self, choice: &str, quantities: &[Option<Quantity>]) -> Result<usize, RecordFileError> {
-        let mut headings = self.grid.headings.iter();
-        let column = match choice.parse::<usize>() {
-            Ok(number) => number.checked_sub(1),
-            Err(_) => headings.position(|heading| heading.text == choice || heading.name == choice),
-        };
-        match column.and_then(|column| Some((column, *quantities.get(column)?))) {
-            Some((column, None | Some(Quantity::Acceleration))) => Ok(column),
-            Some((_, Some(other))) => {
-                let found = format!("{other:?}").to_lowercase();
-                Err(RecordFileError::NotAcceleration { line: self.line, found })
-            }
-            None => Err(self.which_column()),
-        }
-    }
-
-    /// Finds the columns of acceleration: those with such a heading, those of directions, or the only one
-    /// that may be it.
-    fn accelerations(&self, quantities: &[Option<Quantity>]) -> Result<Vec<usize>, RecordFileError> {
-        let (grid, line) = (&self.grid, self.line);
-        if let Some(heading) = grid.headings.iter().find(|heading| is_of_spectrum(heading)) {
-            let found = format!("'{}': a spectrum", heading.text);
-            return Err(RecordFileError::NotAcceleration { line, found });
-        }
-        let (mut named, mut unknown, mut directions) = (Vec::new(), Vec::new(), Vec::new());
-        for column in (0..grid.columns).filter(|&column| !grid.cell(0, column).is_empty()) {
-            match quantities[column] {
-                Some(Quantity::Acceleration) => named.push(column),
-                Some(_) => {}
-                None => {
-                    unknown.push(column);
-                    directions.extend(grid.headings.get(column).and_then(direction).map(|_| column));
-                }
-            }
-        }
-        let is_processed = |column: &usize| {
-            let words = grid.headings.get(*column).map_or("", |heading| &*heading.name).split('_');
-            words.into_iter().any(|word| PROCESSED.contains(&word))
-        };
-        match (named.is_empty(), directions.len(), unknown.len()) {
-            // The same motion before and after.
-            (false, ..) if named.len() > 1 && named.iter().any(is_processed) => Err(self.which_column()),
-            (false, ..) => Ok(named),
-            (.., 1) => Ok(unknown),
-            (.., 0) => Err(RecordFileError::NotAcceleration { line, found: self.columns() }),
-            // One alone may be a number n, or s for a time.
-            (_, 2.., _) => Ok(directions),
-            _ => Err(self.which_column()),
-        }
-    }
-
-    fn columns(&self) -> String {
-        let texts: Vec<&str> = self.grid.headings.iter().map(|heading| heading.text.as_str()).collect();
-        format!("{} columns {}", self.grid.columns, texts.join(", "))
-    }
-
-    fn which_column(&self) -> RecordFileError {
-        RecordFileError::Column { columns: self.columns() }
-    }
-
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
-    fn unit(&self, heading: Option<&Heading>) -> Result<Unit, RecordFileError> {
+    fn unit(&self, heading: &Heading) -> Result<Unit, RecordFileError> {
         let (options, line) = (self.options, self.line);
-        if let Some(heading) = heading.filter(|heading| heading.is_scaled && options.unit.is_none()) {
-            let expected = "a unit without a factor, or --unit";
-            return Err(RecordFileError::value(line, "unit", &heading.text, expected));
-        }
-        let notes = self
-            .notes
-            .iter()
-            .filter(|note| ["acc", "unit", "vel", "dis"].iter().any(|word| note.name.contains(word)));
-        let noted = notes.filter_map(|note| note.unit).next();
-        match heading.and_then(|heading| heading.unit).or(noted) {
+        let notes = self.grid.notes.iter().map(|note| Heading::new(note));
+        let mut notes =
+            notes.filter(|note| ["acc", "unit", "vel", "dis"].iter().any(|word| note.name.contains(word)));
+        let noted = || notes.find_map(|note| note.unit).filter(|_| !heading.is_scaled);
+        let is_unknown = heading.is_scaled || heading.text.contains(['(', '[']);
+        match heading.unit.or_else(noted) {
+            None if is_unknown && options.unit.is_none() => {
+                let expected = "one of acceleration, such as cm/s2, without a factor, or --unit";
+                Err(RecordFileError::value(line, "unit", &heading.text, expected))
+            }
             None => given_unit(options, line),
             Some(unit) if unit.quantity != Quantity::Acceleration => {
                 Err(RecordFileError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
@@ -259,22 +172,30 @@ impl Samples<'_> {
         }
     }
 
+    /// Finds the time step (s) by the column of times, else by a comment, which must agree.
+    fn step(&self) -> Result<Option<f64>, RecordFileError> {
+        let noted = noted_step(&self.grid.notes);
+        let Some(times) = self.times else { return Ok(noted) };
+        let step = self.step_between(times)?;
+        expect_step(&ReadOptions { dt_s: noted, ..ReadOptions::default() }, step, self.line)?;
+        Ok(Some(step))
+    }
+
     /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.
-    fn step(&self, column: usize) -> Result<f64, RecordFileError> {
+    fn step_between(&self, column: usize) -> Result<f64, RecordFileError> {
         let (grid, given) = (&self.grid, self.options.dt_s);
-        let unit = grid.headings.get(column).and_then(|heading| heading.unit);
-        let in_s = unit.filter(|unit| unit.quantity == Quantity::Time).map_or(1.0, |unit| unit.si);
-        let (mut times, mut decimals) = (Vec::new(), 0);
+        let unit = self.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
+        let in_s = unit.map_or(1.0, |unit| unit.si);
+        let (mut times, mut decimals) = (Vec::<f64>::new(), 0);
         for row in 0..grid.lines.len() {
             let cell = grid.cell(row, column);
-            let time = match clock_s(cell) {
+            times.push(match clock_s(cell) {
                 // Past midnight.
                 Some(clock) if times.last().is_some_and(|last| clock < last - 0.5 * DAY_S) => clock + DAY_S,
                 Some(clock) => clock,
                 None => in_s * grid.number(row, column)?,
-            };
-            times.push(time);
-            decimals = decimals.max(cell.split(['.', ',']).nth(1).map_or(0, str::len));
+            });
+            decimals = decimals.max(decimals_of(cell));
         }
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let mut ordered = steps.clone();
@@ -284,8 +205,7 @@ impl Samples<'_> {
         let last_digit = in_s * 10f64.powi(-(decimals.min(300) as i32));
         let in_digits = given.unwrap_or(0.0) / last_digit;
         let is_rounded = (in_digits - in_digits.round()).abs() > 1e-6 * in_digits;
-        let rounding = if is_rounded { last_digit } else { 0.0 };
-        let most = rounding + UNEVEN * usual.abs();
+        let most = if is_rounded { last_digit } else { 0.0 } + UNEVEN * usual.abs();
         if let Some(at) = steps.iter().position(|step| (step - usual).abs() > most) {
             let line = grid.lines[at + 1];
             return Err(RecordFileError::UnevenTime { line, found_s: steps[at], expected_s: usual });
@@ -294,6 +214,84 @@ impl Samples<'_> {
         // Removes digits that the file does not have.
         Ok((mean * 1e12).round() / 1e12)
     }
+
+    /// Reads the samples of a column; without headings and times, a number of samples and the time step that
+    /// is given may stand above them.
+    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>, RecordFileError> {
+        let mut samples = numbers(&self.grid, column)?;
+        let decimals = |row: usize| decimals_of(self.grid.cell(row, column));
+        let mut above = 0;
+        while above < 2 && above + 1 < samples.len() && self.grid.headings.is_empty() && step.is_none() {
+            let first = samples[above];
+            if USUAL_S.contains(&first) && decimals(above) != decimals(above + 1) {
+                expect_step(self.options, first, self.grid.lines[above])?;
+            }
+            let is_count = [1, 2].iter().any(|above| first == samples.len() as f64 - f64::from(*above));
+            if !is_count && self.options.dt_s != Some(first) {
+                break;
+            }
+            above += 1;
+        }
+        samples.drain(..above);
+        Ok(samples)
+    }
+
+    /// Reads all cells as one series.
+    fn wrapped(&self) -> Result<Vec<f64>, RecordFileError> {
+        self.expect_one_series(true)?;
+        let rows = 0..self.grid.lines.len();
+        let cells = rows.flat_map(|row| (0..self.grid.columns).map(move |column| (row, column)));
+        let filled = cells.filter(|(row, column)| !self.grid.cell(*row, *column).is_empty());
+        filled.map(|(row, column)| Ok(self.grid.number(row, column)?)).collect()
+    }
+
+    /// Refuses samples without times among which another line stands, and a short line of wrapped ones before
+    /// the last: another series may begin there, or the file is damaged.
+    fn expect_one_series(&self, is_wrapped: bool) -> Result<(), RecordFileError> {
+        let expected = self.grid.columns;
+        for (row, lines) in self.grid.lines.windows(2).enumerate() {
+            let found = (0..expected).take_while(|&at| !self.grid.cell(row, at).is_empty()).count();
+            if is_wrapped && found < expected {
+                return Err(RecordFileError::ShortLine { line: lines[0], found, expected });
+            }
+            if self.times.is_none() && lines[1] != lines[0] + 1 {
+                return Err(RecordFileError::ShortLine { line: lines[0] + 1, found: 0, expected });
+            }
+        }
+        Ok(())
+    }
+
+    fn found(&self) -> String {
+        let texts: Vec<&str> = self.grid.headings.iter().map(|heading| heading.text.as_str()).collect();
+        let texts = if texts.is_empty() { "without headings".to_string() } else { texts.join(", ") };
+        format!("{} columns {texts}", self.grid.columns)
+    }
+
+    fn which_column(&self) -> RecordFileError {
+        RecordFileError::Column { columns: self.found() }
+    }
+}
+
+fn numbers(grid: &Grid, column: usize) -> Result<Vec<f64>, RecordFileError> {
+    (0..grid.lines.len()).map(|row| Ok(grid.number(row, column)?)).collect()
+}
+
+/// Digits behind the decimal sign.
+fn decimals_of(cell: &str) -> usize {
+    cell.split(['.', ',']).nth(1).map_or(0, str::len)
+}
+
+/// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
+fn quantities(grid: &Grid, headings: &[Heading]) -> Vec<Option<Quantity>> {
+    let are_components = headings.iter().any(|heading| matches!(&*heading.name, "l" | "r"));
+    let mut quantities: Vec<Option<Quantity>> =
+        headings.iter().map(|heading| quantity(heading, are_components)).collect();
+    if grid.columns > 1 && quantities[0].is_none() && !quantities.contains(&Some(Quantity::Time)) {
+        let is_time = clock_s(grid.cell(0, 0)).is_some()
+            || numbers(grid, 0).is_ok_and(|times| times.is_sorted_by(|time, next| time < next));
+        quantities[0] = is_time.then_some(Quantity::Time);
+    }
+    quantities
 }
 
 /// The quantity that a heading names; T beside L or R is a component.
@@ -312,9 +310,11 @@ fn quantity(heading: &Heading, are_components: bool) -> Option<Quantity> {
     named.or(own)
 }
 
-fn is_of_spectrum(heading: &Heading) -> bool {
-    const SPECTRAL: [&str; 7] = ["sa", "psa", "psv", "period", "periods", "frequency", "freq"];
-    heading.name.split('_').any(|word| SPECTRAL.contains(&word) || word.starts_with("spectr"))
+/// What a heading is about that is no acceleration over time.
+fn other(heading: &Heading) -> Option<&'static str> {
+    let is_named = |word: &str, start: &str| word == start || start.len() > 3 && word.starts_with(start);
+    let mut words = heading.name.split('_');
+    words.find_map(|word| OTHERS.iter().find(|(start, _)| is_named(word, start)).map(|(_, what)| *what))
 }
 
 /// The word of a heading that names a direction: N-S, acc_EW, UD (gal), az, acc 90 deg.
@@ -336,14 +336,6 @@ fn direction(heading: &Heading) -> Option<&str> {
     })
 }
 
-/// Drops the number of samples and the time step if they stand above the samples.
-fn drop_header(samples: &mut Vec<f64>, dt_s: Option<f64>) {
-    let counts = [1, 2].map(|above| samples.len() as f64 - f64::from(above));
-    let first = samples.iter().take(2);
-    let length = first.take_while(|value| counts.contains(value) || Some(**value) == dt_s).count();
-    samples.drain(..length);
-}
-
 /// Reads the time of day, s, in a cell such as `2020/01/20 20:13:20.01` or `20:13:20.01Z`.
 fn clock_s(cell: &str) -> Option<f64> {
     let (_, time) = cell.rsplit_once([' ', 'T']).unwrap_or(("", cell));
@@ -352,20 +344,18 @@ fn clock_s(cell: &str) -> Option<f64> {
     Some(3600.0 * hours + 60.0 * minutes + seconds)
 }
 
-/// Reads the time step (s) by a comment such as `SamplingFrequency(Hz): 100`, or with the number in the same
-/// place of the next one.
-fn noted_frequency(notes: &[String]) -> Option<f64> {
+/// Reads the time step (s) by a comment such as `dt = 0.01 s`, or `SamplingFrequency(Hz): 100`, perhaps with
+/// the number in the same place of the next one.
+fn noted_step(notes: &[String]) -> Option<f64> {
     notes.iter().enumerate().find_map(|(at, note)| {
-        let mut cells = note.split(',').map(|cell| cell.to_lowercase());
+        let heading = Heading::new(note);
+        if heading.name.starts_with("dt_") {
+            return Some(first_number(note)? * heading.unit.map_or(1.0, |unit| unit.si));
+        }
+        let mut cells = note.split(',').map(str::to_lowercase);
         let place = cells.position(|cell| cell.contains("sampling") && cell.contains("hz"))?;
-        let own = note.split(',').nth(place).and_then(first_number);
-        let below = || notes.get(at + 1)?.split(',').nth(place).and_then(first_number);
-        own.or_else(below).filter(|frequency| *frequency > 0.0).map(|frequency| 1.0 / frequency)
+        let both = [Some(note), notes.get(at + 1)].into_iter().flatten();
+        let mut numbers = both.filter_map(|note| note.split(',').nth(place).and_then(first_number));
+        numbers.next().filter(|frequency| *frequency > 0.0).map(|frequency| 1.0 / frequency)
     })
-}
-
-/// Reads the time step (s) in a comment such as `dt = 0.01 s`.
-fn noted_step(note: &Heading) -> Option<f64> {
-    let value = first_number(&note.text).filter(|_| note.name.starts_with("dt_"))?;
-    Some(value * note.unit.map_or(1.0, |unit| unit.si))
 }

@@ -127,9 +127,13 @@ impl Importer {
         match work {
             Work::File(file) => {
                 let mut records = self.read(file);
+                let several = records.len() > 1;
                 records.retain(|read| read.as_ref().map_or(true, |record| !self.leaves_out(&record.motion)));
                 let imported = records.into_iter().map(|record| {
-                    self.processing.import(record?).map_err(|error| unprocessed(&file.path, &error))
+                    let record = record?;
+                    let column = record.motion.component.clone().filter(|_| several);
+                    let column = column.map_or(String::new(), |column| format!("column '{column}': "));
+                    self.processing.import(record).map_err(|error| unprocessed(&file.path, &column, &error))
                 });
                 imported.collect()
             }
@@ -142,7 +146,9 @@ impl Importer {
             let record = self.read(file).into_iter().flatten().nth(*index);
             record.ok_or_else(|| refusal(&file.path, &"changed while it was read; run again"))
         });
-        self.processing.import_pair([first?, second?]).map_err(|error| unprocessed(&pair[0].0.path, &error))
+        self.processing
+            .import_pair([first?, second?])
+            .map_err(|error| unprocessed(&pair[0].0.path, "", &error))
     }
 
     /// Reads the records of a file, or of those in an archive; in words what is wrong with some.
@@ -235,7 +241,7 @@ fn unread(file: &Path, error: &RecordFileError) -> String {
 }
 
 /// Why a record cannot be imported, and the option that helps.
-fn unprocessed(file: &Path, error: &ProcessingError) -> String {
+fn unprocessed(file: &Path, column: &str, error: &ProcessingError) -> String {
     let option = match error {
         ProcessingError::Implausible(Implausibility::Drift { .. }) => {
             " (--baseline linear corrects it, --accept-implausible imports it anyway)"
@@ -246,5 +252,5 @@ fn unprocessed(file: &Path, error: &ProcessingError) -> String {
         ProcessingError::Resampled { .. } => ": choose another for --resample",
         ProcessingError::Zero | ProcessingError::Corner { .. } => "",
     };
-    format!("{}{option}", refusal(file, error))
+    refusal(file, &format!("{column}{error}{option}"))
 }

@@ -1,18 +1,18 @@
 //! Lists of what stood and what fell: objects as in a list of objects, with the PGA and PGV where they stood.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
 
-use crate::fragility::{ObservedOutcome, Peak};
-use crate::inputs::hazard::peak;
+use crate::fragility::ObservedOutcome;
+use crate::inputs::intensities::motions;
+use crate::inputs::objects::{self, Common};
 use crate::inputs::words::means;
-use crate::inputs::{Grid, InputError, objects};
-use crate::motion::{Peaks, judge_medians};
-use crate::plausibility::MAGNITUDES;
+use crate::inputs::{Grid, Heading, InputError};
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
-use crate::warning::Warnings;
+use crate::warning::{Warning, Warnings};
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {
@@ -35,68 +35,62 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     grid.map_err(Into::into).and_then(|grid| outcomes(&grid)).with_context(|| path.display().to_string())
 }
 
-fn outcomes(sheet: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
-    let peaks: Vec<_> = sheet.headings.iter().map(peak).collect();
-    let [pga, pgv] = [Peak::Pga, Peak::Pgv]
-        .map(|wanted| peaks.iter().position(|found| found.is_some_and(|(peak, _)| peak == wanted)));
-    let (Some(pga), Some(pgv), Some(fell)) = (pga, pgv, sheet.about("outcome")) else {
+fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
+    let mut doubts = Warnings::default();
+    let (Some(motions), Some(fell)) = (motions(grid, &mut doubts)?, grid.about("outcome")) else {
         let expected = "objects, and of each pga_g, pgv_m_s and fell (yes or no)";
-        bail!("{}; expected {expected}", sheet.found());
+        bail!("{}; expected {expected}", grid.found());
     };
-    let peak_in = |row: usize, column: usize| {
-        let unit = peaks[column].map_or(1.0, |(_, unit)| unit);
-        sheet
-            .within(row, column, &(f64::MIN_POSITIVE..=f64::MAX), "a number above 0")
-            .map(|value| unit * value)
-    };
-    let (magnitude, earthquake) = (sheet.about("magnitude"), sheet.about("earthquake"));
-    let others: Vec<usize> =
-        [Some(pga), Some(pgv), Some(fell), magnitude, earthquake].into_iter().flatten().collect();
-    let (objects, unused) = objects::in_rows(sheet, &others)?;
-    let mut earthquakes: Vec<&str> = Vec::new();
-    let mut read = Vec::new();
+    let names_outcome =
+        |heading: &&Heading| means(&heading.name, "outcome") || means(&heading.name, "upright");
+    let outcomes: Vec<&str> =
+        grid.headings.iter().filter(names_outcome).map(|heading| heading.text.as_str()).collect();
+    if outcomes.len() > 1 {
+        bail!("columns {}; expected one of what befell each object", outcomes.join(", "));
+    }
+    let earthquake = grid.about("earthquake");
+    let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
+    let (objects, unused) = objects::in_rows(grid, &others, &Common::default())?;
+    doubts.extend(unused);
+    let (mut earthquakes, mut rows, mut read) = (Vec::<&str>::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
-        let line = format!("line {}", sheet.lines[row]);
+        let line = format!("line {}", grid.lines[row]);
         if object.count.is_some_and(|count| count != 1) {
             bail!("{line}: several objects; expected one in each row");
         }
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
-        let structure = sides[0].structure.clone();
-        let peaks = Peaks { pga_m_s2: peak_in(row, pga)?, pgv_m_s: peak_in(row, pgv)? }.at_rim();
-        let fell = has_fallen(sheet, row, fell)?;
+        let (structure, peaks) = (sides[0].structure.clone(), motions.peaks[row]);
+        let fell = has_fallen(grid, row, fell)?;
         if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
                 "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? \
                  leave it out"
             );
         }
-        let name = earthquake.map_or("", |column| sheet.cell(row, column));
+        let cells: Vec<&str> = (0..grid.columns).map(|at| grid.cell(row, at)).collect();
+        if let Some(first) = rows.insert(cells, grid.lines[row]) {
+            doubts.add(Warning::Repeated, format!("{line} as line {first}"));
+        }
+        let name = earthquake.map_or("", |column| grid.cell(row, column));
         let known = earthquakes.iter().position(|other| *other == name);
         if known.is_none() {
             earthquakes.push(name);
         }
-        let mw = magnitude.filter(|column| !sheet.cell(row, *column).is_empty());
-        read.push(ObservedOutcome {
-            structure,
-            peaks,
-            mw: mw.map(|at| sheet.within(row, at, &MAGNITUDES, "a magnitude from 1 to 9.9")).transpose()?,
-            earthquake: known.unwrap_or(earthquakes.len() - 1) as u32,
-            fell,
-        });
+        let earthquake = known.unwrap_or(earthquakes.len() - 1) as u32;
+        read.push(ObservedOutcome { structure, peaks, mw: motions.mw[row], earthquake, fell });
     }
-    judge_medians(read.iter().map(|outcome| outcome.peaks))?;
-    Ok((read, unused))
+    Ok((read, doubts))
 }
 
-fn has_fallen(sheet: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
-    let is_open = ["outcome", "state"].contains(&&*sheet.headings[column].name);
-    match sheet.cell(row, column) {
+fn has_fallen(grid: &Grid, row: usize, column: usize) -> Result<bool, InputError> {
+    let is_open = ["outcome", "state"].contains(&&*grid.headings[column].name);
+    match grid.cell(row, column) {
         cell if is_open && (means(cell, "yes") || means(cell, "free")) => {
-            Err(sheet.refusal(row, column, "fell or stood"))
+            Err(grid.refusal(row, column, "fell or stood"))
         }
         cell if means(cell, "fell") => Ok(true),
         cell if means(cell, "stood") => Ok(false),
-        _ => Err(sheet.refusal(row, column, "fell or stood, or yes or no")),
+        _ => Err(grid.refusal(row, column, "fell or stood, or yes or no")),
     }
 }
