@@ -75,8 +75,8 @@ pub fn range_of_column(name: &str) -> (RangeInclusive<f64>, &'static str) {
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
-/// PGA, g, that the hazard of any site reaches.
-const REACHED_PGA_G: f64 = 0.03;
+/// PGA or spectral acceleration, g, and PGV, m/s, that the hazard of any site reaches.
+const REACHED: f64 = 0.03;
 
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -90,9 +90,11 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), Implausi
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
     let (unit, strongest) = if is_velocity { ("m/s", STRONGEST_PGV_M_S) } else { ("g", STRONGEST_PGA_G) };
     let most = points.iter().map(|(value, _)| *value).fold(0.0, f64::max);
-    if !is_velocity && most < REACHED_PGA_G && !points.is_empty() {
-        let (most, expected) = (significant(most, 3), format!("expected {REACHED_PGA_G} g or more"));
-        return Err(ImplausibleHazard(format!("{measure} of {most} g at most; {expected}: a wrong unit?")));
+    if most < REACHED && !points.is_empty() {
+        let (most, expected) = (significant(most, 3), format!("expected {REACHED} {unit} or more"));
+        return Err(ImplausibleHazard(format!(
+            "{measure} of {most} {unit} at most; {expected}: a wrong unit?"
+        )));
     }
     let is_plausible =
         |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);

@@ -75,7 +75,7 @@ impl Warning {
             LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
             OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             NotCounted => "with a depth nothing is counted: a response is to one component of a motion",
-            Repeated => "the same row again, counted as another object",
+            Repeated => "the same object again, counted as another",
             NotGiven => "no value: answered as if nothing were known of it",
             NoPartner => "no perpendicular component: left out",
         }

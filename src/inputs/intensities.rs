@@ -49,7 +49,7 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
         }
         let cells = match numbers.collect() {
             Ok(numbers) => Cells::Numbers(numbers),
-            Err(error) if peak(heading).is_some() => return Err(error),
+            Err(error) if peak(heading).is_some() || means(&heading.name, "magnitude") => return Err(error),
             Err(_) => Cells::Texts(rows.map(|row| grid.cell(row, at).to_string()).collect()),
         };
         let name = match heading.name.as_str() {

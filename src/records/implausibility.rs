@@ -20,9 +20,13 @@ const SPIKE: (f64, f64) = (0.02, 0.25);
 /// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground
 /// is at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
-/// The last share of a record, and the share of the PGA that it does not reach: of 579 components (PEER, FEMA
-/// P695) the loudest end has 0.21.
-const QUIET_END: (f64, f64) = (0.05, 0.3);
+/// The last share of a record, its first time, s, and the share of the PGA that they do not reach: of 607
+/// components (PEER, FEMA P695) the loudest end has 0.21, the loudest beginning 0.06.
+const LAST: f64 = 0.05;
+const FIRST_S: f64 = 0.1;
+const QUIET: f64 = 0.3;
+/// So many samples at the positive and at the negative peak show that both are cut.
+const AT_PEAK: usize = 3;
 
 fn digits(value: &f64) -> String {
     significant(*value, 3)
@@ -54,8 +58,10 @@ pub enum Implausibility {
     Fast { frequency_hz: f64 },
     #[error("PGA {} g; too weak to rock anything: g in place of cm/s2?", digits(.pga_g))]
     WeakPga { pga_g: f64 },
-    #[error("{} % of its PGA in the last 5 %; expected a quiet end: cut off?", digits(&(100.0 * .share)))]
-    CutOff { share: f64 },
+    #[error("{} % of its PGA in {part}; expected rest: cut off?", digits(&(100.0 * .share)))]
+    CutOff { share: f64, part: &'static str },
+    #[error("several samples at PGA {} g of both signs; expected one: clipped?", digits(.pga_g))]
+    Clipped { pga_g: f64 },
     #[error("PGA {} g; few records exceed 2 g: is it in m/s2?", digits(.pga_g))]
     RarePga { pga_g: f64 },
     #[error("PGV {} m/s; few records exceed 2.5 m/s: is it in another unit?", digits(.pgv_m_s))]
@@ -69,6 +75,7 @@ impl Implausibility {
             self,
             Implausibility::WeakPga { .. }
                 | Implausibility::CutOff { .. }
+                | Implausibility::Clipped { .. }
                 | Implausibility::RarePga { .. }
                 | Implausibility::RarePgv { .. }
         )
@@ -92,8 +99,11 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     let velocity_m_s = velocity.last().map_or(0.0, |last| last.abs());
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
-    let end = ((1.0 - QUIET_END.0) * samples as f64) as usize;
-    let share = peak(&acceleration[end..]) / pga_m_s2;
+    let (start, end) = ((FIRST_S / dt_s) as usize, ((1.0 - LAST) * samples as f64) as usize);
+    let at_start = peak(&acceleration[..start.min(samples)]) / pga_m_s2;
+    let at_end = peak(&acceleration[end..]) / pga_m_s2;
+    let is_clipped =
+        [pga_m_s2, -pga_m_s2].iter().all(|top| acceleration.iter().filter(|a| *a == top).count() >= AT_PEAK);
     let warnings = [
         (!RECORDED_STEPS_S.contains(&dt_s), Implausibility::TimeStep { dt_s }),
         (samples < FEWEST_SAMPLES, Implausibility::FewSamples { samples }),
@@ -109,7 +119,9 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
             Implausibility::Fast { frequency_hz },
         ),
         (pga_g < WEAKEST_PGA_G, Implausibility::WeakPga { pga_g }),
-        (share > QUIET_END.1, Implausibility::CutOff { share }),
+        (at_start > QUIET, Implausibility::CutOff { share: at_start, part: "its first 0.1 s" }),
+        (at_end > QUIET, Implausibility::CutOff { share: at_end, part: "its last 5 %" }),
+        (is_clipped, Implausibility::Clipped { pga_g }),
         (pga_g > RARE_PGA_G, Implausibility::RarePga { pga_g }),
         (pgv_m_s > RARE_PGV_M_S, Implausibility::RarePgv { pgv_m_s }),
     ];

@@ -185,7 +185,7 @@ fn files_that_cannot_be_right_are_refused_by_what_they_are() {
     let pga = curve("pga_g,AFE", 1.0);
     let joint = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n";
     for (other, named) in [
-        (&*curve("PGV (cm/s),AFE", 0.1), ["PGV/PGA", "s at"]),
+        (&*curve("PGV (cm/s),AFE", 1.0), ["PGV/PGA", "s at"]),
         (&pga, ["two curves of PGA", "b.csv"]),
         (joint, ["PGA and PGV", "alone"]),
     ] {

@@ -44,7 +44,9 @@ fn every_limit_is_kept() {
         (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
         (format!("{:?}", implausibility(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
         (format!("{:?}", implausibility(&motion(1000)[..540], DT)), "Some(CutOff { share: 0.9"),
-        (format!("{:?}", implausibility(&motion(1000)[..900], DT)), "None"),
+        (format!("{:?}", implausibility(&motion(1000)[460..], DT)), "Some(CutOff { share: "),
+        (format!("{:?}", implausibility(&motion(1000)[100..900], DT)), "None"),
+        (kind(DT, &|_, a| a.clamp(-2.0, 2.0)), "Some(Clipped { pga_g: 0.20"),
     ] {
         assert!(found.starts_with(expected), "{expected}: {found}");
     }

@@ -96,6 +96,9 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
     let (pga, pgv) = (central(Measure::Pga), central(Measure::Pgv));
     let spectral = central(Measure::Spectral).filter(|_| pgv.is_none());
     let (main, mut hazard) = match (pga, pgv, spectral) {
+        (Some(pga), None, Some(spectral)) if pga.curve == spectral.curve => {
+            return Err(InputError::missing("SA(1.0 s) as PGA, at all rates", "the curves of both"));
+        }
         (Some(pga), None, Some(spectral)) => {
             let points = spectral.curve.points().iter();
             judge_spectrum(points.map(|(sa, rate)| sa / pga.curve.intensity(*rate)))

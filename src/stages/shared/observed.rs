@@ -52,7 +52,8 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
     let (objects, unused) = objects::in_rows(grid, &others, &Common::default())?;
     doubts.extend(unused);
-    let (mut earthquakes, mut rows, mut read) = (Vec::<&str>::new(), HashMap::new(), Vec::new());
+    let (mut earthquakes, mut rows, mut read) =
+        (Vec::<(&str, Option<f64>)>::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", grid.lines[row]);
         if object.count.is_some_and(|count| count != 1) {
@@ -68,17 +69,24 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
                  leave it out"
             );
         }
-        let cells: Vec<&str> = (0..grid.columns).map(|at| grid.cell(row, at)).collect();
-        if let Some(first) = rows.insert(cells, grid.lines[row]) {
+        let cells = (0..grid.columns).filter(|at| Some(*at) != grid.about("outcome"));
+        let cells: Vec<&str> = cells.map(|at| grid.cell(row, at)).collect();
+        if let Some(first) = rows.insert(cells, grid.lines[row]).filter(|_| grid.about("name").is_some()) {
             doubts.add(Warning::Repeated, format!("{line} as line {first}"));
         }
-        let name = earthquake.map_or("", |column| grid.cell(row, column));
-        let known = earthquakes.iter().position(|other| *other == name);
+        let (name, mw) = (earthquake.map_or("", |column| grid.cell(row, column)), motions.mw[row]);
+        let known = earthquakes.iter().position(|(other, _)| *other == name);
+        let number = known.unwrap_or(earthquakes.len());
         if known.is_none() {
-            earthquakes.push(name);
+            earthquakes.push((name, mw));
         }
-        let earthquake = known.unwrap_or(earthquakes.len() - 1) as u32;
-        read.push(ObservedOutcome { structure, peaks, mw: motions.mw[row], earthquake, fell });
+        if let (Some(first), Some(mw)) = (earthquakes[number].1, mw)
+            && first != mw
+            && !name.is_empty()
+        {
+            bail!("{line}: magnitude {mw}; expected {first}, that of earthquake '{name}' before");
+        }
+        read.push(ObservedOutcome { structure, peaks, mw, earthquake: number as u32, fell });
     }
     Ok((read, doubts))
 }
