@@ -58,6 +58,8 @@ for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "-
     options.add_argument(argument)
 options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
 browser = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
+# A scroll bar, which the picture does not show, would cut the right margin off.
+browser.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
 faults = []
 for page in (page.resolve() for page in arguments.pages):
     folder = arguments.into or page.parent

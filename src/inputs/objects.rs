@@ -303,6 +303,7 @@ impl List<'_> {
             }
         }
         object.place = self.on_floor(row, object.place)?;
+        object.floor = self.floor_in_words(row);
         Ok(object)
     }
 
@@ -357,6 +358,16 @@ impl List<'_> {
             None => None,
         };
         Ok(floors::place(above, storeys, building, known))
+    }
+
+    fn floor_in_words(&self, row: usize) -> Option<String> {
+        match Storey::parse(self.cell(row, Column::Storey)?)? {
+            Storey::Number(number) | Storey::Above(number) => {
+                let all = self.cell(row, Column::Storeys).map(|all| format!(" of {all}"));
+                Some(format!("floor {number}{}", all.unwrap_or_default()))
+            }
+            _ => None,
+        }
     }
 
     /// Why the object of a row is not free to rock.

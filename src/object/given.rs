@@ -99,6 +99,9 @@ pub struct Object {
     /// Where it stands.
     #[serde(flatten)]
     pub place: Place,
+    /// Its floor as its list has it: `floor 3 of 5`.
+    #[serde(skip)]
+    pub floor: Option<String>,
     /// Why there is no answer, whatever its shape.
     #[serde(skip)]
     pub refused: Option<Reason>,

@@ -24,6 +24,7 @@ pub struct Evaluation {
     pub hazard: String,
     /// Key of the hazard: the same for the same files.
     pub hazard_key: String,
+    /// The worst first, those without an answer last.
     pub rows: Vec<Rated>,
     pub portrait: Portrait,
 }
@@ -42,6 +43,8 @@ pub struct Portrait {
 #[derive(Debug, Clone)]
 pub struct Change {
     pub words: String,
+    /// Whether it stands on another floor.
+    pub is_moved: bool,
     /// The probability of overturning then; several where what is measured may come out low or high.
     pub p: Vec<Limited>,
 }
@@ -63,6 +66,30 @@ pub struct SiteHazard {
     /// Intensities, m/s2 or m/s, and annual rates of exceedance.
     pub points: Vec<(f64, f64)>,
     pub parts: RateByIntensity,
+}
+
+impl Evaluation {
+    /// Joins evaluations of the same time of exposure, whose objects then have the names of their files.
+    pub fn joined(all: &[Evaluation]) -> Evaluation {
+        let [first, others @ ..] = all else { return Evaluation::default() };
+        let mut hazards: Vec<&str> = all.iter().map(|one| one.hazard.as_str()).collect();
+        hazards.dedup();
+        let mut joined = Evaluation {
+            target: first.target.filter(|target| others.iter().all(|other| other.target == Some(*target))),
+            hazard: hazards.join("; "),
+            rows: Vec::new(),
+            ..first.clone()
+        };
+        for Evaluation { file, rows, .. } in all {
+            let named = rows.iter().map(|rated| {
+                let object = ObjectRow { file: file.clone(), ..rated.object.clone() };
+                Rated { object, ..rated.clone() }
+            });
+            joined.rows.extend(named);
+        }
+        joined.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
+        joined
+    }
 }
 
 impl ObjectRow {
@@ -89,16 +116,38 @@ impl ObjectRow {
         self.size().replace(" x ", " × ").replace("alpha", "α")
     }
 
-    /// The floor that it stands on: `level 0.6 of a 0.5 s building`; none on the ground.
-    pub fn floor(&self) -> Option<String> {
-        let floor = self.floor_level.zip(self.floor_period_s)?;
-        let [level, period] = [floor.0, floor.1].map(|value| number::plain((100.0 * value).round() / 100.0));
-        Some(format!("level {level} of a {period} s building"))
+    pub fn is_upstairs(&self) -> bool {
+        self.floor_level.is_some()
     }
 
-    /// What it is called without a name, in a text: `Block of 0.50 x 1.90 m at level 1 of a 0.5 s building`.
+    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`.
+    pub fn place(&self) -> String {
+        match (&self.floor, self.floor_level) {
+            (_, None) => "on the ground".to_string(),
+            (Some(floor), _) => format!("on {floor}"),
+            (None, Some(1.0)) => "on the roof".to_string(),
+            (None, Some(level)) => format!("{} % up the building", number::fixed(100.0 * level, 0)),
+        }
+    }
+
+    /// The same in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
+    pub fn short_place(&self) -> String {
+        let place = self.place().replace(" the building", "");
+        let bare = place.strip_prefix("on the ").or(place.strip_prefix("on "));
+        literal(bare.unwrap_or(&place)).replace(' ', "\u{a0}")
+    }
+
+    /// The floor and the period of the building after a sign: `, 60 % up the building (period 0.5 s)`;
+    /// nothing on the ground.
+    pub fn floor_after(&self, sign: &str) -> String {
+        let period = self.floor_period_s.filter(|_| self.is_upstairs());
+        let period = period.map(|period| number::plain((100.0 * period).round() / 100.0));
+        period.map_or(String::new(), |period| format!("{sign}{} (period {period} s)", self.place()))
+    }
+
+    /// What it is called in a text: `Block of 0.50 x 1.90 m, on the roof (period 0.5 s)`.
     pub fn title(&self) -> String {
-        let floor = self.floor().map_or(String::new(), |floor| format!(" at {floor}"));
+        let floor = self.floor_after(", ");
         match self.name() {
             Some(name) => format!("{}, {}{floor}", number::name(name), self.size()),
             None => format!("{} of {}{floor}", self.kind(), self.size()),
@@ -130,10 +179,13 @@ pub fn in_years(years: f64) -> String {
     format!("in {} year{}", number::plain(years), if years == 1.0 { "" } else { "s" })
 }
 
-/// A width, or the least of both sides, that meets a target.
-pub fn base_in_words(width: Option<f64>, sides: Option<f64>) -> Option<String> {
-    let width = width.map(|width| format!("{width:.2} m"));
-    width.or_else(|| Some(format!("{:.2} m on both sides", sides?)))
+/// The base of an object that a search for a target found: of this width, or with both sides no less than
+/// this.
+pub fn base_in_words(object: &ObjectRow, width: Option<f64>, sides: Option<f64>) -> Option<String> {
+    let least = sides.unwrap_or(0.0);
+    let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
+    let depth = object.depth_m.map(|depth| format!(" x {:.2}", depth.max(least)));
+    Some(format!("{width:.2}{} m", depth.unwrap_or_default()))
 }
 
 /// Said of an object that could rock, but has no rate.
@@ -188,6 +240,23 @@ impl Answer<RatesRow> {
 
     pub fn band(&self) -> usize {
         BANDS.iter().filter(|end| self.severity() > **end).count()
+    }
+
+    /// Whether it meets a target, or what base would.
+    pub fn about_target(&self, target: f64) -> String {
+        let (row, words) = (&self.row, PERCENT.one(target));
+        let base = base_in_words(&self.object, row.bases.target_width_m, row.bases.target_sides_m);
+        match base {
+            _ if self.meets(target) => format!("It meets the target of {words}."),
+            Some(base) => {
+                format!("A base of {} would meet the target of {words}.", base.replace(" x ", " × "))
+            }
+            None => format!("It misses the target of {words}."),
+        }
+    }
+
+    pub fn meets(&self, target: f64) -> bool {
+        self.row.p_overturning.value.or(self.row.p_overturning.high).is_some_and(|p| p <= target)
     }
 
     /// The sentence that answers how likely it overturns.

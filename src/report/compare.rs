@@ -9,10 +9,11 @@ use super::text::literal;
 use crate::hazard::{RateByParts, ratio_of_rates};
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
 use crate::object::Part;
-use crate::table::answers::ObjectRow;
 
-/// Changed objects that stand under the lead.
+/// Changed objects that stand under the lead, and objects that are named in a sentence and in a line.
 const DRAWN: usize = 4;
+const NAMED: usize = 4;
+const MANY: usize = 20;
 
 /// An object in two evaluations.
 pub struct Pair<'a> {
@@ -22,17 +23,13 @@ pub struct Pair<'a> {
     pub ratio: Limited,
 }
 
-/// The objects of both evaluations, by name; one unnamed object of each, or one in each, are the same. Those
-/// that are changed are first, of these the most likely to overturn before.
+/// The objects of both evaluations that have an answer in one, by name: those that are changed first, of
+/// these the most likely to overturn before.
 pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>> {
-    let are_alone =
-        [before, after].iter().all(|one| matches!(&one.rows[..], [rated] if rated.object.name().is_none()));
     let same_hazard = before.hazard_key == after.hazard_key;
     let mut pairs = Vec::new();
     for one in &before.rows {
-        let name = one.object.name();
-        let mut others = after.rows.iter();
-        let other = others.find(|other| are_alone || (name.is_some() && name == other.object.name()));
+        let other = after.rows.iter().find(|other| one.object.structure == other.object.structure);
         let Some(other) = other.filter(|other| one.is_answered() || other.is_answered()) else { continue };
         pairs.push(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) });
     }
@@ -68,26 +65,25 @@ impl Pair<'_> {
         ratio.map_or(String::new(), |ratio| format!("{sign}{ratio}"))
     }
 
-    /// The columns that differ: `width 0.35 → 0.50 m`; alpha and eta where nothing else does.
+    /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle and eta where nothing else does.
     fn changes(&self) -> Vec<String> {
-        let [before, after] = [self.before, self.after].map(|rated| &rated.object);
-        let [old, new] = [before, after].map(|object| object.floor().unwrap_or("ground".to_string()));
-        let mut words: Vec<String> = (old != new).then(|| format!("{old} → {new}")).into_iter().collect();
-        let reason = Some(self.after).filter(|after| !after.is_answered());
-        words.extend(reason.and_then(|after| after.doubts.warnings.as_deref()).map(literal));
-        for (name, unit, column) in [
-            ("width", " m", (|object| object.width_m) as fn(&ObjectRow) -> Option<f64>),
-            ("depth", " m", |object| object.depth_m),
-            ("height", " m", |object| object.height_m),
-            ("centre of mass: tips at", "°", |object| object.alpha_rad.map(f64::to_degrees)),
-            ("restitution", "", |object| object.eta),
+        let both = [self.before, self.after].map(|rated| &rated.object);
+        let mut words: Vec<String> =
+            [both.map(|object| literal(&object.place())), both.map(|object| object.set_size())]
+                .into_iter()
+                .filter(|[old, new]| old != new)
+                .map(|[old, new]| format!("{old} → {new}"))
+                .collect();
+        let reason = self.after.doubts.warnings.as_deref().filter(|_| !self.after.is_answered());
+        words.extend(reason.map(literal));
+        let written =
+            |value: Option<f64>| value.map_or("-".to_string(), |value| number::significant(value, 3));
+        for (name, unit, [old, new]) in [
+            ("tips at", "°", both.map(|object| written(object.alpha_rad.map(f64::to_degrees)))),
+            ("restitution", "", both.map(|object| written(object.eta))),
         ] {
-            let is_length = unit == " m";
-            let written =
-                |value| if is_length { number::length(value) } else { number::significant(value, 3) };
-            let [old, new] = [before, after].map(|object| column(object).map_or("-".to_string(), written));
-            let is_told = is_length || words.is_empty();
-            words.extend((old != new && is_told).then(|| format!("{name} {old} → {new}{unit}")));
+            let is_told = words.is_empty() && old != new;
+            words.extend(is_told.then(|| format!("{name} {old}{unit} → {new}{unit}")));
         }
         words
     }
@@ -98,17 +94,19 @@ impl Pair<'_> {
     }
 }
 
+/// Those that are drawn and have a row: the changed ones of several, else the one that there is.
+fn told<'a, 'b>(pairs: &'b [Pair<'a>]) -> &'b [Pair<'a>] {
+    let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
+    if changed > 0 { &pairs[..changed] } else { &pairs[..pairs.len().min(1)] }
+}
+
 /// Before and after in one row.
 pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
     let (before, after) = (Ink::Muted, Ink::Data(1));
     let mut rows = Vec::new();
-    for pair in pairs {
+    for pair in told(pairs) {
         let values = vec![(before, pair.before.row.p_overturning), (after, pair.after.row.p_overturning)];
-        let words = match pair.ratio.value {
-            _ if !pair.is_changed() => "as before".to_string(),
-            None => String::new(),
-            Some(_) => format!("× {}", TWO_DIGITS.value(pair.ratio)),
-        };
+        let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
         rows.push(Row { name: pair.name(), values, words });
     }
     let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p).chain([Limited::value(target)]);
@@ -116,8 +114,8 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
     let labels = [(before, "before"), (after, "after")];
     let panel = probabilities::panel("", x, &rows, &labels, target);
     let caption = format!(
-        "Probability of overturning {when} before and after, with 95 % limits; beside it the ratio of the rates, \
-         after over before."
+        "Probability of overturning {when} before and after, with 95 % limits; at the right the ratio of the \
+         rates, after over before."
     );
     let panels = if pairs.is_empty() { Vec::new() } else { vec![panel] };
     Figure::new("compared", "Before and after", 1, 0.0, panels).explained(caption)
@@ -130,17 +128,12 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
     if pairs.is_empty() {
         return Page::default();
     }
-    let (hazards, cancels) = match before.hazard_key == after.hazard_key {
-        true => (before.hazard.clone(), "the same hazard, that is all but what only one of them has"),
-        false => (format!("{}; {}", before.hazard, after.hazard), "different hazards, PGV/PGA does not"),
-    };
-    let joined = match &pairs[..] {
-        [one] if one.before.object.name().is_none() => "The one object of each file is joined.".to_string(),
-        _ => format!("Joined by name: {}.", number::counted(pairs.len(), "object")),
-    };
-    let cancels = format!("Ratio: uncertainties that move both alike cancel; under {cancels}.");
+    let is_same = before.hazard_key == after.hazard_key;
+    let hazards =
+        if is_same { before.hazard.clone() } else { format!("{}; {}", before.hazard, after.hazard) };
+    let velocity = if is_same { "" } else { " PGV/PGA is not shared, as the hazards differ." };
+    let cancels = format!("The limits of a ratio leave out uncertainty that both rates share.{velocity}");
     let rated: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
-    let facts = [Some(joined), Some(cancels), limits_in_words(&rated)];
     let [file_before, file_after, hazards] = [&before.file, &after.file, &hazards].map(|name| literal(name));
     Page {
         title: match &pairs[..] {
@@ -153,47 +146,42 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
             [_] => Vec::new(),
             several => several.iter().filter(|pair| pair.is_changed()).take(DRAWN).map(tile).collect(),
         },
-        facts: facts.into_iter().flatten().collect(),
-        table: Some(table(&pairs, when)),
-        notes: unpaired(before, after, &pairs),
+        facts: [Some(cancels), limits_in_words(&rated)].into_iter().flatten().collect(),
+        tables: vec![table(told(&pairs), when)],
+        notes: others(before, after, &pairs),
         figures: vec![figure(&pairs, when, target)],
         ..Page::default()
     }
 }
 
-/// What has become of one object, or of all.
+/// What has become of one object, or of all, and which are above the target still.
 fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
-    let percent = |rated: &Rated| PERCENT.value(rated.row.p_overturning);
     if let [pair] = pairs {
-        let (name, old, new) = (pair.name(), percent(pair.before), percent(pair.after));
-        let odds = format!("{name} overturns with a probability of {old} before and {new} after, {when}");
-        return format!("{odds}{}. What changed: {}.", pair.times(": "), pair.what_changed());
+        let [old, new] = [pair.before, pair.after].map(|rated| PERCENT.value(rated.row.p_overturning));
+        let odds = format!("{} overturns with a probability of {old} before and {new} after", pair.name());
+        let target = target.map_or(String::new(), |target| format!(" {}", pair.after.about_target(target)));
+        return format!("{odds}, {when}{}. What changed: {}.{target}", pair.times(": "), pair.what_changed());
     }
-    let before: Vec<&Rated> = pairs.iter().map(|pair| pair.before).collect();
-    let after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
     let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
-    let mut sentences =
-        vec![format!("{} of {} change.", number::count(changed), number::counted(pairs.len(), "object"))];
-    if let Some((old, new)) = worst(&before).zip(worst(&after)) {
-        let [was, is] =
-            [old, new].map(|rated| format!("{} ({})", rated.object.marked_name(), percent(rated)));
-        sentences.push(format!("The most likely to overturn {when} is {was} before, {is} after."));
+    let old = Expected::new(pairs.iter().map(|pair| pair.before)).number();
+    let new = Expected::new(pairs.iter().map(|pair| pair.after)).number();
+    let mut after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
+    after.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
+    let still = after.iter().filter(|rated| target.is_none_or(|target| rated.severity() > target)).count();
+    let [named, all] = [number::count(changed), number::counted(pairs.len(), "object")];
+    let fewer =
+        format!("{named} of {all} change. Expected to overturn {when}: {old} objects before, {new} after.");
+    let worst: Vec<String> = after
+        .iter()
+        .take(if target.is_some() { still } else { 1 })
+        .map(|rated| format!("{} ({})", rated.object.marked_name(), PERCENT.value(rated.row.p_overturning)))
+        .collect();
+    let worst = number::listed(&worst, NAMED);
+    match target.map(|target| PERCENT.one(target)) {
+        None => format!("{fewer} The most likely to overturn is now {worst}."),
+        Some(target) if still == 0 => format!("{fewer} All meet the target of {target}."),
+        Some(target) => format!("{fewer} Still above the target of {target}: {worst}."),
     }
-    let [old, new] = [&before, &after].map(|all| Expected::new(all.iter().copied()).number());
-    sentences.push(format!("{old} objects are expected to overturn before, {new} after."));
-    sentences.extend(target.map(|target| {
-        let [old, new] = [&before, &after]
-            .map(|all| number::count(all.iter().filter(|rated| rated.severity() > target).count()));
-        format!("The target of {} is exceeded by {old} before, {new} after.", PERCENT.one(target))
-    }));
-    sentences.join(" ")
-}
-
-fn worst<'a>(all: &[&'a Rated]) -> Option<&'a Rated> {
-    all.iter()
-        .copied()
-        .filter(|rated| rated.is_answered())
-        .max_by(|a, b| a.severity().total_cmp(&b.severity()))
 }
 
 /// What is changed of an object, and what comes of it.
@@ -209,42 +197,40 @@ fn table(pairs: &[Pair], when: &str) -> Table {
         ["object", &before, "after, %", "95 % limits of after", "times as often", "95 % limits of that"];
     let mut rows = Vec::new();
     for pair in pairs {
-        let (times, limits) = match (pair.is_changed(), pair.ratio.value) {
-            (false, _) => ("as before".to_string(), String::new()),
-            (true, None) => Default::default(),
-            (true, Some(_)) => (TWO_DIGITS.value(pair.ratio), TWO_DIGITS.limits(pair.ratio, "")),
-        };
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
-        let limits_after = OF_HUNDRED.limits(q, "");
-        let mut row = vec![pair.name(), OF_HUNDRED.value(p), OF_HUNDRED.value(q)];
-        row.extend([limits_after, times, limits].map(|cell| cell.replace(['(', ')'], "")));
-        rows.push(row);
+        let times = pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio));
+        let [limits_after, limits] = [OF_HUNDRED.limits(q, ""), TWO_DIGITS.limits(pair.ratio, "")]
+            .map(|limits| limits.replace(['(', ')'], ""));
+        rows.push(vec![pair.name(), OF_HUNDRED.value(p), OF_HUNDRED.value(q), limits_after, times, limits]);
     }
     Table::new(&heads, rows)
 }
 
-/// Objects of one file alone, and those without an answer in both.
-fn unpaired(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
-    let paired: Vec<&str> = pairs
-        .iter()
-        .flat_map(|pair| [pair.before, pair.after])
-        .map(|rated| rated.object.structure.as_str())
-        .collect();
-    let [only_before, only_after] = [before, after].map(|one| format!("Only in {}", literal(&one.file)));
+/// Objects that are as before, those of one file alone, and those without an answer in both.
+fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
+    let same: Vec<&Rated> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
+    let in_both = before.rows.iter().filter(|rated| !is_only_of(rated, after));
+    let silent = in_both.filter(|rated| pairs.iter().all(|pair| !std::ptr::eq(pair.before, *rated)));
     let mut lines = Vec::new();
-    for (heading, own, other, is_in_both) in [
-        (only_before, before, after, false),
-        (only_after, after, before, false),
-        ("Not assessed before or after".to_string(), before, after, true),
+    for (heading, all) in [
+        ("as before", same),
+        ("not assessed before or after", silent.collect()),
+        (
+            &format!("only in {}", literal(&before.file)),
+            before.rows.iter().filter(|rated| is_only_of(rated, after)).collect(),
+        ),
+        (
+            &format!("only in {}", literal(&after.file)),
+            after.rows.iter().filter(|rated| is_only_of(rated, before)).collect(),
+        ),
     ] {
-        let others: Vec<&str> = other.rows.iter().map(|rated| rated.object.structure.as_str()).collect();
-        let mut rows: Vec<&Rated> = own.rows.iter().collect();
-        rows.retain(|rated| {
-            let name = rated.object.structure.as_str();
-            !paired.contains(&name) && others.contains(&name) == is_in_both
-        });
-        let names: Vec<String> = rows.iter().map(|rated| rated.object.marked_name()).collect();
-        lines.extend((!names.is_empty()).then(|| format!("{heading}: {}.", names.join(", "))));
+        let names: Vec<String> = all.iter().map(|rated| rated.object.marked_name()).collect();
+        let (count, names) = (number::counted(all.len(), "object"), number::listed(&names, MANY));
+        lines.extend((!all.is_empty()).then(|| format!("{count} {heading}: {names}.")));
     }
     lines
+}
+
+fn is_only_of(rated: &Rated, other: &Evaluation) -> bool {
+    other.rows.iter().all(|one| one.object.structure != rated.object.structure)
 }

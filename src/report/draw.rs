@@ -8,18 +8,11 @@ use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
 use super::text::{escape, html, literal, words};
 use crate::table::marks::sealed;
 
-/// How wide a picture is drawn, and the height of its letters over that of a file, which is 8 points.
-#[derive(Debug, Clone, Copy)]
-struct Look {
-    width: f64,
-    unit: f64,
-}
-
-/// A file: across two columns of a journal, 180 mm.
-const FILE: Look = Look { width: 510.2, unit: 1.0 };
-/// A panel on the page, in pixels of a small screen; and one that is wide where the screen is.
-const NARROW: Look = Look { width: 360.0, unit: 1.35 };
-const WIDE: Look = Look { width: 800.0, unit: 1.4 };
+/// Width of a file, points: across two columns of a journal, 180 mm.
+const FILE_WIDTH: f64 = 510.2;
+/// Width of a panel on the page, in pixels of a small screen, and its letters over those of a file.
+const PAGE_WIDTH: f64 = 360.0;
+const PAGE_UNIT: f64 = 1.35;
 /// Least height of the area of the data of a panel on the page, in the letters' unit.
 const LEAST_HEIGHT: f64 = 60.0;
 
@@ -49,7 +42,7 @@ const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation San
 /// Writes a figure as an SVG file on white, with the key of what made it.
 pub fn svg(figure: &Figure, key: &str) -> String {
     let (body, height) = whole(figure);
-    let width = FILE.width;
+    let width = FILE_WIDTH;
     let captions = figure.panels.iter().map(|panel| words(&panel.caption));
     let caption: Vec<String> =
         std::iter::once(words(&figure.caption)).chain(captions).filter(|text| !text.is_empty()).collect();
@@ -75,22 +68,16 @@ pub fn html_of_panels(figure: &Figure) -> String {
     let mut labelled =
         figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
     let owner = labelled.next().filter(|_| labelled.next().is_none() && figure.panels.len() > 1);
-    let is_wide = figure.columns == 1 && figure.panels.iter().all(|panel| panel.names().is_empty());
     let mut panels = String::new();
     for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
         let caption = html(&panel.caption);
-        let small = svg_of_panel(panel, name, figure, NARROW, if is_wide { "small" } else { "" });
-        let wide = if is_wide { svg_of_panel(panel, name, figure, WIDE, "wide") } else { String::new() };
+        let svg = svg_of_panel(panel, name, figure);
         let own = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
-        panels += &format!("<figure>\n{wide}{small}{own}<figcaption>{caption}</figcaption></figure>\n");
+        panels += &format!("<figure>\n{svg}{own}<figcaption>{caption}</figcaption></figure>\n");
     }
     let above = if owner.is_some() { "" } else { legend.as_str() };
-    let class = match figure.panels.len() {
-        _ if is_wide => "panels long",
-        4 => "panels four",
-        _ => "panels",
-    };
+    let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
     Ink::in_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
 }
 
@@ -101,21 +88,17 @@ fn legend_entry(layer: &Layer) -> String {
     format!("<span><svg viewBox=\"0 0 {MARK} 10\" aria-hidden=\"true\">{mark}</svg>{label}</span>\n")
 }
 
-fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure, look: Look, class: &str) -> String {
-    let unit = look.unit;
+fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure) -> String {
+    let (width, unit) = (PAGE_WIDTH, PAGE_UNIT);
     let mut pen = Pen { text: String::new(), unit };
     // As high over its width as in the file.
-    let across = look.width / unit * figure.columns.max(1) as f64 / FILE.width;
-    let height = unit * own_height(panel, (figure.height * across.min(1.6)).max(LEAST_HEIGHT));
-    let Rooms { left, right } = side_rooms(panel, figure, look.width, unit);
+    let across = width / unit * figure.columns.max(1) as f64 / FILE_WIDTH;
+    let height = unit * own_height(panel, (figure.height * across).max(LEAST_HEIGHT));
+    let Rooms { left, right } = side_rooms(panel, figure, width, unit);
     let top = head(panel) * unit;
-    pen.panel(panel, Area { left, top, width: look.width - left - right, height }, top);
-    let bottom = round(top + height + foot(panel) * unit);
-    let (width, name) = (look.width, escape(&words(name)));
-    format!(
-        "<svg class=\"{class}\" viewBox=\"0 0 {width} {bottom}\" role=\"img\" aria-label=\"{name}\">\n{}</svg>\n",
-        pen.text
-    )
+    pen.panel(panel, Area { left, top, width: width - left - right, height }, top);
+    let (bottom, name) = (round(top + height + foot(panel) * unit), escape(&words(name)));
+    format!("<svg viewBox=\"0 0 {width} {bottom}\" role=\"img\" aria-label=\"{name}\">\n{}</svg>\n", pen.text)
 }
 
 /// Dots per inch of PNG files.
@@ -162,10 +145,10 @@ struct Area {
 
 /// Draws all panels in rows below one legend, as a file has them; returns the height too.
 fn whole(figure: &Figure) -> (String, f64) {
-    let mut pen = Pen { text: String::new(), unit: FILE.unit };
+    let mut pen = Pen { text: String::new(), unit: 1.0 };
     let columns = figure.columns.max(1);
-    let across = FILE.width / columns as f64;
-    let mut top = pen.legend(&legend_entries(figure), 4.0, FILE.width);
+    let across = FILE_WIDTH / columns as f64;
+    let mut top = pen.legend(&legend_entries(figure), 4.0, FILE_WIDTH);
     for row in figure.panels.chunks(columns) {
         let highest = row.iter().map(|panel| own_height(panel, figure.height)).fold(0.0, f64::max);
         let above = row.iter().map(head).fold(0.0, f64::max);

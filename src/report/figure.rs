@@ -16,6 +16,8 @@ pub struct Figure {
     /// Height of the area of the data of a panel, points; a panel of names has its own.
     pub height: f64,
     pub panels: Vec<Panel>,
+    /// What moves, beside the panels on a page: a picture as HTML.
+    pub moving: String,
 }
 
 /// A pair of axes and what lies between them.

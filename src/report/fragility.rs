@@ -75,14 +75,14 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
         title,
         place: match hazard {
             Some(hazard) => format!("Fragility over {what}; hazard: {}", literal(hazard)),
-            None => format!("Fragility over {what}, of generic sites"),
+            None => format!("Fragility over {what}, for generic sites"),
         },
         sentence: format!(
             "{half} of the motions overturn it at a {}.",
             half_in_words(fragility.over, &fragility.overturning)
         ),
         facts: model_in_words(weakest).into_iter().collect(),
-        table: Some(table(all, what)),
+        tables: vec![table(all, what)],
         notes,
         figures: vec![figure(all, outline)],
         ..Page::default()

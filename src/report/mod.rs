@@ -35,5 +35,5 @@ mod workbook;
 
 pub use draw::{DPI, png, svg};
 pub use figure::{Axis, Dash, Figure, Frame, Ink, Layer, Mark, Panel, Scale, Shape, Side, Span, Words};
-pub use page::{Column, Page, Section, Table, Tile};
+pub use page::{Page, Section, Table, Tile};
 pub use workbook::workbook;

@@ -1,9 +1,9 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
-use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State, base_in_words};
+use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
 use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
-use super::page::{Page, Section, Table, Tile};
+use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::{literal, words};
 use crate::fragility::{LimitState, Peak, Z_95};
@@ -66,10 +66,10 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     ];
     let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
     let degrees = number::significant(alpha_rad.to_degrees(), 3);
-    let place = object.floor().map_or("on the ground".to_string(), |floor| format!("at {floor}"));
     let caption = format!(
-        "To scale, with its centre of mass, standing {place}. It overturns beyond {degrees}° of its weaker side if \
-         no motion brings it back."
+        "To scale, with its centre of mass, {}. Beyond {degrees}°, over its weaker side, it overturns unless the \
+         motion brings it back.",
+        literal(&object.place())
     );
     let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
     let y = Axis::linear("").over(-1.1 * room, top + 0.3 * room);
@@ -154,7 +154,7 @@ pub fn averaged(over: Peak) -> String {
 fn changes_panel(evaluation: &Evaluation) -> Panel {
     let (when, changes) = (&evaluation.when, &evaluation.portrait.changes);
     let mut rows = Vec::new();
-    for Change { words, p } in changes {
+    for Change { words, p, .. } in changes {
         let ink = if rows.is_empty() { Ink::Data(1) } else { Ink::Data(0) };
         rows.push(Row::new(words, ink, p));
     }
@@ -227,12 +227,12 @@ fn shares(hazard: &SiteHazard) -> Option<Panel> {
     let all = parts.rates.iter().sum::<f64>() + parts.beyond;
     let mut outline = Vec::new();
     for (edge, rate) in parts.edges.windows(2).zip(&parts.rates) {
-        let density = 100.0 * rate / all / (edge[1] / edge[0]).ln();
-        outline.extend([edge[0], edge[1]].map(|intensity| Mark::new(intensity / unit, density)));
+        let y = 100.0 * rate / all / (edge[1] / edge[0]).ln();
+        outline.extend([edge[0], edge[1]].map(|x| Mark { low: 0.0, high: y, ..Mark::new(x / unit, y) }));
     }
-    let (first, last) = outline.first().zip(outline.last()).filter(|_| all > 0.0)?;
-    let ground = |mark: &Mark| Mark { y: 0.0, ..*mark };
-    let closed = [vec![ground(first)], outline.clone(), vec![ground(last)]].concat();
+    if outline.is_empty() || all <= 0.0 {
+        return None;
+    }
     let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
     let beyond = match parts.beyond / all {
         share if share >= 0.0005 => format!(" {} of the rate lies beyond the curve.", PERCENT.one(share)),
@@ -243,8 +243,7 @@ fn shares(hazard: &SiteHazard) -> Option<Panel> {
          shares; all of it is 100 %.{beyond}"
     );
     let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
-    let layers =
-        vec![Layer::new("", Ink::Data(1), Shape::Area, closed), Layer::line("", Ink::Data(1), outline)];
+    let layers = vec![Layer::line("", Ink::Data(1), outline)];
     Some(Panel::new("Where the rate comes from", hazard.axis(), y, layers).explained(caption))
 }
 
@@ -256,20 +255,19 @@ fn unknown(rated: &Rated) -> Option<Panel> {
     let what = if rated.row.overturning_per_year.value.is_some() { "rate" } else { "odds" };
     let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
     let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
-    let mut panel = Panel::new("What is not known", x, names, Vec::new());
+    let (mut marks, mut words) = (Vec::new(), Vec::new());
     for (row, (_, sd)) in parts.iter().enumerate() {
         let (x, y) = ((Z_95 * sd).exp(), row as f64);
-        let corners = [(1.0, -0.3), (x, -0.3), (x, 0.3), (1.0, 0.3)];
-        let bar = corners.map(|(x, off)| Mark::new(x, y + off));
-        panel.layers.push(Layer::new("", Ink::Data(0), Shape::Area, bar));
+        marks.push(Mark { low: 1.0, high: x, ..Mark::new(x, y) });
         let text = format!("× {}", number::significant(x, 2));
-        panel.words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
+        words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
     }
+    let layers = vec![Layer::new("", Ink::Data(0), Shape::Estimates, marks)];
     let caption = format!(
-        "What is not known, and after the colon what would tell it: the factor by which each moves the {what} \
-         of overturning, up or down, at its 95 % limits."
+        "Each unknown, and what would tell it: the factor by which it may raise or lower the {what} of \
+         overturning (95 % limits)."
     );
-    Some(panel.explained(caption))
+    Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
 
 /// What is not known, and what to measure.
@@ -287,80 +285,53 @@ fn what_to_measure(part: Part) -> &'static str {
 
 /// The page of one object.
 pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
-    let place = match rated.object.floor() {
-        Some(floor) => format!("On a floor: {floor}"),
-        None => "On the ground".to_string(),
-    };
+    let (object, hazard) = (&rated.object, literal(&evaluation.hazard));
+    let place = if object.is_upstairs() { object.floor_after("") } else { object.place() };
+    let answer = format!("It {}.", rated.sentence(&evaluation.when));
+    let target = evaluation.target.map(|target| rated.about_target(target));
     Page {
-        title: words(&rated.object.marked_title()),
-        place: format!("{place}; {}", literal(&evaluation.hazard)),
-        sentence: [
-            Some(format!("It {}.", rated.sentence(&evaluation.when))),
-            evaluation.target.map(|target| about_target(rated, target)),
-            what_helps(&evaluation.portrait.changes),
-        ]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(" "),
+        title: words(&object.marked_title()),
+        place: format!("Stands {}; {hazard}", literal(&place)),
+        sentence: [Some(answer), target].into_iter().flatten().collect::<Vec<_>>().join(" "),
         tiles: tiles(evaluation, rated),
         facts: facts(&[rated]),
         notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
-        table: Some(numbers(evaluation, rated)),
+        tables: vec![numbers(evaluation, rated)],
         figures: vec![figure(evaluation, rated)],
-        sections: match &evaluation.portrait.changes[..] {
-            [] => Vec::new(),
-            _ => vec![Section {
-                tables: vec![table_of_changes(evaluation)],
-                ..Section::new("What would change it, in numbers")
-            }],
-        },
         ..Page::default()
     }
 }
 
-/// The target, and the base that meets it.
-fn about_target(rated: &Rated, target: f64) -> String {
-    let is_met = rated.row.p_overturning.value.is_some_and(|p| p <= target);
-    let (row, target) = (&rated.row, PERCENT.one(target));
-    if is_met {
-        return format!("It meets the target of {target}.");
-    }
-    let base = base_in_words(row.bases.target_width_m, row.bases.target_sides_m);
-    let base = base.map_or(String::new(), |base| format!("; a base of {base} meets it"));
-    format!("The target is {target}{base}.")
-}
-
-/// The change of the object that helps most; nothing that is only measured.
-fn what_helps(changes: &[Change]) -> Option<String> {
-    let [as_it_is, others @ ..] = changes else { return None };
+/// The change of the object that helps most, nothing that is only measured; and another floor.
+fn tiles_of_changes(changes: &[Change]) -> Vec<Tile> {
+    let [as_it_is, others @ ..] = changes else { return Vec::new() };
     let probability = |change: &Change| change.p[0].value.unwrap_or(1.0);
-    let best = others
-        .iter()
-        .filter(|change| change.p.len() == 1)
-        .min_by(|a, b| probability(a).total_cmp(&probability(b)));
-    let Change { words, p } = best.filter(|best| probability(best) < probability(as_it_is))?;
-    let p = PERCENT.both(p[0], "95 % limits ");
-    Some(format!("Of the changes below this helps most: {words}, with {p}."))
+    let tile = |Change { words, p, .. }: &Change, sign: &str| {
+        let limits = PERCENT.limits(p[0], "95 % limits ");
+        Tile::new(PERCENT.value(p[0]), format!("{words}{sign} {limits}"))
+    };
+    let objects = others.iter().filter(|change| change.p.len() == 1);
+    let best = objects.min_by(|a, b| probability(a).total_cmp(&probability(b)));
+    let best = best.filter(|best| probability(best) < probability(as_it_is));
+    let moved = others.iter().find(|change| change.is_moved && best.is_none_or(|best| !best.is_moved));
+    best.map(|best| tile(best, ", which helps most"))
+        .into_iter()
+        .chain(moved.map(|moved| tile(moved, "")))
+        .collect()
 }
 
 fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
-    let (Portrait { fragility, hazard, .. }, object) = (&evaluation.portrait, &rated.object);
-    let mut tiles = vec![Tile::new(
-        PERCENT.value(rated.row.p_failure),
-        format!("{}, or overturns, {}", object.too_far(), evaluation.when),
-    )];
+    let (Portrait { fragility, hazard, changes, .. }, object) = (&evaluation.portrait, &rated.object);
+    let mut tiles = tiles_of_changes(changes);
     if let Some(fragility) = fragility {
-        let words = format!("{} at which half of the motions overturn it", fragility.over.words().0);
-        let half = fragility.overturning.theta.value;
-        tiles.push(Tile::new(intensity_in_words(fragility.over, half), words));
-    }
-    if let Some(hazard) = hazard
-        && let Some(usual) = hazard.usual().first()
-    {
-        let (what, _, symbol) = hazard.peak.words();
-        let words = format!("{what} at the site, once in {}", years(usual.years));
-        tiles.push(Tile::new(format!("{} {symbol}", number::significant(usual.intensity, 2)), words));
+        let usual =
+            hazard.as_ref().and_then(|hazard| Some((hazard.peak, hazard.usual().into_iter().next()?)));
+        let site = usual.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
+            let (intensity, symbol) = (number::significant(intensity, 2), peak.words().2);
+            format!("; {intensity} {symbol} comes once in {}", years(period))
+        });
+        let words = format!("{} at which half of the motions overturn it{site}", fragility.over.words().0);
+        tiles.push(Tile::new(intensity_in_words(fragility.over, fragility.overturning.theta.value), words));
     }
     tiles.extend(object.friction.filter(|_| !object.is_friction_known).map(|friction| {
         let words = "friction that it needs: with less, it slides instead of rocking";
@@ -371,11 +342,16 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
 
 /// What the answer rests on.
 pub fn facts(all: &[&Rated]) -> Vec<String> {
-    let building = "A level is a height over that of the building, which is taken as linear.".to_string();
-    let is_upstairs = all.iter().any(|rated| rated.object.floor().is_some());
+    let building = "The building is taken as linear; 60 % up is at 60 % of its height.".to_string();
+    let is_upstairs = all.iter().any(|rated| rated.object.is_upstairs());
     let model = all.first().and_then(|worst| model_in_words(&worst.object));
-    [is_upstairs.then_some(building), model, limits_in_words(all)].into_iter().flatten().collect()
+    let facts = [Some(ANGLES.to_string()), is_upstairs.then_some(building), model, limits_in_words(all)];
+    facts.into_iter().flatten().collect()
 }
+
+/// What two words mean.
+pub const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its \
+                          angular velocity after an impact over that before.";
 
 /// What predicts.
 pub fn model_in_words(object: &ObjectRow) -> Option<String> {
@@ -395,23 +371,24 @@ pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
     Some(format!("The 95 % limits cover uncertainty in {joined} alone."))
 }
 
+/// The answer, and what it is with one thing changed.
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
     let heads = ["", &evaluation.when, "95 % limits", "rate a year"];
     // Under one motion there are no rates.
     let shown = heads.len() - usize::from(rated.row.years.is_none());
-    let rows = rated.states().into_iter().map(|State { name, p, per_year }| {
-        vec![name, PERCENT.value(p), PERCENT.limits(p, ""), RATE.value(per_year)][..shown].to_vec()
-    });
-    Table::new(&heads[..shown], rows.collect())
+    let mut rows = Vec::new();
+    for State { name, p, per_year } in rated.states() {
+        rows.push(vec![name, PERCENT.value(p), limits(p), RATE.value(per_year)][..shown].to_vec());
+    }
+    for Change { words, p, .. } in evaluation.portrait.changes.iter().skip(1) {
+        let [values, limits] = [|p| PERCENT.value(p), limits]
+            .map(|told: fn(Limited) -> String| p.iter().map(|p| told(*p)).collect::<Vec<_>>().join(", "));
+        rows.push(vec![format!("overturns: {words}"), values, limits]);
+    }
+    rows.iter_mut().for_each(|row| row.resize(shown, String::new()));
+    Table::new(&heads[..shown], rows)
 }
 
-fn table_of_changes(evaluation: &Evaluation) -> Table {
-    let joined = |p: &[Limited], told: fn(Limited) -> String| {
-        p.iter().map(|p| told(*p)).collect::<Vec<_>>().join(", ")
-    };
-    let rows = evaluation.portrait.changes.iter().map(|Change { words, p }| {
-        vec![words.clone(), joined(p, |p| PERCENT.value(p)), joined(p, |p| PERCENT.limits(p, ""))]
-    });
-    let overturns = format!("overturns {}", evaluation.when);
-    Table::new(&["change", &overturns, "95 % limits"], rows.collect())
+fn limits(p: Limited) -> String {
+    PERCENT.limits(p, "").replace(['(', ')'], "")
 }

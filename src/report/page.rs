@@ -21,13 +21,12 @@ pub struct Page {
     pub tiles: Vec<Tile>,
     /// What was asked, and what the result rests on.
     pub facts: Vec<String>,
-    /// Beside the first figure if that is of one panel, else below it.
-    pub table: Option<Table>,
-    /// Warnings that change a decision, under the table.
+    /// The first stands beside the first figure if that is of one panel, else below it; others below all
+    /// figures.
+    pub tables: Vec<Table>,
+    /// Warnings that change a decision, under the first table.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
-    /// What moves: pictures of their own, as HTML. One stands beside the first figure.
-    pub moving: Vec<String>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
     /// Provenance of the page, which shows whether it is up to date.
@@ -49,17 +48,12 @@ pub struct Section {
     pub figures: Vec<Figure>,
 }
 
+/// Rows of cells; the first column has their names.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     pub caption: String,
-    pub columns: Vec<Column>,
+    pub heads: Vec<String>,
     pub rows: Vec<Vec<String>>,
-}
-
-#[derive(Debug, Clone)]
-pub struct Column {
-    pub head: String,
-    pub is_number: bool,
 }
 
 impl Section {
@@ -75,11 +69,17 @@ impl Tile {
 }
 
 impl Table {
-    /// The first column is of names, the others of numbers.
     pub fn new(heads: &[&str], rows: Vec<Vec<String>>) -> Table {
-        let columns = heads.iter().enumerate();
-        let columns = columns.map(|(at, head)| Column { head: head.to_string(), is_number: at > 0 });
-        Table { columns: columns.collect(), rows, ..Table::default() }
+        let heads = heads.iter().map(|head| head.to_string()).collect();
+        Table { heads, rows, ..Table::default() }
+    }
+
+    /// Whether all that stands in a column are numbers, which are set to the right.
+    fn is_of_numbers(&self, column: usize) -> bool {
+        let mut cells =
+            self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty()).peekable();
+        let has_any = column > 0 && cells.peek().is_some();
+        has_any && cells.all(|cell| cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)))
     }
 }
 
@@ -97,18 +97,11 @@ impl Page {
             figures.push(write_figure(figure, title));
         }
         let (first, others) = figures.split_at(figures.len().min(1));
-        let is_beside = self.figures.first().is_some_and(|figure| figure.panels.len() == 1);
-        let (beside, moving) = match &self.moving[..] {
-            [one] => (one.as_str(), &[][..]),
-            several => ("", several),
-        };
-        let class = match is_beside && self.table.is_some() {
-            true => "first",
-            false if !beside.is_empty() => "response",
-            false => "",
-        };
-        let told = match (&self.table, &self.notes[..]) {
-            (None, []) => String::new(),
+        let (table, tables) = self.tables.split_at(self.tables.len().min(1));
+        let is_beside =
+            self.figures.first().is_some_and(|figure| figure.panels.len() == 1) && !table.is_empty();
+        let told = match (table, &self.notes[..]) {
+            ([], []) => String::new(),
             (table, notes) => format!(
                 "<div>\n{}<div class=\"notes\">{}</div></div>\n",
                 table.iter().map(write_table).collect::<String>(),
@@ -126,12 +119,11 @@ impl Page {
             sentence = html(&self.sentence),
             tiles = self.tiles.iter().map(write_tile).collect::<String>(),
             facts = paragraphs(&self.facts),
-            class = class,
+            class = if is_beside { "first" } else { "" },
             before = before,
             after = after,
-            beside = beside,
-            moving = moving.concat(),
             figures = others.concat(),
+            tables = tables.iter().map(write_table).collect::<String>(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             version = env!("CARGO_PKG_VERSION"),
         ))
@@ -154,38 +146,38 @@ fn write_section(section: &Section) -> String {
 }
 
 fn write_figure(figure: &Figure, title: &str) -> String {
-    let panels = html_of_panels(figure);
-    let (title, caption, across) = (html(title), html(&figure.caption), figure.panels.len().min(3));
-    format!(
-        "<section class=\"figure\" style=\"--across:{across}\">\n\
-         <h2>{title}</h2>\n{panels}<p class=\"caption\">{caption}</p>\n</section>\n"
-    )
+    let (panels, moving) = (html_of_panels(figure), &figure.moving);
+    let (title, across) = (html(title), figure.panels.len().min(3));
+    let caption = format!("<p class=\"caption\">{}</p>\n", html(&figure.caption));
+    let content = match moving.as_str() {
+        "" => format!("{panels}{caption}"),
+        _ => format!(
+            "<div class=\"response\">\n<figure>{moving}{caption}</figure>\n<div>{panels}</div></div>\n"
+        ),
+    };
+    format!("<section class=\"figure\" style=\"--across:{across}\">\n<h2>{title}</h2>\n{content}</section>\n")
 }
 
-fn write_table(Table { caption, columns, rows }: &Table) -> String {
+fn write_table(table: &Table) -> String {
+    let classes: Vec<&str> = (0..table.heads.len())
+        .map(|column| if table.is_of_numbers(column) { " class=\"number\"" } else { "" })
+        .collect();
     let (mut heads, mut body) = (String::new(), String::new());
-    for column in columns {
-        heads += &format!("<th scope=\"col\"{}>{}</th>", column.class(), html(&column.head));
+    for (class, head) in classes.iter().zip(&table.heads) {
+        heads += &format!("<th scope=\"col\"{class}>{}</th>", html(head));
     }
-    for row in rows {
+    for row in &table.rows {
         body += "<tr>";
-        for (column, cell) in columns.iter().zip(row) {
-            let (class, head) = (column.class(), escape(&words(&column.head)));
-            body += &format!("<td{class} data-head=\"{head}\">{}</td>", html(cell));
+        for ((class, head), cell) in classes.iter().zip(&table.heads).zip(row) {
+            body += &format!("<td{class} data-head=\"{}\">{}</td>", escape(&words(head)), html(cell));
         }
         body += "</tr>\n";
     }
-    let (title, name) = (html(caption), escape(&words(caption)));
+    let (title, name) = (html(&table.caption), escape(&words(&table.caption)));
     // What is wider than a small screen is scrolled, by keys too.
     format!(
         "<p class=\"caption\">{title}</p>\n\
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">\n<table>\n\
          <thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n</div>\n"
     )
-}
-
-impl Column {
-    fn class(&self) -> &'static str {
-        if self.is_number { " class=\"number\"" } else { "" }
-    }
 }

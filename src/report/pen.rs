@@ -123,7 +123,7 @@ impl Pen {
 
     /// The limits of a value: a broad, pale line.
     pub fn interval(&mut self, from: Point, to: Point, colour: &str) {
-        self.stroke(&course(&[from, to]), colour, 2.4, " stroke-opacity=\"0.38\"");
+        self.stroke(&course(&[from, to]), colour, 2.4, " class=\"limits\" stroke-opacity=\"0.42\"");
     }
 
     pub fn fill(&mut self, outline: &[Point], colour: &str, opacity: f64) {

@@ -1,11 +1,9 @@
 //! One response: rotation and ground motion over time, with its events; and the block as it moves.
 
-use std::fmt::Write;
-
 use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Span, Words};
 use super::figures::envelope;
 use super::page::Page;
-use super::text::{escape, file_words, html, literal, words};
+use super::text::{escape, file_words, literal, words};
 use crate::number;
 use crate::rocking::SolverEvent;
 use crate::table::responses::TraceRow;
@@ -26,6 +24,10 @@ const MOST: f64 = 1.5;
 const APART: f64 = 0.005;
 /// Time that is shown before the first event and after the last, s.
 const AROUND_S: f64 = 1.5;
+/// The picture of what moves: the diagonal of the block, the least width and the margin beside the block.
+const DIAGONAL: f64 = 190.0;
+const NARROWEST: f64 = 290.0;
+const MARGIN: f64 = 24.0;
 /// Pictures a second of what moves, and the most of them.
 const PICTURES_A_SECOND: f64 = 25.0;
 const MOST_PICTURES: f64 = 1200.0;
@@ -60,33 +62,29 @@ impl Trace {
         self.times(SolverEvent::Overturn).first().copied()
     }
 
-    /// The number of impacts, and of those that a dot does not show.
-    fn impacts(&self) -> String {
-        let (times, end) = (self.times(SolverEvent::Impact), self.0.last().map_or(0.0, |point| point.time_s));
-        let close = times.windows(2).filter(|pair| pair[1] - pair[0] < APART * end).count();
-        let hidden = if close > 0 {
-            format!(" ({close} too close to the one before to be seen)")
-        } else {
-            String::new()
-        };
-        number::counted(times.len(), "impact") + &hidden
+    /// When it passes alpha for good, of a structure that overturns.
+    fn tipped_at(&self) -> Option<f64> {
+        let stood = self.0.iter().rposition(|point| point.theta_over_alpha.abs() <= 1.0)?;
+        self.overturned_at().and(self.0.get(stood + 1)).map(|point| point.time_s)
     }
 
     /// What came of it, in a sentence.
-    pub fn sentence(&self) -> String {
-        let impacts = self.impacts();
+    fn sentence(&self) -> String {
+        let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
         let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
         let (structure, motion) = (self.structure(), literal(&self.0[0].motion_id));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
+                let [tipped, at] =
+                    [self.tipped_at().unwrap_or(at), at].map(|time_s| number::fixed(time_s, 1));
                 format!(
-                    "Motion {motion} overturns {structure} after {} s, with {impacts}.",
-                    number::fixed(at, 1)
+                    "Motion {motion} overturns {structure}: after {impacts} it leans beyond its tipping angle at \
+                     {tipped} s and lies at {at} s."
                 )
             }
             (None, Some(at)) => format!(
-                "Under motion {motion}, {structure} rocks from {} s on, at most {} of the rotation at which it tips, \
-                 with {impacts}.",
+                "Under motion {motion}, {structure} rocks from {} s on, to {} of its tipping angle at most, with \
+                 {impacts}.",
                 number::fixed(*at, 1),
                 number::PERCENT.one(most)
             ),
@@ -94,15 +92,23 @@ impl Trace {
         }
     }
 
-    /// The block in words.
-    fn size(&self) -> String {
+    /// What the pictures show.
+    fn caption(&self) -> String {
         let Span { low, high } = self.span();
         let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
         let like = match self.0[0].structure.as_str() {
             UNNAMED => String::new(),
-            _ => format!("A block of {} rocks like it. ", self.block()),
+            _ => format!(" A block of {} rocks like it.", self.block()),
         };
-        format!("{like}It moves in real time, from {start} to {end} s.")
+        let times = self.times(SolverEvent::Impact);
+        let close = times.windows(2).filter(|pair| pair[1] - pair[0] < APART * (high - low)).count();
+        let close =
+            if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
+        let degrees = number::significant(self.0[0].alpha_rad.to_degrees(), 3);
+        format!(
+            "It moves in real time, from {start} to {end} s.{like} Dots: uplift and impacts{close}. Dashed: its \
+             slenderness *α*, the {degrees}° at which it tips."
+        )
     }
 
     /// From when to when something happens, s.
@@ -117,20 +123,22 @@ impl Trace {
     }
 }
 
-/// The rotation, the acceleration and the velocity of the ground.
-pub fn figure(response: &Trace) -> Figure {
+/// The rotation, the acceleration and the velocity of the ground, beside what moves; `id` is its own on the
+/// page.
+pub fn figure(response: &Trace, id: usize) -> Figure {
     let samples: Vec<&TraceRow> = response.0.iter().filter(|point| point.solver_event.is_none()).collect();
     let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
-    let end = samples.last().map_or(1.0, |point| point.time_s);
+    let Span { low, high } = response.span();
     let line = |ink: Ink, value: fn(&TraceRow) -> f64| {
         let values: Vec<f64> = samples.iter().map(|point| value(point)).collect();
-        Layer::line("", ink, envelope(&values, dt_s, VALUES))
+        let marks = envelope(&values, dt_s, VALUES);
+        Layer::line("", ink, marks.into_iter().filter(|mark| (low..=high).contains(&mark.x)))
     };
     let rotation = line(Ink::Data(1), |point| point.theta_over_alpha.clamp(-MOST, MOST));
     let most = rotation.marks.iter().map(|mark| mark.y.abs()).fold(1.1, f64::max) * 1.08;
     let mut layers = Vec::new();
     for limit in [-1.0, 1.0] {
-        layers.push(Layer::guide(Ink::Muted, [0.0, end].map(|time_s| Mark::new(time_s, limit))));
+        layers.push(Layer::guide(Ink::Muted, [low, high].map(|time_s| Mark::new(time_s, limit))));
     }
     layers.push(rotation);
     for (name, ink, event) in
@@ -139,66 +147,42 @@ pub fn figure(response: &Trace) -> Figure {
         let marks = response.times(event).into_iter().map(|time_s| Mark::new(time_s, 0.0));
         layers.push(Layer::points(name, ink, marks));
     }
+    let time = |label: &str| Axis::linear(label).over(low, high);
     let y = Axis::linear("*θ*/*α*: beyond 1 it tips unless it is brought back").over(-most, most);
-    let [above, below] = ["", "time, s"].map(|label| Axis::linear(label).over(0.0, end));
-    let mut panels = vec![
-        Panel::new("Rotation", above.clone(), y, layers),
-        Panel::new(
-            "Ground acceleration",
-            above,
-            Axis::linear("g"),
-            vec![line(Ink::Text, |point| point.ground_acceleration_m_s2 / G_M_S2)],
-        ),
-        Panel::new(
-            "Ground velocity",
-            below,
-            Axis::linear("m/s"),
-            vec![line(Ink::Data(0), |point| point.ground_velocity_m_s)],
-        ),
-    ];
-    if let Some(x) = response.overturned_at() {
-        let text = "overturned".to_string();
-        panels[0].add_upright(Words { x, y: most, text, side: Side::Along, ink: Ink::Muted }, -most);
+    let mut panels = vec![Panel::new("Rotation", time(""), y, layers)];
+    for (title, unit, label, line) in [
+        ("Ground acceleration", "g", "", line(Ink::Text, |point| point.ground_acceleration_m_s2 / G_M_S2)),
+        ("Ground velocity", "m/s", "time, s", line(Ink::Data(0), |point| point.ground_velocity_m_s)),
+    ] {
+        panels.push(Panel::new(title, time(label), Axis::linear(unit), vec![line]));
+    }
+    for (moment, words) in [(response.tipped_at(), "tips"), (response.overturned_at(), "lies")] {
+        let Some(x) = moment else { continue };
+        let words = Words { x, y: most, text: words.to_string(), side: Side::Along, ink: Ink::Muted };
+        panels[0].add_upright(words, -most);
     }
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
-    Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels)
-        .explained("Dots: uplift and impacts. Dashed: the rotation *α* at which it tips.")
+    let figure = Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels);
+    Figure { moving: moving(response, id), ..figure }.explained(response.caption())
 }
 
-/// The page of responses: what moves, and what came of each.
+/// The figures of responses.
+pub fn figures(all: &[Trace]) -> Vec<Figure> {
+    all.iter().enumerate().map(|(id, response)| figure(response, id)).collect()
+}
+
+/// The page of responses: what came of each, and what moves.
 pub fn page(all: &[Trace]) -> Page {
-    let figures = all.iter().map(figure).collect();
-    match all {
-        [one] => Page {
-            title: words(&one.title()),
-            place: one.size(),
-            sentence: one.sentence(),
-            moving: vec![format!("<div>\n{}</div>\n", moving(one, 0))],
-            figures,
-            ..Page::default()
-        },
-        several => Page {
-            title: format!("{} over time", number::counted(several.len(), "response")),
-            sentence: format!(
-                "{} of {} overturn. Each moves in real time.",
-                several.iter().filter(|response| response.overturned_at().is_some()).count(),
-                several.len()
-            ),
-            moving: several.iter().enumerate().map(|(id, response)| with_words(response, id)).collect(),
-            figures,
-            ..Page::default()
-        },
-    }
-}
-
-/// The block as it moves, with what came of it.
-fn with_words(response: &Trace, id: usize) -> String {
-    format!(
-        "<div>\n{}<p class=\"caption\">{}</p>\n</div>\n",
-        moving(response, id),
-        html(&response.sentence())
-    )
+    let overturned = all.iter().filter(|response| response.overturned_at().is_some()).count();
+    let (title, sentence) = match all {
+        [one] => (words(&one.title()), one.sentence()),
+        all => (
+            format!("{} over time", number::counted(all.len(), "response")),
+            format!("{overturned} of {} overturn.", all.len()),
+        ),
+    };
+    Page { title, sentence, figures: figures(all), ..Page::default() }
 }
 
 /// One moment of what moves: the time as a fraction of all, the rotation in degrees, and the corner about which.
@@ -209,64 +193,54 @@ struct Keyframe {
     corner: f64,
 }
 
-/// The block as it moves in real time, from a click on its button: a picture without any code. `id` is its
-/// own on the page.
-pub fn moving(response: &Trace, id: usize) -> String {
+/// The block as it moves in real time, from a click on its button: a picture without any code. The diagonal of
+/// the drawn block is always the same.
+fn moving(response: &Trace, id: usize) -> String {
     let span = response.span();
     let seconds = span.high - span.low;
-    let (half, high) = drawn_size(response);
-    let (mut times, mut turns) = (Vec::new(), Vec::new());
-    for Keyframe { at, degrees, corner } in keyframes(response, span) {
-        times.push(short(at, 4));
-        turns.push(format!("{} {} 0", short(degrees, 2), short(corner * half, 1)));
-    }
-    let (times, turns) = (times.join(";"), turns.join(";"));
-    let attributes = format!(
-        "begin=\"play{id}.click\" dur=\"{}s\" keyTimes=\"{times}\" fill=\"freeze\"",
-        short(seconds, 2)
-    );
-    let (width, height, ground) = (360.0, high + 46.0, high + 18.0);
-    let mut text = String::new();
+    let TraceRow { block_width_m: width_m, block_height_m: height_m, .. } = response.0[0];
+    let scale = DIAGONAL / width_m.hypot(height_m);
+    let (half, high) = (0.5 * scale * width_m, scale * height_m);
+    let frames = keyframes(response, span);
+    // How far the corners go to each side.
+    let [left, right] = [-1.0, 1.0].map(|side| {
+        let most = frames.iter().map(|frame| side * frame.degrees).fold(0.0, f64::max);
+        half + high * most.to_radians().sin() + MARGIN
+    });
+    let spare = (NARROWEST - left - right).max(0.0);
+    let (middle, width) = (left + 0.5 * spare, left + right + spare);
+    let (ground, height) = (high + 40.0, high + 70.0);
+    let times: Vec<String> = frames.iter().map(|frame| short(frame.at, 4)).collect();
+    let turns = frames.iter().map(|Keyframe { degrees, corner, .. }| {
+        format!("{} {} 0", short(*degrees, 2), short(corner * half, 1))
+    });
+    let (times, turns) = (times.join(";"), turns.collect::<Vec<_>>().join(";"));
+    let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", short(seconds, 2));
     let name = escape(&format!("{}, moving", words(&response.title())));
-    let _ = write!(
-        text,
-        "<svg class=\"moving\" viewBox=\"0 0 {width} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
-         <path d=\"M20 {ground}H340\" stroke=\"var(--muted)\" stroke-width=\"1.2\"/>\n\
-         <g transform=\"translate(180 {ground})\"><g>\n\
-         <rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"var(--data0)\" fill-opacity=\"0.2\" \
-         stroke=\"var(--ink)\" stroke-width=\"1.6\"/>\n\
-         <circle cx=\"0\" cy=\"{}\" r=\"3.4\" fill=\"var(--data1)\"/>\n\
-         <animateTransform attributeName=\"transform\" type=\"rotate\" {attributes} values=\"{turns}\"/>\n</g></g>\n",
-        short(-half, 1),
-        short(-high, 1),
-        short(2.0 * half, 1),
-        short(high, 1),
-        short(-0.5 * high, 1),
-    );
-    let middle = ground + 15.0;
-    let _ = write!(
-        text,
-        "<path d=\"M20 {middle}H300\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
-         <circle cx=\"20\" cy=\"{middle}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" \
-         begin=\"play{id}.click\" dur=\"{}s\" from=\"20\" to=\"300\" fill=\"freeze\"/></circle>\n\
-         <text x=\"308\" y=\"{}\" font-size=\"10\" fill=\"var(--muted)\">{} s</text>\n\
+    let (end, time, below) = (width - 60.0, number::fixed(seconds, 1), ground + 15.0);
+    let [edge, top, wide, tall, centre] =
+        [-half, -high, 2.0 * half, high, -0.5 * high].map(|at| short(at, 1));
+    format!(
+        "<svg class=\"moving\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
+         <path d=\"M20 {ground:.1}H{:.0}\" stroke=\"var(--muted)\" stroke-width=\"1.2\"/>\n\
+         <g transform=\"translate({middle:.1} {ground:.1})\"><g>\n\
+         <rect x=\"{edge}\" y=\"{top}\" width=\"{wide}\" height=\"{tall}\" fill=\"var(--data0)\" \
+         fill-opacity=\"0.2\" stroke=\"var(--ink)\" stroke-width=\"1.6\"/>\n\
+         <circle cx=\"0\" cy=\"{centre}\" r=\"3.4\" fill=\"var(--data1)\"/>\n\
+         <animateTransform attributeName=\"transform\" type=\"rotate\" {clock} keyTimes=\"{times}\" \
+         values=\"{turns}\"/>\n</g></g>\n\
+         <path d=\"M20 {below:.1}H{end:.0}\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
+         <circle cx=\"20\" cy=\"{below:.1}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" {clock} \
+         from=\"20\" to=\"{end:.0}\"/></circle>\n\
+         <text x=\"{:.0}\" y=\"{:.1}\" font-size=\"10\" fill=\"var(--muted)\">{time} s</text>\n\
          <g id=\"play{id}\" class=\"play\" role=\"button\" tabindex=\"0\" aria-label=\"play\">\
          <rect x=\"20\" y=\"8\" width=\"62\" height=\"24\" rx=\"12\" fill=\"var(--data1)\"/>\
          <path d=\"M34 14v12l10-6z\" fill=\"var(--paper)\"/>\
          <text x=\"50\" y=\"24\" font-size=\"11.5\" fill=\"var(--paper)\">play</text></g>\n</svg>\n",
-        short(seconds, 2),
-        middle + 3.5,
-        number::fixed(seconds, 1),
-    );
-    text
-}
-
-/// Half the width and the height of the drawn block, of which the diagonal is always the same.
-fn drawn_size(response: &Trace) -> (f64, f64) {
-    const DIAGONAL: f64 = 190.0;
-    let TraceRow { block_width_m: width, block_height_m: height, .. } = response.0[0];
-    let scale = DIAGONAL / width.hypot(height);
-    (0.5 * scale * width, scale * height)
+        width - 20.0,
+        end + 8.0,
+        below + 3.5,
+    )
 }
 
 /// The rotation at equal times, and at each sample where it changes its corner; a block turns about the

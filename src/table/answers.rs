@@ -31,6 +31,8 @@ pub struct ObjectRow {
     pub height_m: Option<f64>,
     pub floor_period_s: Option<f64>,
     pub floor_level: Option<f64>,
+    /// The floor as the list of the object has it.
+    pub floor: Option<String>,
     /// Number of such objects.
     pub count: Option<f64>,
     pub p_rad_s: Option<f64>,
@@ -45,6 +47,9 @@ pub struct ObjectRow {
     /// Block, body or frame; empty if read from a file.
     #[serde(skip)]
     pub kind: &'static str,
+    /// Name of its file, where there are several.
+    #[serde(skip)]
+    pub file: String,
     /// Whether friction was given, and is enough.
     #[serde(skip)]
     pub is_friction_known: bool,
@@ -62,6 +67,7 @@ impl ObjectRow {
             height_m: shape.height,
             floor_period_s: floor.map(|floor| floor.period_s),
             floor_level: floor.map(|floor| floor.level),
+            floor: object.floor.clone().filter(|_| floor.is_some()),
             count: object.count.map(f64::from),
             p_rad_s: structure.map(|structure| structure.p_rad_s),
             alpha_rad: structure.map(|structure| structure.alpha_rad),
@@ -71,6 +77,7 @@ impl ObjectRow {
             motions: by.map(|direction| direction.model.kind()),
             limit_state: by.map(|_| limit_state),
             kind: shape.kind(),
+            file: String::new(),
             is_friction_known: object.place.friction.is_some(),
         }
     }

@@ -69,6 +69,7 @@ fn fifteen_objects_are_the_same_in_every_form() {
     let plain = csv(&cells, ",");
     let expected = text(&plain);
     assert_eq!(expected.len(), 15);
+    assert_eq!(expected[4].floor.as_deref(), Some("floor 3 of 5"));
     // Storey 3 of 5: 17.5 m high, T1 = .0466 H^.9.
     let place = expected[4].place;
     assert!(
@@ -113,6 +114,9 @@ fn fifteen_objects_are_the_same_in_every_form() {
             let period = found.place.period.zip(expected.place.period);
             if period.is_some_and(|(found, expected)| (found / expected - 1.0).abs() < 1e-12) {
                 found.place.period = expected.place.period;
+            }
+            if name == "levels.csv" {
+                found.floor.clone_from(&expected.floor);
             }
             // What is not free has a reason in the words of its list.
             found.refused = found.refused.and(expected.refused.clone());

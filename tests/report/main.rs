@@ -12,7 +12,7 @@ use rockfrag::report::figures::common::{equal_ratios, observed_shares};
 use rockfrag::report::figures::*;
 use rockfrag::report::fragility;
 use rockfrag::report::response::{self, Trace};
-use rockfrag::report::{Axis, Column, Figure, Ink, Layer, Mark, Page, Panel, Section, Span, Table, png, svg};
+use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Span, Table, png, svg};
 use rockfrag::report::{compare, list, object};
 use rockfrag::rocking::{Outcome, SolverEvent, Structure};
 use rockfrag::statistics::Estimate;
@@ -99,8 +99,8 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
             fragility: Some(curve(count)),
             hazard: Some(SiteHazard { peak: Peak::Pga, points: vec![(0.1, 0.1), (10.0, 1e-4)], parts }),
             changes: vec![
-                Change { words: "as it is".to_string(), p: vec![limited(0.02)] },
-                Change { words: "base of 0.60 m".to_string(), p: vec![limited(0.01)] },
+                Change { words: "as it is".to_string(), is_moved: false, p: vec![limited(0.02)] },
+                Change { words: "base of 0.60 m".to_string(), is_moved: false, p: vec![limited(0.01)] },
             ],
         },
         ..Evaluation::default()
@@ -205,10 +205,10 @@ fn figures(count: usize) -> Vec<Figure> {
         hybrids(&tables, &suites),
         maps(&tables, &suites),
         object::figure(&one, &one.rows[0]),
-        list::figure(&[before.clone()][..count.min(1)]),
+        list::figure(&before),
         compare::figure(&compare::pairs(&before, &after), "in 50 years", Some(0.01)),
         fragility::figure(&fragile, None),
-        response::figure(&traced(count)),
+        response::figure(&traced(count), 0),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
         ranking(&sets),
@@ -278,24 +278,18 @@ fn shares_count_cases_and_events() {
 
 #[test]
 fn the_page_is_static_and_escapes_what_it_holds() {
-    let rows = vec![vec!["<script>alert(1)</script>".to_string(), "*P*_{ro}".to_string()]];
-    let table = Table {
-        columns: [("a", false), ("b", true)]
-            .map(|(head, is_number)| Column { head: head.into(), is_number })
-            .into(),
-        rows,
-        ..Default::default()
-    };
+    let row = ["<script>alert(1)</script>", "2 *P*_{ro}", "none"].map(str::to_string);
+    let table = Table::new(&["a", "b", "c"], vec![row.into()]);
     let sections = vec![Section { tables: vec![table.clone()], ..Default::default() }];
     let (title, figures) = ("{sentence} <b>".to_string(), figures(3));
     let panels: usize = figures.iter().map(|figure| figure.panels.len()).sum();
-    let page = Page { title, table: Some(table), figures, sections, ..Default::default() }.html();
+    let page = Page { title, tables: vec![table], figures, sections, ..Default::default() }.html();
     assert!(!["<script", "<b>", "http"].iter().any(|code| page.contains(code)), "no code, no links");
-    let [frames, pictures, wide] =
-        ["<figure>", "role=\"img\"", "class=\"wide\""].map(|part| page.matches(part).count());
-    assert_eq!([frames, pictures], [panels, panels + wide], "each panel is a picture, or one of two widths");
+    let [frames, pictures] = ["<figure>", "role=\"img\""].map(|part| page.matches(part).count());
+    assert_eq!([frames, pictures], [panels + 1; 2], "each panel is a picture, and what moves");
     assert!(panels > 30);
-    assert_eq!(page.matches("<td class=\"number\" data-head=\"b\"><i>P</i><sub>ro</sub></td>").count(), 2);
+    assert_eq!(page.matches("<td class=\"number\" data-head=\"b\">2 <i>P</i><sub>ro</sub></td>").count(), 2);
+    assert_eq!(page.matches("<td data-head=\"c\">none</td>").count(), 2);
     assert!(page.contains("<h1>{sentence} &lt;b&gt;</h1>") && page.contains("var(--data1)"));
 }
 
@@ -397,10 +391,10 @@ fn a_column_of_one_value_is_said_once() {
         rated.object.friction = Some(0.25);
     }
     all.rows[2].object.count = Some(3.0);
-    let page = list::page(&[all]);
-    let heads = page.table.unwrap().columns.into_iter().map(|column| column.head).collect::<Vec<_>>();
+    let page = list::page(&all);
+    let heads: Vec<String> = page.tables.into_iter().flat_map(|table| table.heads).collect();
     assert_eq!(
-        ["friction needed", "number", "where"].map(|head| heads.contains(&head.into())),
+        ["friction needed", "number", "floor"].map(|head| heads.contains(&head.into())),
         [false, true, true]
     );
     assert!(page.facts[0].contains("friction needed 0.25") && !page.facts[0].contains("number"));
@@ -409,13 +403,18 @@ fn a_column_of_one_value_is_said_once() {
 #[test]
 fn what_is_changed_comes_first_and_is_named() {
     let mut before = evaluation(3, 1e-3);
-    before.rows[2].object.width_m = Some(0.5);
+    (before.rows[2].object.width_m, before.rows[2].object.height_m) = (Some(0.5), Some(1.9));
     let mut after = before.clone();
     after.rows[2].object.width_m = Some(0.6);
     after.rows[2].row.p_overturning = limited(0.002);
     let page = compare::page(&before, &after);
-    assert!(page.tiles.len() == 1 && page.tiles[0].words.contains("width 0.50 → 0.60 m"), "{:?}", page.tiles);
-    assert!(page.table.unwrap().rows[0][0].contains("me\\*2") && page.sentence.contains("target"));
+    assert!(
+        page.tiles.len() == 1 && page.tiles[0].words.contains("0.50 × 1.90 m → 0.60"),
+        "{:?}",
+        page.tiles
+    );
+    assert!(page.tables[0].rows.len() == 1 && page.tables[0].rows[0][0].contains("me\\*2"));
+    assert!(page.sentence.contains("target") && page.notes[0].contains("2 objects as before"));
 }
 
 /// The same object may stand in both files.
@@ -423,15 +422,15 @@ fn what_is_changed_comes_first_and_is_named() {
 fn the_expected_number_is_that_of_each_file() {
     let [one, other] = ["a", "b"].map(|file| Evaluation { file: file.to_string(), ..evaluation(4, 1e-3) });
     let expected = |page: Page| page.tiles[..2].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
-    let alone = expected(list::page(std::slice::from_ref(&one))).remove(0);
-    assert_eq!(expected(list::page(&[one, other])), [alone.clone(), alone]);
+    let alone = expected(list::page(&one)).remove(0);
+    assert_eq!(expected(list::page(&Evaluation::joined(&[one, other]))), [alone.clone(), alone]);
 }
 
 #[test]
 fn names_of_responses_are_no_markup() {
     let page = response::page(&[traced(100)]).html();
     assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
-    let words = svg(&response::figure(&traced(100)), "");
+    let words = svg(&response::figure(&traced(100), 0), "");
     assert!(words.contains("<title>Response of fra*me*2 to motion m&lt;1&gt;</title>"));
 }
 

@@ -48,7 +48,7 @@ const BINS: usize = 60;
 pub fn page(evaluation: &Evaluation) -> Page {
     match &evaluation.rows[..] {
         [one] => object::page(evaluation, one),
-        _ => list::page(std::slice::from_ref(evaluation)),
+        _ => list::page(evaluation),
     }
 }
 
@@ -70,14 +70,17 @@ impl Alone<'_> {
     /// What the page shows besides the row.
     pub fn portrait(&self, models: &Models, site: &Site, years: f64) -> Portrait {
         let p = vec![overturning(&self.subject, site, years)];
-        let mut changes = vec![Change { words: "as it is".to_string(), p }];
+        let mut changes = vec![Change { words: "as it is".to_string(), is_moved: false, p }];
         for changed in self.object.changes() {
             // What would not rock, or lies outside the model, has no row.
             let Ok((subject, _)) = models.subject(&changed.object) else { continue };
             let p = overturning(&subject, site, years);
             match changes.last_mut().filter(|last| last.words == changed.words) {
                 Some(same) => same.p.push(p),
-                None => changes.push(Change { words: changed.words, p: vec![p] }),
+                None => {
+                    let is_moved = changed.object.place.level != self.object.place.level;
+                    changes.push(Change { words: changed.words, is_moved, p: vec![p] });
+                }
             }
         }
         let (peak, points) = match &site.hazard {

@@ -68,12 +68,12 @@ fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String 
         let depth = number::length(depth);
         format!("No width reaches {target} {years}: it then falls over its depth ({depth} m).\n")
     });
-    let by_limit = base_in_words(rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
-    match (base_in_words(rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
+    let by_limit = base_in_words(object, rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
+    match (base_in_words(object, rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
         (None, Some(depth)) => depth,
         (None, None) => format!("No width below its height reaches {target} {years}.\n"),
         (Some(by_estimate), depth) => format!(
-            "{}Width for {target} {years}: {by_estimate}; {} by the upper limit.\n",
+            "{}Base for {target} {years}: {by_estimate}; {} by the upper limit.\n",
             depth.unwrap_or_default(),
             by_limit.unwrap_or("none".to_string())
         ),
@@ -83,7 +83,7 @@ fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String 
 fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Option<&Path>) -> String {
     let worst = &all[0];
     let years = when(&worst.row);
-    let width = target.map(|target| format!("width for {}", PERCENT.one(target)));
+    let width = target.map(|target| format!("base for {}", PERCENT.one(target)));
     let headings = ["rocks", "overturns", "once in years", &years, "", "friction"];
     let headings: Vec<&str> = headings.into_iter().chain(width.as_deref()).collect();
     let table = table(&headings, all, out, |Answer { object, row: rates, .. }| {
@@ -95,9 +95,9 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
             PERCENT.limits(rates.p_overturning, ""),
             friction(object),
         ];
-        let base =
-            base_in_words(rates.bases.target_width_m, rates.bases.target_sides_m).unwrap_or("-".to_string());
-        cells.extend(target.map(|_| base.replace("on both sides", "both")));
+        let base = base_in_words(object, rates.bases.target_width_m, rates.bases.target_sides_m)
+            .unwrap_or("-".to_string());
+        cells.extend(target.map(|_| base));
         cells
     });
     let (name, how_often) = (name(&worst.object.structure), how_often(&worst.row, site));

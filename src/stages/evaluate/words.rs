@@ -94,8 +94,8 @@ pub fn table<R>(
     let most = if out.is_some() || all.len() > PRINTED[1] { PRINTED[0] } else { all.len() };
     let (printed, others) = all.split_at(most.min(all.len()));
     for answer in printed {
-        let floor = answer.object.floor().map_or(String::new(), |floor| format!(" at {floor}"));
-        let mut row = vec![answer.object.structure.clone(), answer.object.size() + &floor];
+        let size = answer.object.size() + &answer.object.floor_after(", ");
+        let mut row = vec![answer.object.structure.clone(), size];
         row.extend(cells(answer));
         row.push(brief(answer));
         row.extend(is_fitted_each.then(|| number::count(answer.responses as usize)));

@@ -7,9 +7,10 @@ use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
 use crate::number::{self, Limited, TWO_DIGITS, listed};
+use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, scaled_label};
 use crate::report::text::{literal, minus, words};
-use crate::report::{Column, Figure, Page, Section, Table, compare, fragility, list, object, response};
+use crate::report::{Figure, Page, Section, Table, compare, fragility, list, object, response};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::{both, coefficient};
 use crate::studies::Validation;
@@ -59,10 +60,10 @@ pub fn head(tables: &Tables) -> anyhow::Result<Page> {
         (evaluations, ..) => match (tables.comparison(), evaluations) {
             (Some([before, after]), _) => compare::page(before, after),
             (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
-            (_, several) => list::page(several),
+            (_, several) => list::page(&Evaluation::joined(several)),
         },
     };
-    head.figures.extend(tables.traces.iter().map(response::figure));
+    head.figures.extend(response::figures(&tables.traces));
     head.figures.push(fragility::figure(&tables.fragilities, None));
     head.figures.retain(|figure| !figure.panels.is_empty());
     Ok(head)
@@ -107,7 +108,7 @@ fn paper_page(tables: &Tables, compared: &[Comparison]) -> Page {
         title: "The paper's fragilities, made again".to_string(),
         place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
         sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
-        table: Some(planes(compared)),
+        tables: vec![planes(compared)],
         ..Page::default()
     }
 }
@@ -119,7 +120,7 @@ fn responses_page(tables: &Tables) -> anyhow::Result<Page> {
             false => "What rocks and what overturns".to_string(),
         },
         sentence: overturned(&tables.groups),
-        table: Some(outcomes(tables)?).filter(|table| !table.rows.is_empty()),
+        tables: vec![outcomes(tables)?].into_iter().filter(|table| !table.rows.is_empty()).collect(),
         ..Page::default()
     })
 }
@@ -147,32 +148,20 @@ fn facts(tables: &Tables) -> Vec<String> {
 /// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
     let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
-    let (mut columns, mut cells) = (Vec::new(), vec![Vec::new(); rows.len()]);
-    for field in fields.split('|').filter(|field| rows.iter().any(|row| !row[*field].is_null())) {
-        let is_name = ["structure", "file"].contains(&field);
-        let is_number = !is_name && rows.iter().any(|row| is_number(&row[field]));
-        columns.push(Column { head: spaced(field), is_number });
-        for (cells, row) in cells.iter_mut().zip(&rows) {
-            cells.push(if is_name {
-                literal(row[field].as_str().unwrap_or_default())
-            } else {
-                cell(&row[field])
-            });
-        }
-    }
-    Table { caption: caption.to_string(), columns, rows: cells }
+    let is_there = |field: &&str| rows.iter().any(|row| !row[*field].is_null());
+    let fields: Vec<&str> = fields.split('|').filter(is_there).collect();
+    let written = |row: &Value, field: &str| match field {
+        "structure" | "file" => literal(row[field].as_str().unwrap_or_default()),
+        _ => cell(&row[field]),
+    };
+    let cells = rows.iter().map(|row| fields.iter().map(|field| written(row, field)).collect());
+    let heads = fields.iter().map(|field| spaced(field)).collect();
+    Table { caption: caption.to_string(), heads, rows: cells.collect() }
 }
 
 /// A name of the program in words; marked text stays.
 fn spaced(text: &str) -> String {
     if text.contains('{') { text.to_string() } else { text.replace('_', " ") }
-}
-
-fn is_number(value: &Value) -> bool {
-    match value {
-        Value::String(text) => text.starts_with(|sign: char| "0123456789-\u{2212}".contains(sign)),
-        other => other.is_number(),
-    }
 }
 
 fn cell(value: &Value) -> String {
