@@ -85,15 +85,15 @@ pub struct Building {
     exponent: f64,
 }
 
-static CONCRETE: Building = Building { meaning: "concrete", factor: 0.0466, exponent: 0.9 };
-static WALLS: Building = Building { meaning: "walls", factor: 0.0488, exponent: 0.75 };
-static STEEL: Building = Building { meaning: "steel", factor: 0.0724, exponent: 0.8 };
+static BUILDINGS: [Building; 3] = [
+    Building { meaning: "concrete", factor: 0.0466, exponent: 0.9 },
+    Building { meaning: "walls", factor: 0.0488, exponent: 0.75 },
+    Building { meaning: "steel", factor: 0.0724, exponent: 0.8 },
+];
 
 impl Building {
-    const ALL: [&Building; 3] = [&CONCRETE, &WALLS, &STEEL];
-
     pub fn parse(cell: &str) -> Option<&'static Building> {
-        Building::ALL.into_iter().find(|building| means(cell, building.meaning))
+        BUILDINGS.iter().find(|building| means(cell, building.meaning))
     }
 
     fn period_s(&self, storeys: u32) -> f64 {
@@ -105,9 +105,9 @@ impl Building {
 /// building of unknown type has the period of a concrete frame, with the scatter between the types beside
 /// that of one.
 pub fn place(above: u32, storeys: u32, building: Option<&Building>, known: Place) -> Place {
-    let period_s = building.unwrap_or(&CONCRETE).period_s(storeys);
-    let squares = Building::ALL.map(|other| (other.period_s(storeys) / period_s).ln().powi(2));
-    let between = squares.iter().sum::<f64>() / squares.len() as f64;
+    let period_s = building.unwrap_or(&BUILDINGS[0]).period_s(storeys);
+    let squares = BUILDINGS.iter().map(|other| (other.period_s(storeys) / period_s).ln().powi(2));
+    let between = squares.sum::<f64>() / BUILDINGS.len() as f64;
     let is_guessed = building.is_none() && known.period.is_none();
     let period_sd = is_guessed.then_some((SD_OF_TYPE.powi(2) + between).sqrt());
     Place {

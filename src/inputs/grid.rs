@@ -9,6 +9,7 @@ use super::decode::decode;
 use super::error::InputError;
 use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
+use super::rename::Renames;
 use super::unpack::{Member, unpack};
 use super::words::{joined, words};
 use super::workbook;
@@ -46,6 +47,12 @@ impl Grid {
         let bytes =
             source::read(&file).map_err(|error| InputError::Unreadable(error.kind(), error.to_string()))?;
         Grid::parse(&bytes, sheet.as_deref())
+    }
+
+    /// Reads a table whose columns the user may name.
+    pub fn read_renamed(path: &Path, renames: &mut Renames) -> Result<Grid, InputError> {
+        let mut grid = Grid::read(path)?;
+        renames.apply(&mut grid).map(|()| grid)
     }
 
     /// Reads a table, packed or not: text, or a sheet of a workbook.
@@ -296,9 +303,7 @@ fn heading_row(above: &[Row], is_number_column: &[bool], separator: Option<char>
 /// Whether numbers are more than words where numbers are expected.
 fn is_data(row: &Row, is_number_column: &[bool]) -> bool {
     let cells = is_number_column.iter().zip(&row.cells).filter(|(is_number, _)| **is_number);
-    let cells = cells.map(|(_, cell)| cell).filter(|cell| !is_missing(cell));
-    let (numbers, words): (Vec<&str>, Vec<&str>) = cells.partition(|cell| is_number(cell));
-    numbers.len() > words.len()
+    cells.filter(|(_, cell)| is_number(cell)).count() > count_words(row, is_number_column)
 }
 
 /// How many cells have words where numbers are expected, or at all if none are. What begins with a digit is a

@@ -20,8 +20,7 @@ pub enum Cells {
 
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
 pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, Cells)>, InputError> {
-    let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
-    grid.and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
+    Grid::read_renamed(path, renames).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
 }
 
 fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {

@@ -61,8 +61,9 @@ pub fn read(
     renames: &mut Renames,
     common: &Common,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
-    let grid = Grid::read(path).and_then(|mut grid| renames.apply(&mut grid).map(|()| grid));
-    grid.and_then(|grid| in_rows(&grid, &[], common)).map_err(|error| error.in_file(path))
+    Grid::read_renamed(path, renames)
+        .and_then(|grid| in_rows(&grid, &[], common))
+        .map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.

@@ -8,8 +8,10 @@ use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
 use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, measures};
+use crate::number::significant;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
+use crate::warning::Warning;
 
 /// Share of the PGA whose loss by resampling is told.
 const NOTICEABLE_LOSS: f64 = 0.01;
@@ -31,6 +33,8 @@ pub struct NamedRecord {
     pub motion_id: String,
     pub source: SourceFile,
     pub motion: RecordedMotion,
+    /// What speaks against it, though it is imported.
+    pub doubts: Vec<(Warning, String)>,
 }
 
 /// Why a record cannot be processed.
@@ -62,27 +66,18 @@ pub struct ImportedMotion {
     pub source: SourceFile,
     /// The record, without its samples.
     pub record: RecordedMotion,
-    pub doubts: Doubts,
+    pub doubts: Vec<(Warning, String)>,
     pub scale: f64,
     /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
     pub measured: Measured,
-    /// Peaks over all directions of the pair.
+    /// Peaks over all directions of the pair, before it is scaled.
     pub rotd: Option<RotD>,
     /// Pulse indicator; none if pulses were not searched.
     pub indicator: Option<PulseIndicator>,
-    /// Fitted pulse; none without a pulse.
+    /// Pulse fitted to the record before it is scaled; none without a pulse.
     pub pulse: Option<FittedPulse>,
-}
-
-/// What speaks against a motion that is imported all the same.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Doubts {
-    /// Why no record is like it, or few are.
-    pub implausibility: Option<Implausibility>,
-    /// Share of the PGA that another time step takes away, if it is noticeable.
-    pub lost_pga: Option<f64>,
 }
 
 keywords! {
@@ -115,8 +110,7 @@ pub struct Processing {
 impl Processing {
     /// Processes a record.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let (record, doubts) = self.corrected(record)?;
-        self.scaled(record, doubts, None)
+        self.scaled(self.corrected(record)?, None)
     }
 
     /// Processes two components at right angles into one motion.
@@ -124,18 +118,12 @@ impl Processing {
         &self,
         [first, second]: [NamedRecord; 2],
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let ((first, first_doubts), (second, second_doubts)) =
-            (self.corrected(first)?, self.corrected(second)?);
-        let (record, rotd) = self.rotated(first, second);
-        let doubts = Doubts {
-            implausibility: first_doubts.implausibility.or(second_doubts.implausibility),
-            lost_pga: first_doubts.lost_pga.into_iter().chain(second_doubts.lost_pga).reduce(f64::max),
-        };
-        self.scaled(record, doubts, Some(rotd))
+        let (record, rotd) = self.rotated(self.corrected(first)?, self.corrected(second)?);
+        self.scaled(record, Some(rotd))
     }
 
     /// Corrects the baseline, filters, checks and resamples.
-    fn corrected(&self, mut record: NamedRecord) -> Result<(NamedRecord, Doubts), ProcessingError> {
+    fn corrected(&self, mut record: NamedRecord) -> Result<NamedRecord, ProcessingError> {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(corner_hz) = self.high_pass_hz {
@@ -145,13 +133,12 @@ impl Processing {
             }
             high_pass(&mut motion.acceleration_m_s2, motion.dt_s, corner_hz);
         }
-        let implausibility = implausibility(&motion.acceleration_m_s2, motion.dt_s);
-        if let Some(impossible) = implausibility.filter(Implausibility::is_impossible)
-            && !self.accept_implausible
-        {
-            return Err(ProcessingError::Implausible(impossible));
+        if let Some(why) = implausibility(&motion.acceleration_m_s2, motion.dt_s) {
+            if why.is_impossible() && !self.accept_implausible {
+                return Err(ProcessingError::Implausible(why));
+            }
+            record.doubts.push((Warning::ImplausibleRecord, why.to_string()));
         }
-        let mut doubts = Doubts { implausibility, lost_pga: None };
         if let Some(dt_s) = self.resample_s {
             let samples = resampled_length(motion.acceleration_m_s2.len(), motion.dt_s, dt_s);
             if !(2.0..=LONGEST_MOTION as f64).contains(&samples) {
@@ -161,9 +148,12 @@ impl Processing {
             motion.acceleration_m_s2 = resample(&motion.acceleration_m_s2, motion.dt_s, dt_s);
             motion.dt_s = dt_s;
             let lost = 1.0 - peak(&motion.acceleration_m_s2) / before;
-            doubts.lost_pga = Some(lost).filter(|lost| *lost > NOTICEABLE_LOSS);
+            if lost > NOTICEABLE_LOSS {
+                let lower = format!("{} % lower", significant(100.0 * lost, 2));
+                record.doubts.push((Warning::LoweredPeak, lower));
+            }
         }
-        Ok((record, doubts))
+        Ok(record)
     }
 
     /// Rotates two components to the chosen direction.
@@ -187,6 +177,7 @@ impl Processing {
                 path: both(first.source.path, second.source.path),
                 blake3: both(first.source.blake3, second.source.blake3),
             },
+            doubts: [first.doubts, second.doubts].concat(),
             motion: RecordedMotion {
                 acceleration_m_s2,
                 component: Some(format!("{azimuth_deg:.1} deg of a pair")),
@@ -202,16 +193,15 @@ impl Processing {
     fn scaled(
         &self,
         record: NamedRecord,
-        doubts: Doubts,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let NamedRecord { motion_id, source, motion } = record;
+        let NamedRecord { motion_id, source, motion, doubts } = record;
         let dt_s = motion.dt_s;
         let factors = self.scaling.factors(&motion.acceleration_m_s2, dt_s);
         if factors.is_empty() {
             return Err(ProcessingError::Zero);
         }
-        let (indicator, fitted) = self.pulse_of(&motion);
+        let (indicator, pulse) = self.pulse_of(&motion);
         let samples = motion.acceleration_m_s2;
         let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..motion };
         let several = factors.len() > 1;
@@ -222,13 +212,13 @@ impl Processing {
                 motion_id: if several { format!("{motion_id} x{scale}") } else { motion_id.clone() },
                 source: source.clone(),
                 record: motion.clone(),
-                doubts,
+                doubts: doubts.clone(),
                 scale,
                 measured: self.measured(&acceleration_m_s2, dt_s),
                 acceleration_m_s2,
-                rotd: rotd.map(|rotd| rotd.scaled(scale)),
+                rotd,
                 indicator,
-                pulse: fitted.map(|fitted| fitted.scaled(scale)),
+                pulse,
             };
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured.measures;
             let pga_g = pga_m_s2 / G_M_S2;

@@ -85,18 +85,6 @@ pub struct RotD {
     pub pgv100_m_s: f64,
 }
 
-impl RotD {
-    /// Returns the peaks of the scaled pair.
-    pub fn scaled(&self, factor: f64) -> RotD {
-        RotD {
-            pga50_m_s2: factor * self.pga50_m_s2,
-            pga100_m_s2: factor * self.pga100_m_s2,
-            pgv50_m_s: factor * self.pgv50_m_s,
-            pgv100_m_s: factor * self.pgv100_m_s,
-        }
-    }
-}
-
 impl HorizontalPair {
     /// Makes a pair of components that start together; the longer one is cut.
     pub fn new(mut first: RecordedMotion, mut second: RecordedMotion) -> HorizontalPair {

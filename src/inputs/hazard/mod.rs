@@ -149,8 +149,7 @@ impl Found {
         renames: &mut Renames,
         effective_years: Option<f64>,
     ) -> Result<(), InputError> {
-        let mut grid = Grid::read(path)?;
-        renames.apply(&mut grid)?;
+        let mut grid = Grid::read_renamed(path, renames)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
             ["gmv_", "poe-"].map(|start| grid.headings.iter().any(|heading| heading.text.starts_with(start)));

@@ -63,12 +63,6 @@ impl FittedPulse {
         let r2 = 1.0 - residual / velocity.iter().map(|v| v * v).sum::<f64>();
         r2.is_finite().then_some(FittedPulse { pulse, t0_s, r2 })
     }
-
-    /// Returns the pulse of the scaled record.
-    pub fn scaled(&self, factor: f64) -> FittedPulse {
-        let pulse = Pulse { amplitude_m_s: factor * self.pulse.amplitude_m_s, ..self.pulse };
-        FittedPulse { pulse, ..*self }
-    }
 }
 
 /// A velocity as means over equal intervals, within which a pulse hardly changes.

@@ -78,18 +78,18 @@ fn source(motion: &ImportedMotion) -> SourceRow {
 }
 
 fn pulse(motion: &ImportedMotion) -> PulseRow {
-    let (rotd, indicator, fitted) = (motion.rotd, motion.indicator, motion.pulse);
+    let ImportedMotion { rotd, indicator, pulse: fitted, scale, .. } = *motion;
     let pulse = fitted.map(|fitted| fitted.pulse);
     PulseRow {
-        rotd50_pga_m_s2: rotd.map(|rotd| rotd.pga50_m_s2),
-        rotd100_pga_m_s2: rotd.map(|rotd| rotd.pga100_m_s2),
-        rotd50_pgv_m_s: rotd.map(|rotd| rotd.pgv50_m_s),
-        rotd100_pgv_m_s: rotd.map(|rotd| rotd.pgv100_m_s),
+        rotd50_pga_m_s2: rotd.map(|rotd| scale * rotd.pga50_m_s2),
+        rotd100_pga_m_s2: rotd.map(|rotd| scale * rotd.pga100_m_s2),
+        rotd50_pgv_m_s: rotd.map(|rotd| scale * rotd.pgv50_m_s),
+        rotd100_pgv_m_s: rotd.map(|rotd| scale * rotd.pgv100_m_s),
         pulse_indicator: indicator.map(|found| found.indicator),
         pulse_verdict: indicator.map(|found| found.verdict),
         pulse_wavelet_s: indicator.map(|found| found.period_s),
-        pulse_amplitude_m_s: pulse.map(|pulse| pulse.amplitude_m_s),
-        vp_m_s: pulse.map(|pulse| pulse.amplitude_m_s * largest_velocity(pulse.gamma, pulse.nu_rad)),
+        pulse_amplitude_m_s: pulse.map(|pulse| scale * pulse.amplitude_m_s),
+        vp_m_s: pulse.map(|pulse| scale * pulse.amplitude_m_s * largest_velocity(pulse.gamma, pulse.nu_rad)),
         tp_s: pulse.map(|pulse| pulse.tp_s),
         gamma: pulse.map(|pulse| pulse.gamma),
         nu_rad: pulse.map(|pulse| pulse.nu_rad),

@@ -195,7 +195,7 @@ impl Importer {
             }
             Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(path, &problem))?;
             let motion_id = if several { format!("{name}:{number}") } else { name.clone() };
-            Ok(NamedRecord { motion_id, source: source.clone(), motion })
+            Ok(NamedRecord { motion_id, source: source.clone(), motion, doubts: Vec::new() })
         });
         records.collect()
     }

@@ -17,7 +17,7 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
 use crate::motion::MeasurePlan;
-use crate::number::{counted, significant};
+use crate::number::counted;
 use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
@@ -193,10 +193,7 @@ impl Stage for ImportMotions {
 }
 
 fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> {
-    let (id, doubts) = (&motion.motion_id, motion.doubts);
-    let implausible = doubts.implausibility.map(|why| (Warning::ImplausibleRecord, format!("{id}: {why}")));
-    let lost = doubts.lost_pga.map(|share| format!("{id}: {} % lower", significant(100.0 * share, 2)));
-    implausible.into_iter().chain(lost.map(|lost| (Warning::LoweredPeak, lost)))
+    motion.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", motion.motion_id)))
 }
 
 impl ImportMotions {
