@@ -128,6 +128,11 @@ impl Style {
         limits.map_or(String::new(), |(low, high)| format!("({words}{})", self.range(low, high)))
     }
 
+    /// Writes the limits of a value alone.
+    pub fn span(self, of: Limited) -> String {
+        self.limits(of, "").replace(['(', ')'], "")
+    }
+
     pub fn both(self, of: Limited, words: &str) -> String {
         format!("{} {}", self.value(of), self.limits(of, words)).trim_end().to_string()
     }

@@ -1,7 +1,7 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
 use crate::fragility::Peak;
-use crate::hazard::{Fragility, RateByIntensity, probability_in_years};
+use crate::hazard::{Fragility, HazardCurve, RateByIntensity, probability_in_years};
 use crate::number::{self, Limited, PERCENT};
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::warning::UNNAMED;
@@ -63,8 +63,7 @@ pub struct Outline {
 #[derive(Debug, Clone)]
 pub struct SiteHazard {
     pub peak: Peak,
-    /// Intensities, m/s2 or m/s, and annual rates of exceedance.
-    pub points: Vec<(f64, f64)>,
+    pub curve: HazardCurve,
     pub parts: RateByIntensity,
 }
 

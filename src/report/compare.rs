@@ -10,8 +10,7 @@ use crate::hazard::{RateByParts, ratio_of_rates};
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
 use crate::object::Part;
 
-/// Changed objects that stand under the lead, and objects that are named in a sentence and in a line.
-const DRAWN: usize = 4;
+/// Objects that are named in a sentence and in a line.
 const NAMED: usize = 4;
 const MANY: usize = 20;
 
@@ -58,13 +57,6 @@ impl Pair<'_> {
         self.before.row.p_overturning != self.after.row.p_overturning || !self.changes().is_empty()
     }
 
-    /// How many times as often, after this sign; nothing where one has no rate.
-    fn times(&self, sign: &str) -> String {
-        let ratio = self.ratio.value.map(|_| TWO_DIGITS.both(self.ratio, "95 % limits "));
-        let ratio = ratio.map(|ratio| ratio.replacen(' ', " times as often ", 1));
-        ratio.map_or(String::new(), |ratio| format!("{sign}{ratio}"))
-    }
-
     /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle and eta where nothing else does.
     fn changes(&self) -> Vec<String> {
         let both = [self.before, self.after].map(|rated| &rated.object);
@@ -86,11 +78,6 @@ impl Pair<'_> {
             words.extend(is_told.then(|| format!("{name} {old}{unit} → {new}{unit}")));
         }
         words
-    }
-
-    fn what_changed(&self) -> String {
-        let changes = self.changes().join(", ");
-        if changes.is_empty() { "nothing of the object".to_string() } else { changes }
     }
 }
 
@@ -142,10 +129,7 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         },
         place: format!("Before: {file_before}; after: {file_after}; {hazards}"),
         sentence: sentence(&pairs, when, target),
-        tiles: match &pairs[..] {
-            [_] => Vec::new(),
-            several => several.iter().filter(|pair| pair.is_changed()).take(DRAWN).map(tile).collect(),
-        },
+        tiles: tiles(before, after, when, target),
         facts: [Some(cancels), limits_in_words(&rated)].into_iter().flatten().collect(),
         tables: vec![table(told(&pairs), when)],
         notes: others(before, after, &pairs),
@@ -156,52 +140,56 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
 
 /// What has become of one object, or of all, and which are above the target still.
 fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
-    if let [pair] = pairs {
-        let [old, new] = [pair.before, pair.after].map(|rated| PERCENT.value(rated.row.p_overturning));
-        let odds = format!("{} overturns with a probability of {old} before and {new} after", pair.name());
-        let target = target.map_or(String::new(), |target| format!(" {}", pair.after.about_target(target)));
-        return format!("{odds}, {when}{}. What changed: {}.{target}", pair.times(": "), pair.what_changed());
+    let percent = |rated: &Rated| PERCENT.value(rated.row.p_overturning);
+    if let [Pair { before, after, .. }] = pairs {
+        let name = before.object.marked_name();
+        let target = target.map_or(String::new(), |target| format!(" {}", after.about_target(target)));
+        let (before, after) = (percent(before), percent(after));
+        return format!(
+            "{name} overturns with a probability of {before} before and {after} after, {when}.{target}"
+        );
     }
     let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
-    let old = Expected::new(pairs.iter().map(|pair| pair.before)).number();
-    let new = Expected::new(pairs.iter().map(|pair| pair.after)).number();
+    let changed = format!("{} of {} change.", number::count(changed), number::counted(pairs.len(), "object"));
     let mut after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
     after.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-    let still = after.iter().filter(|rated| target.is_none_or(|target| rated.severity() > target)).count();
-    let [named, all] = [number::count(changed), number::counted(pairs.len(), "object")];
-    let fewer =
-        format!("{named} of {all} change. Expected to overturn {when}: {old} objects before, {new} after.");
-    let worst: Vec<String> = after
-        .iter()
-        .take(if target.is_some() { still } else { 1 })
-        .map(|rated| format!("{} ({})", rated.object.marked_name(), PERCENT.value(rated.row.p_overturning)))
-        .collect();
-    let worst = number::listed(&worst, NAMED);
+    after.retain(|rated| target.is_none_or(|target| rated.severity() > target));
+    let worst: Vec<String> =
+        after.iter().map(|rated| format!("{} ({})", rated.object.marked_name(), percent(rated))).collect();
     match target.map(|target| PERCENT.one(target)) {
-        None => format!("{fewer} The most likely to overturn is now {worst}."),
-        Some(target) if still == 0 => format!("{fewer} All meet the target of {target}."),
-        Some(target) => format!("{fewer} Still above the target of {target}: {worst}."),
+        None => format!("{changed} The most likely to overturn {when} is now {}.", worst[0]),
+        Some(target) if worst.is_empty() => format!("{changed} All now meet the target of {target} {when}."),
+        Some(target) => {
+            format!("{changed} Still above the target of {target} {when}: {}.", number::listed(&worst, NAMED))
+        }
     }
 }
 
-/// What is changed of an object, and what comes of it.
-fn tile(pair: &Pair) -> Tile {
-    let [before, after] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
-    let number = format!("{} → {}", OF_HUNDRED.value(before), PERCENT.value(after));
-    Tile::new(number, format!("{}: {}{}", pair.name(), pair.what_changed(), pair.times("; ")))
+/// The numbers of objects that are expected to overturn, and above the target.
+fn tiles(before: &Evaluation, after: &Evaluation, when: &str, target: Option<f64>) -> Vec<Tile> {
+    let both = [before, after].map(|one| &one.rows);
+    if both.iter().all(|rows| rows.len() < 2) {
+        return Vec::new();
+    }
+    let [old, new] = both.map(|rows| Expected::new(rows).number());
+    let mut tiles = vec![Tile::new(format!("{old} → {new}"), format!("objects expected to overturn {when}"))];
+    tiles.extend(target.map(|target| {
+        let [old, new] = both.map(|rows| rows.iter().filter(|rated| rated.severity() > target).count());
+        Tile::new(format!("{old} → {new}"), format!("objects above the target of {}", PERCENT.one(target)))
+    }));
+    tiles
 }
 
 fn table(pairs: &[Pair], when: &str) -> Table {
     let before = format!("before, % {when}");
-    let heads =
-        ["object", &before, "after, %", "95 % limits of after", "times as often", "95 % limits of that"];
+    let heads = ["object", "change", &before, "after, %", "95 % limits", "times as often", "95 % limits"];
     let mut rows = Vec::new();
     for pair in pairs {
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
         let times = pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio));
-        let [limits_after, limits] = [OF_HUNDRED.limits(q, ""), TWO_DIGITS.limits(pair.ratio, "")]
-            .map(|limits| limits.replace(['(', ')'], ""));
-        rows.push(vec![pair.name(), OF_HUNDRED.value(p), OF_HUNDRED.value(q), limits_after, times, limits]);
+        let mut row = vec![pair.name(), pair.changes().join("; "), OF_HUNDRED.value(p), OF_HUNDRED.value(q)];
+        row.extend([OF_HUNDRED.span(q), times, TWO_DIGITS.span(pair.ratio)]);
+        rows.push(row);
     }
     Table::new(&heads, rows)
 }

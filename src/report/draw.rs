@@ -10,10 +10,9 @@ use crate::table::marks::sealed;
 
 /// Width of a file, points: across two columns of a journal, 180 mm.
 const FILE_WIDTH: f64 = 510.2;
-/// Width of a panel on the page, in pixels of a small screen, and its letters over those of a file.
-const PAGE_WIDTH: f64 = 360.0;
-const PAGE_UNIT: f64 = 1.35;
-/// Least height of the area of the data of a panel on the page, in the letters' unit.
+/// Width of a panel on the page, which is a picture of its own.
+const PAGE_WIDTH: f64 = 267.0;
+/// Least height of the area of the data of a panel on the page.
 const LEAST_HEIGHT: f64 = 60.0;
 
 /// Mean width of a letter, of its height.
@@ -41,7 +40,7 @@ const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation San
 
 /// Writes a figure as an SVG file on white, with the key of what made it.
 pub fn svg(figure: &Figure, key: &str) -> String {
-    let (body, height) = whole(figure);
+    let (body, height) = drawn(figure, FILE_WIDTH);
     let width = FILE_WIDTH;
     let captions = figure.panels.iter().map(|panel| words(&panel.caption));
     let caption: Vec<String> =
@@ -60,45 +59,24 @@ pub fn svg(figure: &Figure, key: &str) -> String {
 }
 
 /// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
-/// below a legend, so that they stand beside each other where there is room.
+/// so that they stand beside each other where there is room.
 pub fn html_of_panels(figure: &Figure) -> String {
-    let entries: String = legend_entries(figure).into_iter().map(legend_entry).collect();
-    let legend = format!("<div class=\"legend\">{entries}</div>\n");
-    // A legend that is of one panel alone stands below it.
-    let mut labelled =
-        figure.panels.iter().filter(|panel| panel.layers.iter().any(|layer| !layer.label.is_empty()));
-    let owner = labelled.next().filter(|_| labelled.next().is_none() && figure.panels.len() > 1);
+    // As high over its width as in the file.
+    let across = PAGE_WIDTH * figure.columns.max(1) as f64 / FILE_WIDTH;
+    let height = (figure.height * across).max(LEAST_HEIGHT);
     let mut panels = String::new();
     for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
-        let caption = html(&panel.caption);
-        let svg = svg_of_panel(panel, name, figure);
-        let own = if owner.is_some_and(|owner| std::ptr::eq(owner, panel)) { legend.as_str() } else { "" };
-        panels += &format!("<figure>\n{svg}{own}<figcaption>{caption}</figcaption></figure>\n");
+        let (name, caption) = (escape(&words(name)), html(&panel.caption));
+        let alone = Figure { columns: 1, height, panels: vec![panel.clone()], ..Figure::default() };
+        let (body, height) = drawn(&alone, PAGE_WIDTH);
+        panels += &format!(
+            "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n{body}</svg>\n\
+             <figcaption>{caption}</figcaption></figure>\n"
+        );
     }
-    let above = if owner.is_some() { "" } else { legend.as_str() };
     let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
-    Ink::in_page(format!("{above}<div class=\"{class}\">\n{panels}</div>\n"))
-}
-
-fn legend_entry(layer: &Layer) -> String {
-    let mut pen = Pen { unit: 1.0, text: String::new() };
-    pen.legend_mark(layer, Point::new(0.0, 5.0));
-    let (mark, label) = (pen.text, html(&layer.label));
-    format!("<span><svg viewBox=\"0 0 {MARK} 10\" aria-hidden=\"true\">{mark}</svg>{label}</span>\n")
-}
-
-fn svg_of_panel(panel: &Panel, name: &str, figure: &Figure) -> String {
-    let (width, unit) = (PAGE_WIDTH, PAGE_UNIT);
-    let mut pen = Pen { text: String::new(), unit };
-    // As high over its width as in the file.
-    let across = width / unit * figure.columns.max(1) as f64 / FILE_WIDTH;
-    let height = unit * own_height(panel, (figure.height * across).max(LEAST_HEIGHT));
-    let Rooms { left, right } = side_rooms(panel, figure, width, unit);
-    let top = head(panel) * unit;
-    pen.panel(panel, Area { left, top, width: width - left - right, height }, top);
-    let (bottom, name) = (round(top + height + foot(panel) * unit), escape(&words(name)));
-    format!("<svg viewBox=\"0 0 {width} {bottom}\" role=\"img\" aria-label=\"{name}\">\n{}</svg>\n", pen.text)
+    Ink::in_page(format!("<div class=\"{class}\">\n{panels}</div>\n"))
 }
 
 /// Dots per inch of PNG files.
@@ -143,17 +121,17 @@ struct Area {
     height: f64,
 }
 
-/// Draws all panels in rows below one legend, as a file has them; returns the height too.
-fn whole(figure: &Figure) -> (String, f64) {
-    let mut pen = Pen { text: String::new(), unit: 1.0 };
+/// Draws all panels in rows below one legend, so wide; returns the height too.
+fn drawn(figure: &Figure, width: f64) -> (String, f64) {
+    let mut pen = Pen::default();
     let columns = figure.columns.max(1);
-    let across = FILE_WIDTH / columns as f64;
-    let mut top = pen.legend(&legend_entries(figure), 4.0, FILE_WIDTH);
+    let across = width / columns as f64;
+    let mut top = pen.legend(&legend_entries(figure), width);
     for row in figure.panels.chunks(columns) {
         let highest = row.iter().map(|panel| own_height(panel, figure.height)).fold(0.0, f64::max);
         let above = row.iter().map(head).fold(0.0, f64::max);
         for (column, panel) in row.iter().enumerate() {
-            let room = side_rooms(panel, figure, across, 1.0);
+            let room = side_rooms(panel, figure, across);
             let (left, width) = (column as f64 * across + room.left, across - room.left - room.right);
             let height = own_height(panel, figure.height);
             pen.panel(panel, Area { left, top: top + above, width, height }, above);
@@ -197,19 +175,19 @@ struct Rooms {
 }
 
 /// Finds the rooms for the names and words of rows if a panel has any: the same for all over the same axis.
-fn side_rooms(panel: &Panel, figure: &Figure, across: f64, unit: f64) -> Rooms {
+fn side_rooms(panel: &Panel, figure: &Figure, across: f64) -> Rooms {
     let left = if panel.frame == Frame::ToScale { 4.0 } else { LEFT };
-    let mut rooms = Rooms { left: left * unit, right: RIGHT * unit };
+    let mut rooms = Rooms { left, right: RIGHT };
     if panel.names().is_empty() {
         return rooms;
     }
-    let room = |marked: &String| width(marked, SMALL * unit) + 8.0 * unit;
+    let room = |marked: &String| width(marked, SMALL) + 8.0;
     for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
         let words = peer.words.iter().filter(|words| words.side == Side::Margin);
         rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
         rooms.left = peer.names().iter().map(room).fold(rooms.left, f64::max);
     }
-    rooms.left = rooms.left.min((NAMES * unit).min(0.46 * across));
+    rooms.left = rooms.left.min(NAMES.min(0.46 * across));
     rooms
 }
 
@@ -241,7 +219,8 @@ fn legend_entries(figure: &Figure) -> Vec<&Layer> {
 
 impl Pen {
     /// Draws the legend in lines; returns where the first row of panels begins.
-    fn legend(&mut self, entries: &[&Layer], left: f64, across: f64) -> f64 {
+    fn legend(&mut self, entries: &[&Layer], across: f64) -> f64 {
+        let left = 4.0;
         let (mut x, mut y) = (left, 11.0);
         for layer in entries {
             let long = MARK + 3.0 + width(&layer.label, LETTERS);
@@ -262,10 +241,7 @@ impl Pen {
         match layer.shape {
             Shape::Points => self.dots(&[middle], 2.0, colour, 1.0),
             Shape::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
-            Shape::Area => {
-                let corners = [(from.x, -3.5), (end.x, -3.5), (end.x, 3.5), (from.x, 3.5)];
-                self.fill(&corners.map(|(x, off)| Point::new(x, y + off)), colour, 0.3);
-            }
+            Shape::Area => self.path(&[from, end], colour, 6.0, Dash::Solid),
             Shape::Estimates => {
                 self.interval(Point::new(from.x + 1.0, y), Point::new(end.x - 1.0, y), colour);
                 self.dots(&[middle], 2.2, colour, 1.0);
@@ -299,53 +275,48 @@ impl Pen {
         if panel.frame == Frame::Axes {
             self.axes(panel, &x, &y, area);
         }
-        let unit = self.unit;
         // Titles stand over the ticks, not over the names of rows.
         let room = if panel.names().is_empty() { LEFT } else { NAMES };
-        let edge = (left - room * unit).max(0.0) + 2.0 * unit;
-        let first = Point::new(edge, top - above + 9.0 * unit);
+        let edge = (left - room).max(0.0) + 2.0;
+        let first = Point::new(edge, top - above + 9.0);
         self.label(first, LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
-        self.label(Point::new(edge, top - GAP * unit), SMALL, "", Ink::Muted, &panel.y.label);
+        self.label(Point::new(edge, top - GAP), SMALL, "", Ink::Muted, &panel.y.label);
     }
 
     /// Faint lines behind the data: at labelled ticks of y, or along rows.
     fn guides(&mut self, y: &Ruler, area: Area) {
         let mut d = String::new();
-        for tick in y.ticks(self.y_ticks(area.height)).iter().filter(|tick| tick.label.is_some()) {
+        for tick in y.ticks(y_ticks(area.height)).iter().filter(|tick| tick.label.is_some()) {
             let at = area.y_at(y, tick.value);
             d += &course(&[Point::new(area.left, at), Point::new(area.left + area.width, at)]);
         }
         self.stroke(&d, Ink::Rule.colour(), 0.45, "");
     }
 
-    fn y_ticks(&self, height: f64) -> usize {
-        ((height / (18.0 * self.unit)) as usize).max(5)
-    }
-
     fn axes(&mut self, panel: &Panel, x: &Ruler, y: &Ruler, area: Area) {
         let Area { left, top, width, height } = area;
-        let (unit, bottom, middle) = (self.unit, top + height, " text-anchor=\"middle\"");
+        let (bottom, middle) = (top + height, " text-anchor=\"middle\"");
         let mut d = course(&[Point::new(left, bottom), Point::new(left + width, bottom)]);
-        for tick in x.ticks((width / (28.0 * unit)) as usize) {
+        for tick in x.ticks((width / 28.0) as usize) {
             let at = left + width * x.fraction(tick.value);
             let length = if tick.label.is_some() { 3.0 } else { 1.6 };
-            d += &course(&[Point::new(at, bottom), Point::new(at, bottom + length * unit)]);
+            d += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
             if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
-                self.label(Point::new(at, bottom + 10.5 * unit), SMALL, middle, Ink::Muted, &words);
+                self.label(Point::new(at, bottom + 10.5), SMALL, middle, Ink::Muted, &words);
             }
         }
-        let room = left - 4.0 * unit;
-        for tick in y.ticks(self.y_ticks(height)) {
-            let place = Point::new(room, area.y_at(y, tick.value) + 0.35 * SMALL * unit);
+        let room = left - 4.0;
+        for tick in y.ticks(y_ticks(height)) {
+            let place = Point::new(room, area.y_at(y, tick.value) + 0.35 * SMALL);
             let Some(words) = tick.label else { continue };
             let (ink, words) = match panel.names() {
                 [] => (Ink::Muted, words),
-                _ => (Ink::Text, literal(&shortened(&words, room, SMALL * unit))),
+                _ => (Ink::Text, literal(&shortened(&words, room, SMALL))),
             };
             self.label(place, SMALL, " text-anchor=\"end\"", ink, &words);
         }
         self.stroke(&d, Ink::Muted.colour(), 0.6, "");
-        let place = Point::new(left + 0.5 * width, bottom + 21.0 * unit);
+        let place = Point::new(left + 0.5 * width, bottom + 21.0);
         self.label(place, SMALL, middle, Ink::Muted, &panel.x.label);
     }
 
@@ -391,6 +362,10 @@ impl Pen {
             }
         }
     }
+}
+
+fn y_ticks(height: f64) -> usize {
+    ((height / 18.0) as usize).max(5)
 }
 
 impl Area {

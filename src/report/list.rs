@@ -62,11 +62,11 @@ pub fn page(evaluation: &Evaluation) -> Page {
     let file = Some(literal(&worst.object.file)).filter(|file| !file.is_empty());
     let sentences = [
         format!(
-            "{}{}, {}, is the most likely to overturn: it {}.",
+            "{}{}, {}, is the most likely to overturn: {}.",
             worst.object.marked_name(),
             file.map_or(String::new(), |file| format!(" ({file})")),
             literal(&worst.object.place()),
-            worst.sentence(when)
+            worst.sentence(when).trim_start_matches("overturns with a probability of ")
         ),
         target.map_or(String::new(), |target| worst.about_target(target)),
         not_assessed(rows),
@@ -108,7 +108,7 @@ fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
         let expected = Expected::new(rows.iter().copied());
         let file = Some(literal(&rows[0].object.file)).filter(|file| !file.is_empty());
         let file = file.map_or(String::new(), |file| format!(" ({file})"));
-        let words = format!("objects expected to overturn {when}, of {}{file}", number::plain(expected.all));
+        let words = format!("of {} objects expected to overturn {when}{file}", number::plain(expected.all));
         tiles.push(Tile::new(expected.number(), words));
     }
     if files.len() == 1 {
@@ -119,8 +119,8 @@ fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
         ));
         let most = target.unwrap_or(BANDS[0]);
         let above = rows.iter().filter(|rated| rated.severity() > most).count();
-        let most = PERCENT.one(most) + if target.is_some() { ", the target" } else { "" };
-        tiles.push(Tile::new(number::count(above), format!("more likely to overturn than {most}")));
+        let words = if target.is_some() { "objects above the target of" } else { "objects above" };
+        tiles.push(Tile::new(number::count(above), format!("{words} {}", PERCENT.one(most))));
     }
     tiles
 }
@@ -176,7 +176,7 @@ fn answered(rated: &Rated, cell: String) -> String {
 /// The limits, or why there is no answer.
 fn limits(rated: &Rated) -> String {
     match rated.is_answered() {
-        true => OF_HUNDRED.limits(rated.row.p_overturning, "").replace(['(', ')'], ""),
+        true => OF_HUNDRED.span(rated.row.p_overturning),
         false => reason(rated),
     }
 }

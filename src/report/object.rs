@@ -67,8 +67,7 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
     let degrees = number::significant(alpha_rad.to_degrees(), 3);
     let caption = format!(
-        "To scale, with its centre of mass, {}. Beyond {degrees}°, over its weaker side, it overturns unless the \
-         motion brings it back.",
+        "To scale, with its centre of mass, {}. It tips over its weaker side at {degrees}°.",
         literal(&object.place())
     );
     let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
@@ -148,7 +147,7 @@ pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option
 /// Over what a fragility is averaged.
 pub fn averaged(over: Peak) -> String {
     let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
-    format!("averaged over the {} that such motions have", other.words().0)
+    format!("averaged over the {} of such motions", other.words().0)
 }
 
 fn changes_panel(evaluation: &Evaluation) -> Panel {
@@ -162,9 +161,9 @@ fn changes_panel(evaluation: &Evaluation) -> Panel {
     let all = all.chain([Limited::value(evaluation.target)]);
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let caption = format!(
-        "Probability of overturning {when} with 95 % limits, as it is and with one thing changed, or with its \
-         restitution measured (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see \
-         ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
+        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a test \
+         may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see ASCE 7, \
+         chapter 13, or EN 1998-1, 4.3.5."
     );
     let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
     probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
@@ -178,21 +177,17 @@ pub struct Usual {
 
 impl SiteHazard {
     /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
-    pub fn usual(&self) -> Vec<Usual> {
-        let mut all = Vec::new();
-        for years in USUAL_YEARS {
-            let is_crossed = |pair: &&[(f64, f64)]| pair[0].1 >= 1.0 / years && pair[1].1 < 1.0 / years;
-            if let Some([(low, often), (high, rarely)]) = self.points.windows(2).find(is_crossed) {
-                let share = (often * years).ln() / (often / rarely).ln();
-                let intensity = low * (high / low).powf(share) / self.peak.words().1;
-                all.push(Usual { intensity, years });
-            }
-        }
-        all
+    pub fn usual(&self) -> impl Iterator<Item = Usual> {
+        let [(_, often), (_, rarely)] = self.curve.ends();
+        let known = USUAL_YEARS.into_iter().filter(move |years| rarely < 1.0 / years && 1.0 / years <= often);
+        known.map(|years| {
+            let intensity = self.curve.intensity(1.0 / years) / self.peak.words().1;
+            Usual { intensity, years }
+        })
     }
 
     fn axis(&self) -> Axis {
-        peak_axis(self.peak, self.points.iter().map(|point| point.0))
+        peak_axis(self.peak, self.curve.points().iter().map(|point| point.0))
     }
 }
 
@@ -203,7 +198,7 @@ fn years(years: f64) -> String {
 
 fn hazard_panel(hazard: &SiteHazard) -> Panel {
     let (what, unit, symbol) = hazard.peak.words();
-    let lowest = hazard.points.iter().map(|(_, rate)| *rate).fold(f64::INFINITY, f64::min);
+    let [_, (_, lowest)] = hazard.curve.ends();
     let mut panel = Panel::new("Hazard", hazard.axis(), Axis::log("exceeded, times a year"), Vec::new());
     let (mut words, mut dots) = (Vec::new(), Vec::new());
     for Usual { intensity, years: period } in hazard.usual() {
@@ -212,10 +207,10 @@ fn hazard_panel(hazard: &SiteHazard) -> Panel {
         dots.push(Mark::new(intensity, y));
         panel.add_upright(Words { x: intensity, y, text, side: Side::Along, ink: Ink::Muted }, lowest);
     }
-    let curve = hazard.points.iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
+    let curve = hazard.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("", Ink::Text, curve));
     panel.layers.push(Layer::points("", Ink::Text, dots));
-    let caption = format!("How often {what} is exceeded at the site, as it was given: {}.", words.join(", "));
+    let caption = format!("How often {what} is exceeded at the site: {}.", words.join(", "));
     panel.explained(caption)
 }
 
@@ -235,12 +230,11 @@ fn shares(hazard: &SiteHazard) -> Option<Panel> {
     }
     let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
     let beyond = match parts.beyond / all {
-        share if share >= 0.0005 => format!(" {} of the rate lies beyond the curve.", PERCENT.one(share)),
+        share if share >= 0.0005 => format!(" {} lies beyond the hazard curve.", PERCENT.one(share)),
         _ => String::new(),
     };
     let caption = format!(
-        "Which motions overturn it: the share of the rate of overturning by {what}. Equal areas are equal \
-         shares; all of it is 100 %.{beyond}"
+        "Which motions overturn it: its rate of overturning by {what}; the whole area is 100 %.{beyond}"
     );
     let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
@@ -264,8 +258,8 @@ fn unknown(rated: &Rated) -> Option<Panel> {
     }
     let layers = vec![Layer::new("", Ink::Data(0), Shape::Estimates, marks)];
     let caption = format!(
-        "Each unknown, and what would tell it: the factor by which it may raise or lower the {what} of \
-         overturning (95 % limits)."
+        "What is not known, and what would narrow it: how far each may raise or lower the {what} of overturning \
+         (95 % limits)."
     );
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
@@ -324,8 +318,7 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
     let (Portrait { fragility, hazard, changes, .. }, object) = (&evaluation.portrait, &rated.object);
     let mut tiles = tiles_of_changes(changes);
     if let Some(fragility) = fragility {
-        let usual =
-            hazard.as_ref().and_then(|hazard| Some((hazard.peak, hazard.usual().into_iter().next()?)));
+        let usual = hazard.as_ref().and_then(|hazard| Some((hazard.peak, hazard.usual().next()?)));
         let site = usual.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
             let (intensity, symbol) = (number::significant(intensity, 2), peak.words().2);
             format!("; {intensity} {symbol} comes once in {}", years(period))
@@ -342,8 +335,8 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
 
 /// What the answer rests on.
 pub fn facts(all: &[&Rated]) -> Vec<String> {
-    let building = "The building is taken as linear; 60 % up is at 60 % of its height.".to_string();
     let is_upstairs = all.iter().any(|rated| rated.object.is_upstairs());
+    let building = "The building is taken as linear; 60 % up is at 60 % of its height.".to_string();
     let model = all.first().and_then(|worst| model_in_words(&worst.object));
     let facts = [Some(ANGLES.to_string()), is_upstairs.then_some(building), model, limits_in_words(all)];
     facts.into_iter().flatten().collect()
@@ -368,7 +361,7 @@ pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
         (only, []) => (*only).to_string(),
         (last, others) => format!("{} and {last}", others.join(", ")),
     };
-    Some(format!("The 95 % limits cover uncertainty in {joined} alone."))
+    Some(format!("The 95 % limits cover uncertainty in {joined} only.").replace("eta", "restitution"))
 }
 
 /// The answer, and what it is with one thing changed.
@@ -378,17 +371,13 @@ fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
     let shown = heads.len() - usize::from(rated.row.years.is_none());
     let mut rows = Vec::new();
     for State { name, p, per_year } in rated.states() {
-        rows.push(vec![name, PERCENT.value(p), limits(p), RATE.value(per_year)][..shown].to_vec());
+        rows.push(vec![name, PERCENT.value(p), PERCENT.span(p), RATE.value(per_year)][..shown].to_vec());
     }
     for Change { words, p, .. } in evaluation.portrait.changes.iter().skip(1) {
-        let [values, limits] = [|p| PERCENT.value(p), limits]
-            .map(|told: fn(Limited) -> String| p.iter().map(|p| told(*p)).collect::<Vec<_>>().join(", "));
-        rows.push(vec![format!("overturns: {words}"), values, limits]);
+        let values: Vec<String> = p.iter().map(|p| PERCENT.value(*p)).collect();
+        let limits: Vec<String> = p.iter().map(|p| PERCENT.span(*p)).collect();
+        rows.push(vec![format!("overturns: {words}"), values.join(", "), limits.join(", ")]);
     }
     rows.iter_mut().for_each(|row| row.resize(shown, String::new()));
     Table::new(&heads[..shown], rows)
-}
-
-fn limits(p: Limited) -> String {
-    PERCENT.limits(p, "").replace(['(', ')'], "")
 }

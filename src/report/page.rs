@@ -76,10 +76,11 @@ impl Table {
 
     /// Whether all that stands in a column are numbers, which are set to the right.
     fn is_of_numbers(&self, column: usize) -> bool {
-        let mut cells =
-            self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty()).peekable();
-        let has_any = column > 0 && cells.peek().is_some();
-        has_any && cells.all(|cell| cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)))
+        let is_number = |cell: &String| {
+            cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
+        };
+        let mut cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty());
+        column > 0 && cells.clone().next().is_some() && cells.all(is_number)
     }
 }
 

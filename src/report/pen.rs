@@ -62,36 +62,34 @@ impl Ink {
     }
 }
 
-/// Writes the elements of a picture whose letters and lines are `unit` times as large as in a file.
+/// Writes the elements of a picture.
+#[derive(Default)]
 pub struct Pen {
     pub text: String,
-    pub unit: f64,
 }
 
 impl Pen {
     /// Writes a text beside its place.
     pub fn beside(&mut self, at: Point, words: &Words) {
-        let unit = self.unit;
         let (right, down, style) = match words.side {
             Side::Right | Side::Margin => (5.0, 0.35 * SMALL, String::new()),
             Side::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
             Side::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
             Side::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),
             Side::Along => {
-                let (x, y) = (round(at.x - 3.0 * unit), round(at.y));
+                let (x, y) = (round(at.x - 3.0), round(at.y));
                 (-3.0, 0.0, format!(" text-anchor=\"end\" transform=\"rotate(-90 {x} {y})\""))
             }
         };
-        let place = Point::new(at.x + right * unit, at.y + down * unit);
+        let place = Point::new(at.x + right, at.y + down);
         self.label(place, SMALL, &format!("{style} class=\"word\""), words.ink, &words.text);
     }
 
-    /// Writes marked text, its size as in a file; `style` are further attributes.
+    /// Writes marked text; `style` are further attributes.
     pub fn label(&mut self, at: Point, size: f64, style: &str, ink: Ink, marked: &str) {
         if marked.is_empty() {
             return;
         }
-        let size = size * self.unit;
         let (x, y, letters, colour) = (round(at.x), round(at.y), round(size), ink.colour());
         let _ =
             write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
@@ -143,7 +141,7 @@ impl Pen {
 
     /// Draws a course of lines; `style` are further attributes.
     pub fn stroke(&mut self, d: &str, colour: &str, width: f64, style: &str) {
-        let width = round(width * self.unit);
+        let width = round(width);
         let line = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"");
         let _ = writeln!(self.text, "<path d=\"{d}\" {line}{style}/>");
     }

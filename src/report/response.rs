@@ -78,8 +78,8 @@ impl Trace {
                 let [tipped, at] =
                     [self.tipped_at().unwrap_or(at), at].map(|time_s| number::fixed(time_s, 1));
                 format!(
-                    "Motion {motion} overturns {structure}: after {impacts} it leans beyond its tipping angle at \
-                     {tipped} s and lies at {at} s."
+                    "Motion {motion} overturns {structure}: it passes its tipping angle at {tipped} s and lies flat at \
+                     {at} s, after {impacts}."
                 )
             }
             (None, Some(at)) => format!(
@@ -106,7 +106,7 @@ impl Trace {
             if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
         let degrees = number::significant(self.0[0].alpha_rad.to_degrees(), 3);
         format!(
-            "It moves in real time, from {start} to {end} s.{like} Dots: uplift and impacts{close}. Dashed: its \
+            "In real time, from {start} to {end} s.{like} Dots: uplift and impacts{close}. Dashed: its \
              slenderness *α*, the {degrees}° at which it tips."
         )
     }

@@ -176,19 +176,9 @@ impl DoubtsRow {
 
     /// The standard deviations of what is unknown, by part.
     pub fn part_sds(&self) -> Vec<(Part, f64)> {
-        let sds = Part::ALL.iter().map(|part| {
-            let sd = match part {
-                Part::Fit => self.error_fit,
-                Part::Magnitude => self.error_magnitude,
-                Part::Velocity => self.error_velocity,
-                Part::Eta => self.error_eta,
-                Part::Object => self.error_object,
-                Part::Floor => self.error_floor,
-                Part::Hazard => self.error_hazard,
-            };
-            sd.map(|sd| (*part, sd))
-        });
-        sds.flatten().collect()
+        let row = serde_json::json!(self);
+        let sd = |part: &Part| Some((*part, row[format!("error_{part}")].as_f64()?));
+        Part::ALL.iter().filter_map(sd).collect()
     }
 }
 

@@ -4,11 +4,11 @@ use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::fragility::{
     Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
 };
-use rockfrag::hazard::{Fragility, FragilityPoint, RateByIntensity};
+use rockfrag::hazard::{Fragility, FragilityPoint, HazardCurve, RateByIntensity};
 use rockfrag::motion::IntensityMeasures;
 use rockfrag::number::{self, Limited};
 use rockfrag::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
-use rockfrag::report::figures::common::{equal_ratios, observed_shares};
+use rockfrag::report::figures::common::{observed_shares, ratio_bins};
 use rockfrag::report::figures::*;
 use rockfrag::report::fragility;
 use rockfrag::report::response::{self, Trace};
@@ -90,6 +90,7 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
     let outline =
         Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
     let parts = RateByIntensity { edges: vec![1.0, 5.0, 10.0], rates: vec![4e-4, 5e-4], beyond: 1e-4 };
+    let hazard = HazardCurve::new(vec![(0.1, 0.1), (10.0, 1e-4)]).unwrap();
     Evaluation {
         when: "in 50 years".to_string(),
         target: Some(0.01),
@@ -97,7 +98,7 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
         portrait: Portrait {
             outline: Some(outline),
             fragility: Some(curve(count)),
-            hazard: Some(SiteHazard { peak: Peak::Pga, points: vec![(0.1, 0.1), (10.0, 1e-4)], parts }),
+            hazard: Some(SiteHazard { peak: Peak::Pga, curve: hazard, parts }),
             changes: vec![
                 Change { words: "as it is".to_string(), is_moved: false, p: vec![limited(0.02)] },
                 Change { words: "base of 0.60 m".to_string(), is_moved: false, p: vec![limited(0.01)] },
@@ -270,7 +271,7 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 #[test]
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
-    let shares = observed_shares(&cases, equal_ratios(Span { low: 1.0, high: 100.0 }, 4));
+    let shares = observed_shares(&cases, ratio_bins(Span { low: 1.0, high: 100.0 }, 4));
     let first = Mark { n: 3.0, ..Mark::estimate(5.5 / 3.0, observed_share(2, 3)) };
     let last = Mark { n: 2.0, ..Mark::estimate(95.0, observed_share(1, 2)) };
     assert_eq!(shares, [first, last]);
@@ -408,12 +409,8 @@ fn what_is_changed_comes_first_and_is_named() {
     after.rows[2].object.width_m = Some(0.6);
     after.rows[2].row.p_overturning = limited(0.002);
     let page = compare::page(&before, &after);
-    assert!(
-        page.tiles.len() == 1 && page.tiles[0].words.contains("0.50 × 1.90 m → 0.60"),
-        "{:?}",
-        page.tiles
-    );
     assert!(page.tables[0].rows.len() == 1 && page.tables[0].rows[0][0].contains("me\\*2"));
+    assert!(page.tables[0].rows[0][1].contains("0.50 × 1.90 m → 0.60"), "{:?}", page.tables[0]);
     assert!(page.sentence.contains("target") && page.notes[0].contains("2 objects as before"));
 }
 

@@ -126,11 +126,6 @@ pub fn demand_fits<'a>(
     its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
-/// Values in equal ratios from the first to the last.
-pub fn ratios(Span { low, high }: Span, steps: usize) -> impl Iterator<Item = f64> {
-    (0..=steps).map(move |k| low * (high / low).powf(k as f64 / steps as f64))
-}
-
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %
 /// limits, number of cases. Empty bins are left out.
 pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Mark> {
@@ -151,7 +146,7 @@ pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec
 }
 
 /// Bins of equal ratio within a span, for [`observed_shares`].
-pub fn equal_ratios(Span { low, high }: Span, count: usize) -> impl Fn(f64) -> usize {
+pub fn ratio_bins(Span { low, high }: Span, count: usize) -> impl Fn(f64) -> usize {
     let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
     move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
 }

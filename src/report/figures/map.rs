@@ -1,10 +1,10 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use super::common::{Fits, called, name, ratios, rocked};
+use super::common::{Fits, called, name, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
-use crate::statistics::numerics::first;
+use crate::statistics::numerics::{equal_ratios, first};
 use crate::units::G_M_S2;
 
 /// The probabilities of which lines are drawn.
@@ -58,7 +58,7 @@ fn line(fits: &Fits, cases: &Cases, level: f64, pga: Span, pgv: Span) -> Vec<Mar
     };
     let (least, most) = (pgv.low.ln(), pgv.high.ln());
     let mut marks = Vec::new();
-    for pga in ratios(pga, STEPS) {
+    for pga in equal_ratios(pga.low, pga.high, STEPS) {
         let is_crossed = reaches(pga, most) && !reaches(pga, least);
         let ln_pgv = is_crossed.then(|| first(least, most, |ln_pgv| reaches(pga, ln_pgv)));
         marks.push(Mark::new(pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)));

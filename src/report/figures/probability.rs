@@ -1,12 +1,13 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{Fits, by, called, compare, demand_fits, demands, equal_ratios, label};
-use super::common::{observed_shares, ratios, rocked};
+use super::common::{Fits, by, called, compare, demand_fits, demands, label};
+use super::common::{observed_shares, ratio_bins, rocked};
 use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::statistics::Estimate;
+use crate::statistics::numerics::equal_ratios;
 use crate::statistics::scores::sample_quantile;
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
@@ -132,7 +133,9 @@ fn exceeding_curves(fits: &Fits, cases: &Cases, span: Span, im3: &[f64]) -> Vec<
         let Some((im3, transition)) = im3.zip(transition) else { continue };
         let below = Span { high: transition * (1.0 - 1e-9), ..span };
         let above = Span { low: transition, ..span };
-        let im4 = ratios(below, STEPS).chain([f64::NAN]).chain(ratios(above, STEPS));
+        let im4 = equal_ratios(below.low, below.high, STEPS)
+            .chain([f64::NAN])
+            .chain(equal_ratios(above.low, above.high, STEPS));
         let p = |im4: f64| {
             let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
             plane.p_exceeding(&measures(im4, im3), fits.limit_state, CONFIDENCE)
@@ -142,7 +145,7 @@ fn exceeding_curves(fits: &Fits, cases: &Cases, span: Span, im3: &[f64]) -> Vec<
     let alone = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     curves.extend(alone.map(|fit| {
         let p = |im4: f64| fit.p_exceeding(&measures(im4, 1.0), fits.limit_state, CONFIDENCE);
-        ("IM4 alone".to_string(), curve(ratios(span, STEPS), p))
+        ("IM4 alone".to_string(), curve(equal_ratios(span.low, span.high, STEPS), p))
     }));
     curves
 }
@@ -160,10 +163,10 @@ fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measu
             let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
             let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
             let span = Span::from_values(observed.iter().map(|(value, _)| *value));
-            let bin = equal_ratios(span, (observed.len() / CASES).clamp(4, BINS));
+            let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
             let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
             drawn.shares = observed_shares(&observed, bin);
-            drawn.curves.push((String::new(), curve(ratios(span, STEPS), p)));
+            drawn.curves.push((String::new(), curve(equal_ratios(span.low, span.high, STEPS), p)));
         }
         structures.push(drawn);
     }

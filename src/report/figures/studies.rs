@@ -1,10 +1,11 @@
 //! Incremental dynamic analysis, validation and ranking.
 
-use super::common::{by, observed_shares, ratios, scaled_label, title};
+use super::common::{by, observed_shares, scaled_label, title};
 use crate::fragility::{Z_95, p_overturning};
 use crate::report::text::literal;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape, Span};
 use crate::rocking::CapacityStatus;
+use crate::statistics::numerics::equal_ratios;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
@@ -58,7 +59,10 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     }
     let mut curve = Vec::new();
     if let Some((theta, beta)) = fit.theta.value.zip(fit.beta.value) {
-        curve.extend(ratios(span, STEPS).map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))));
+        curve.extend(
+            equal_ratios(span.low, span.high, STEPS)
+                .map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))),
+        );
     }
     let shares = shares.into_iter().step_by(every);
     let layers = vec![

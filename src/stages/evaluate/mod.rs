@@ -43,6 +43,7 @@ use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, 
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::records::implausibility::rarity;
+use crate::report::answers::Evaluation;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
 use crate::table::answers::{Answer, FragilityRow, RatesRow};
 use crate::table::frame::{self, Format};
@@ -246,7 +247,7 @@ impl Evaluate {
         let text = fragility::text(&all, self.out.as_deref());
         let printed = self.printed(&[answer_rows(&all, context)?], text)?;
         let page = || {
-            let outline = pages::alone(&objects, models)?.and_then(|alone| alone.outline());
+            let outline = pages::outline(&objects, models)?;
             let hazard = site.as_ref().and_then(|_| context.made().names("hazard"));
             Ok(fragilities::page(&all, outline, hazard.as_deref()))
         };
@@ -269,11 +270,8 @@ impl Evaluate {
             context.warn(expect_counted(&all, &site, path)?);
         }
         let page = || {
-            let mut evaluation = pages::over_hazard(all.clone(), context.made());
-            if let Some(alone) = pages::alone(&objects, models)? {
-                evaluation.portrait = alone.portrait(models, &site, self.years);
-            }
-            Ok(pages::page(&evaluation))
+            let portrait = pages::portrait(&objects, models, &site, self.years)?;
+            Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), context.made()) }))
         };
         let text = rates::text(&all, &site, self.target, self.out.as_deref());
         self.finish(&all, text, context, page)

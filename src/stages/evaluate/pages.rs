@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::point::{self, TreeRow};
 use crate::fragility::Peak;
-use crate::hazard::{Hazard, Site, exceedance, probability_in_years};
+use crate::hazard::{Hazard, HazardCurve, Site, exceedance, probability_in_years};
 use crate::object::{Object, Subject};
 use crate::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
 use crate::report::{Page, list, object};
@@ -52,60 +52,57 @@ pub fn page(evaluation: &Evaluation) -> Page {
     }
 }
 
-/// The only object of a call, which has an answer.
-pub struct Alone<'a> {
-    object: &'a Object,
-    subject: Subject,
-}
-
-/// Finds the object if it is alone.
-pub fn alone<'a>(objects: &'a [Object], models: &Models) -> anyhow::Result<Option<Alone<'a>>> {
+/// The only object of a call, if it has an answer.
+fn alone<'a>(objects: &'a [Object], models: &Models) -> anyhow::Result<Option<(&'a Object, Subject)>> {
     Ok(match objects {
-        [object] if object.sides().is_ok() => Some(Alone { object, subject: models.subject(object)?.0 }),
+        [object] if object.sides().is_ok() => Some((object, models.subject(object)?.0)),
         _ => None,
     })
 }
 
-impl Alone<'_> {
-    /// What the page shows besides the row.
-    pub fn portrait(&self, models: &Models, site: &Site, years: f64) -> Portrait {
-        let p = vec![overturning(&self.subject, site, years)];
-        let mut changes = vec![Change { words: "as it is".to_string(), is_moved: false, p }];
-        for changed in self.object.changes() {
-            // What would not rock, or lies outside the model, has no row.
-            let Ok((subject, _)) = models.subject(&changed.object) else { continue };
-            let p = overturning(&subject, site, years);
-            match changes.last_mut().filter(|last| last.words == changed.words) {
-                Some(same) => same.p.push(p),
-                None => {
-                    let is_moved = changed.object.place.level != self.object.place.level;
-                    changes.push(Change { words: changed.words, is_moved, p: vec![p] });
-                }
+/// What the page shows besides the row of an object that is alone.
+pub fn portrait(objects: &[Object], models: &Models, site: &Site, years: f64) -> anyhow::Result<Portrait> {
+    let Some((object, subject)) = alone(objects, models)? else { return Ok(Portrait::default()) };
+    let p = vec![overturning(&subject, site, years)];
+    let mut changes = vec![Change { words: "as it is".to_string(), is_moved: false, p }];
+    for changed in object.changes() {
+        // What would not rock, or lies outside the model, has no row.
+        let Ok((subject, _)) = models.subject(&changed.object) else { continue };
+        let p = overturning(&subject, site, years);
+        match changes.last_mut().filter(|last| last.words == changed.words) {
+            Some(same) => same.p.push(p),
+            None => {
+                let is_moved = changed.object.place.level != object.place.level;
+                changes.push(Change { words: changed.words, is_moved, p: vec![p] });
             }
         }
-        let (peak, points) = match &site.hazard {
-            Hazard::Curve(hazard) => (hazard.peak, hazard.curve.points().to_vec()),
-            Hazard::Joint(pairs) => (Peak::Pga, exceedance(pairs, |pair| pair.peaks.pga_m_s2)),
-        };
-        let parts = site.rate_by_intensity(&self.subject, BINS);
-        let hazard = Some(SiteHazard { peak, points, parts });
-        Portrait { outline: self.outline(), fragility: site.fragility(&self.subject), hazard, changes }
     }
+    let (peak, curve) = match &site.hazard {
+        Hazard::Curve(hazard) => (hazard.peak, Ok(hazard.curve.clone())),
+        Hazard::Joint(pairs) => (Peak::Pga, HazardCurve::new(exceedance(pairs, |pair| pair.peaks.pga_m_s2))),
+    };
+    let parts = site.rate_by_intensity(&subject, BINS);
+    let hazard = curve.ok().map(|curve| SiteHazard { peak, curve, parts });
+    Ok(Portrait { outline: outlined(object, &subject), fragility: site.fragility(&subject), hazard, changes })
+}
 
-    /// The object over the side to which it falls first.
-    pub fn outline(&self) -> Option<Outline> {
-        let shape = &self.object.shape;
-        let (width, height) = shape.width.zip(shape.height)?;
-        let centre_height = shape.centre_height.unwrap_or(0.5 * height);
-        let alpha_rad = self.subject.directions[0].structure.alpha_rad;
-        let weaker =
-            shape.depth.filter(|depth| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9);
-        let (width, centre_offset) = match weaker {
-            Some(depth) => (depth, 0.0),
-            None => (width, shape.centre_offset.unwrap_or(0.0)),
-        };
-        Some(Outline { width, height, centre_height, centre_offset, alpha_rad })
-    }
+/// The outline of an object that is alone.
+pub fn outline(objects: &[Object], models: &Models) -> anyhow::Result<Option<Outline>> {
+    Ok(alone(objects, models)?.and_then(|(object, subject)| outlined(object, &subject)))
+}
+
+/// The object over the side to which it falls first.
+fn outlined(object: &Object, subject: &Subject) -> Option<Outline> {
+    let shape = &object.shape;
+    let (width, height) = shape.width.zip(shape.height)?;
+    let centre_height = shape.centre_height.unwrap_or(0.5 * height);
+    let alpha_rad = subject.directions[0].structure.alpha_rad;
+    let weaker = shape.depth.filter(|depth| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9);
+    let (width, centre_offset) = match weaker {
+        Some(depth) => (depth, 0.0),
+        None => (width, shape.centre_offset.unwrap_or(0.0)),
+    };
+    Some(Outline { width, height, centre_height, centre_offset, alpha_rad })
 }
 
 fn overturning(subject: &Subject, site: &Site, years: f64) -> Limited {

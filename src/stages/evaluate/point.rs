@@ -69,7 +69,7 @@ impl TreeRow {
     }
 
     fn rocks(&self) -> bool {
-        self.p_nr != Some(1.0)
+        self.p_nr.is_some_and(|p_nr| p_nr < 1.0)
     }
 }
 

@@ -107,7 +107,7 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
     };
     let (model, usual) = (model_of_all(all), usual_motion(site));
     let by = format!(
-        "Rates are a year, by {model}{usual}. With less friction than shown, an object slides instead of rocking."
+        "Annual rates by {model}{usual}. With less friction than shown, an object slides instead of rocking."
     );
     format!(
         "{first}\n{table}{}{}{}",
