@@ -1,7 +1,6 @@
 //! What a table says about records: magnitude, distance and earthquake, which few files have.
 
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::words::means;
@@ -11,8 +10,6 @@ use crate::source;
 
 /// The line above the table of records in PEER's search results, which have others.
 const PEER: &str = "Summary of Metadata of Selected Records";
-/// PEER's numbers below this stand for values that are not known.
-const UNKNOWN: f64 = -99.0;
 
 /// What a table says about records.
 #[derive(Debug, Default)]
@@ -59,11 +56,9 @@ impl About {
         let mut all = HashMap::new();
         for (row, &line) in grid.lines.iter().enumerate() {
             let known = Known {
-                mw: value(grid, row, magnitude, (&MAGNITUDES, "a moment magnitude"))?,
-                re_km: value(grid, row, distance, (&DISTANCES_KM, "a distance from 0 to 1000 km"))?,
-                earthquake: earthquake
-                    .map(|at| grid.cell(row, at).to_string())
-                    .filter(|name| !name.is_empty()),
+                mw: grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?,
+                re_km: grid.known(row, distance, &DISTANCES_KM, "a distance from 0 to 1000 km")?,
+                earthquake: earthquake.and_then(|at| grid.value(row, at)).map(str::to_string),
             };
             let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
@@ -99,19 +94,6 @@ fn grid(path: &Path) -> Result<Grid, InputError> {
     let table = table.split("\n\n").next().unwrap_or_default();
     // Lines keep their numbers.
     Grid::parse(("\n".repeat(before.matches('\n').count() + 1) + table).as_bytes(), None)
-}
-
-/// The number in a cell within a range, if it is known.
-fn value(
-    grid: &Grid,
-    row: usize,
-    column: Option<usize>,
-    (range, expected): (&RangeInclusive<f64>, &str),
-) -> Result<Option<f64>, InputError> {
-    match column.filter(|at| grid.value(row, *at).is_some()) {
-        Some(at) if grid.number(row, at)? > UNKNOWN => grid.within(row, at, range, expected).map(Some),
-        _ => Ok(None),
-    }
 }
 
 fn key(name: &str) -> String {

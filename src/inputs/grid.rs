@@ -19,6 +19,9 @@ use crate::units::Unit;
 /// Rows at the end of a table that show how it is written.
 const SHOWN: usize = 400;
 
+/// Numbers below this stand for what is not known.
+const UNKNOWN: f64 = -99.0;
+
 /// Rows of cells under headings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
@@ -163,6 +166,20 @@ impl Grid {
         match self.number(row, column)? {
             number if range.contains(&number) => Ok(number),
             _ => Err(self.refusal(row, column, expected)),
+        }
+    }
+
+    /// Reads a number that must lie in a range, if a cell says one; PEER writes -999 for what is not known.
+    pub fn known(
+        &self,
+        row: usize,
+        column: Option<usize>,
+        range: &RangeInclusive<f64>,
+        expected: &str,
+    ) -> Result<Option<f64>, InputError> {
+        match column.filter(|at| self.value(row, *at).is_some()) {
+            Some(at) if self.number(row, at)? > UNKNOWN => self.within(row, at, range, expected).map(Some),
+            _ => Ok(None),
         }
     }
 

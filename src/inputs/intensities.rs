@@ -42,13 +42,17 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let rows = 0..grid.lines.len();
-        let numbers = rows.clone().map(|row| grid.value(row, at).map(|_| grid.number(row, at)).transpose());
+        let is_peak = peak(heading).is_some();
+        let numbers = rows.clone().map(|row| match grid.value(row, at) {
+            None if !is_peak => Ok(None),
+            _ => grid.number(row, at).map(Some),
+        });
         if let Some(row) = rows.clone().find(|row| means(grid.cell(*row, at), "total")) {
             return Err(grid.refusal(row, at, "motions alone"));
         }
         let cells = match numbers.collect() {
             Ok(numbers) => Cells::Numbers(numbers),
-            Err(error) if peak(heading).is_some() || means(&heading.name, "magnitude") => return Err(error),
+            Err(error) if is_peak || means(&heading.name, "magnitude") => return Err(error),
             Err(_) => Cells::Texts(rows.map(|row| grid.cell(row, at).to_string()).collect()),
         };
         let name = match heading.name.as_str() {
@@ -89,8 +93,7 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, 
         let [pga, pgv] =
             [pga, pgv].map(|at| grid.within(row, at, &(0.0..=f64::MAX), "a number of 0 or more"));
         given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
-        let known = magnitude.filter(|at| grid.value(row, *at).is_some());
-        mw.push(known.map(|at| grid.within(row, at, &MAGNITUDES, "a magnitude from 1 to 9.9")).transpose()?);
+        mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
     }
     judge_medians(given.iter().copied())?;
     let peaks: Vec<Peaks> = given.iter().map(|peaks| peaks.at_rim()).collect();

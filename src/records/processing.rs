@@ -61,12 +61,8 @@ pub enum ProcessingError {
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct ImportedMotion {
-    /// Unique in the file.
-    pub motion_id: String,
-    pub source: SourceFile,
-    /// The record, without its samples.
-    pub record: RecordedMotion,
-    pub doubts: Vec<(Warning, String)>,
+    /// The record under the name of the motion, without its samples.
+    pub record: NamedRecord,
     pub scale: f64,
     /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
@@ -192,29 +188,29 @@ impl Processing {
     /// Scales and measures a record: one motion for each factor.
     fn scaled(
         &self,
-        record: NamedRecord,
+        mut record: NamedRecord,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let NamedRecord { motion_id, source, motion, doubts } = record;
+        let NamedRecord { motion_id, motion, .. } = &record;
         let dt_s = motion.dt_s;
         let factors = self.scaling.factors(&motion.acceleration_m_s2, dt_s);
         if factors.is_empty() {
             return Err(ProcessingError::Zero);
         }
-        let (indicator, pulse) = self.pulse_of(&motion);
-        let samples = motion.acceleration_m_s2;
-        let motion = RecordedMotion { acceleration_m_s2: Vec::new(), ..motion };
-        let several = factors.len() > 1;
+        let (indicator, pulse) = self.pulse_of(motion);
+        let (motion_id, several) = (motion_id.clone(), factors.len() > 1);
+        let samples = std::mem::take(&mut record.motion.acceleration_m_s2);
         let mut motions = Vec::new();
         for scale in factors {
             let acceleration_m_s2: Vec<f32> = samples.iter().map(|&a| (scale * a) as f32).collect();
+            let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
+            if several {
+                record.motion_id = format!("{motion_id} x{scale}");
+            }
             let scaled = ImportedMotion {
-                motion_id: if several { format!("{motion_id} x{scale}") } else { motion_id.clone() },
-                source: source.clone(),
-                record: motion.clone(),
-                doubts: doubts.clone(),
+                record: record.clone(),
                 scale,
-                measured: self.measured(&acceleration_m_s2, dt_s),
+                measured: self.plan.measure(&written, dt_s, &mut MeasureScratch::default()),
                 acceleration_m_s2,
                 rotd,
                 indicator,
@@ -242,11 +238,5 @@ impl Processing {
         let fitted =
             found.and_then(|found| FittedPulse::fit(&velocity, motion.dt_s, found.period_s, found.centre_s));
         (indicator, fitted)
-    }
-
-    /// Measures samples as written, in single precision.
-    fn measured(&self, samples: &[f32], dt_s: f64) -> Measured {
-        let written: Vec<f64> = samples.iter().map(|&a| f64::from(a)).collect();
-        self.plan.measure(&written, dt_s, &mut MeasureScratch::default())
     }
 }

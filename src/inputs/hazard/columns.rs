@@ -12,9 +12,7 @@ use crate::units::Quantity;
 keywords! {
     /// A measure of motions.
     pub enum Measure {
-        /// Peak ground acceleration.
         Pga = "PGA",
-        /// Peak ground velocity.
         Pgv = "PGV",
         /// Spectral acceleration at 1 s.
         Spectral = "SA(1.0 s)",
@@ -26,13 +24,9 @@ keywords! {
 keywords! {
     /// Which of several curves of a measure.
     pub enum Statistic {
-        /// Their mean.
         Mean = "mean",
-        /// Their median.
         Median = "median",
-        /// The 16 % fractile.
         Low = "16 %",
-        /// The 84 % fractile.
         High = "84 %",
     }
 }

@@ -51,7 +51,10 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
         let step = noted_step(&table.grid.notes);
         return Ok(vec![table.motion(&Heading::new(""), table.wrapped()?, step)?]);
     }
-    let columns = table.accelerations()?;
+    let columns = match &options.column {
+        Some(choice) => vec![table.chosen(choice)?],
+        None => table.accelerations()?,
+    };
     table.expect_one_series(false)?;
     let step = table.step()?;
     let mut motions = Vec::<RecordedMotion>::new();
@@ -87,41 +90,46 @@ impl Samples<'_> {
         Ok(Samples { grid, headings, quantities, times, line, options })
     }
 
-    /// Finds the columns of acceleration: that which the user names by its number or heading, those with such
-    /// a heading, those of directions, or the only one that may be it.
+    /// The column that the user names by its number or heading.
+    fn chosen(&self, choice: &str) -> Result<usize, RecordFileError> {
+        let mut headings = self.headings.iter();
+        let column = match choice.parse::<usize>() {
+            Ok(number) => number.checked_sub(1),
+            Err(_) => headings.position(|heading| heading.text == choice || heading.name == choice),
+        };
+        match column.and_then(|at| Some((at, *self.quantities.get(at)?))) {
+            Some((at, None | Some(Quantity::Acceleration))) => Ok(at),
+            Some((_, Some(other))) => Err(self.not_acceleration(format!("{other:?}").to_lowercase())),
+            None => Err(self.which_column()),
+        }
+    }
+
+    /// Finds the columns of acceleration: those with such a heading, those of directions, or the only one
+    /// that may be it.
     fn accelerations(&self) -> Result<Vec<usize>, RecordFileError> {
-        let not_acceleration =
-            |found: String| Err(RecordFileError::NotAcceleration { line: self.line, found });
-        if let Some(choice) = &self.options.column {
-            let is_chosen = |heading: &Heading| heading.text == *choice || heading.name == *choice;
-            let number = choice.parse::<usize>().ok();
-            let column =
-                number.map_or(self.headings.iter().position(is_chosen), |number| number.checked_sub(1));
-            return match column.and_then(|at| Some((at, *self.quantities.get(at)?))) {
-                Some((at, None | Some(Quantity::Acceleration))) => Ok(vec![at]),
-                Some((_, Some(other))) => not_acceleration(format!("{other:?}").to_lowercase()),
-                None => Err(self.which_column()),
-            };
+        let heading = |at: usize| &self.headings[at];
+        if let Some((at, what)) = (0..self.grid.columns).find_map(|at| Some((at, other(heading(at))?))) {
+            return Err(self.not_acceleration(format!("'{}': {what}", heading(at).text)));
         }
-        if let Some((heading, what)) =
-            self.headings.iter().find_map(|heading| Some((heading, other(heading)?)))
-        {
-            return not_acceleration(format!("'{}': {what}", heading.text));
+        let (mut named, mut unknown) = (Vec::new(), Vec::new());
+        for at in (0..self.grid.columns).filter(|&at| !self.grid.cell(0, at).is_empty()) {
+            match self.quantities[at] {
+                Some(Quantity::Acceleration) => named.push(at),
+                Some(_) => {}
+                None => unknown.push(at),
+            }
         }
-        let filled = (0..self.grid.columns).filter(|&at| !self.grid.cell(0, at).is_empty());
-        let (named, others): (Vec<usize>, Vec<usize>) =
-            filled.partition(|&at| self.quantities[at] == Some(Quantity::Acceleration));
-        let unknown = || others.iter().copied().filter(|&at| self.quantities[at].is_none());
-        let directions: Vec<usize> =
-            unknown().filter(|&at| direction(&self.headings[at]).is_some()).collect();
-        let is_processed =
-            |at: &usize| self.headings[*at].name.split('_').any(|word| PROCESSED.contains(&word));
-        match (named.len(), directions.len(), unknown().count()) {
+        let mut words = named.iter().flat_map(|at| heading(*at).name.split('_'));
+        if named.len() > 1 && words.any(|word| PROCESSED.contains(&word)) {
             // The same motion before and after.
-            (2.., ..) if named.iter().any(is_processed) => Err(self.which_column()),
-            (1.., ..) => Ok(named),
-            (.., 1) => Ok(unknown().collect()),
-            (.., 0) => not_acceleration(self.found()),
+            return Err(self.which_column());
+        }
+        let directions = unknown.iter().filter(|at| direction(heading(**at)).is_some());
+        let directions: Vec<usize> = directions.copied().collect();
+        match (named.is_empty(), directions.len(), unknown.len()) {
+            (false, ..) => Ok(named),
+            (.., 1) => Ok(unknown),
+            (.., 0) => Err(self.not_acceleration(self.found())),
             // One alone may be a number n, or s for a time.
             (_, 2.., _) => Ok(directions),
             _ => Err(self.which_column()),
@@ -142,7 +150,7 @@ impl Samples<'_> {
         let unit = self.unit(heading)?;
         let expected = "a column of times, or a comment such as dt = 0.005 s";
         let dt_s = options.dt_s.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?;
-        expect_step(options, found.unwrap_or(dt_s), line)?;
+        expect_step(options.dt_s, found.unwrap_or(dt_s), line)?;
         let (name, direction) = (Some(&*heading.text).filter(|text| !text.is_empty()), direction(heading));
         Ok(RecordedMotion {
             component: direction.or(name).map(str::to_string),
@@ -168,7 +176,7 @@ impl Samples<'_> {
             Some(unit) if unit.quantity != Quantity::Acceleration => {
                 Err(RecordFileError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
             }
-            Some(unit) => expect_unit(options, unit, line).map(|()| unit),
+            Some(unit) => expect_unit(options.unit, unit, line).map(|()| unit),
         }
     }
 
@@ -177,7 +185,7 @@ impl Samples<'_> {
         let noted = noted_step(&self.grid.notes);
         let Some(times) = self.times else { return Ok(noted) };
         let step = self.step_between(times)?;
-        expect_step(&ReadOptions { dt_s: noted, ..ReadOptions::default() }, step, self.line)?;
+        expect_step(noted, step, self.line)?;
         Ok(Some(step))
     }
 
@@ -224,7 +232,7 @@ impl Samples<'_> {
         while above < 2 && above + 1 < samples.len() && self.grid.headings.is_empty() && step.is_none() {
             let first = samples[above];
             if USUAL_S.contains(&first) && decimals(above) != decimals(above + 1) {
-                expect_step(self.options, first, self.grid.lines[above])?;
+                expect_step(self.options.dt_s, first, self.grid.lines[above])?;
             }
             let is_count = [1, 2].iter().any(|above| first == samples.len() as f64 - f64::from(*above));
             if !is_count && self.options.dt_s != Some(first) {
@@ -265,6 +273,10 @@ impl Samples<'_> {
         let texts: Vec<&str> = self.grid.headings.iter().map(|heading| heading.text.as_str()).collect();
         let texts = if texts.is_empty() { "without headings".to_string() } else { texts.join(", ") };
         format!("{} columns {texts}", self.grid.columns)
+    }
+
+    fn not_acceleration(&self, found: String) -> RecordFileError {
+        RecordFileError::NotAcceleration { line: self.line, found }
     }
 
     fn which_column(&self) -> RecordFileError {

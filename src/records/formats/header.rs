@@ -35,25 +35,21 @@ pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFile
 }
 
 /// Checks that a file has no other time step (s) than the given one.
-pub fn expect_step(options: &ReadOptions, dt_s: f64, line: usize) -> Result<(), RecordFileError> {
-    let (field, found) = ("time step", format!("{dt_s} s"));
-    match options.dt_s.filter(|given| (dt_s - given).abs() > SAME_STEP * given) {
-        Some(given) => {
-            Err(RecordFileError::Contradiction { line, field, found, given: format!("{given} s") })
-        }
-        None => Ok(()),
-    }
+pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<(), RecordFileError> {
+    let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
+    other.map_or(Ok(()), |given| {
+        let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
+        Err(RecordFileError::Contradiction { line, field: "time step", found, given })
+    })
 }
 
 /// Checks that a file has no other unit than the given one.
-pub fn expect_unit(options: &ReadOptions, unit: Unit, line: usize) -> Result<(), RecordFileError> {
-    let (field, found) = ("unit", unit.name.to_string());
-    match options.unit.filter(|given| unit.si != given.si) {
-        Some(given) => {
-            Err(RecordFileError::Contradiction { line, field, found, given: given.name.to_string() })
-        }
-        None => Ok(()),
-    }
+pub fn expect_unit(given: Option<Unit>, unit: Unit, line: usize) -> Result<(), RecordFileError> {
+    let other = given.filter(|given| unit.si != given.si);
+    other.map_or(Ok(()), |given| {
+        let (found, given) = (unit.name.to_string(), given.name.to_string());
+        Err(RecordFileError::Contradiction { line, field: "unit", found, given })
+    })
 }
 
 /// Finds the value of a key at the start of a line, with the number of the line.

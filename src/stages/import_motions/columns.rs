@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::motion::pulse::largest_velocity;
 use crate::motion::{MotionMeasures, Suite};
 use crate::records::RecordedMotion;
-use crate::records::processing::ImportedMotion;
+use crate::records::processing::{ImportedMotion, NamedRecord};
 use crate::records::pulses::Verdict;
 use crate::table::{motions, rows};
 
@@ -58,22 +58,23 @@ pub fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<Recor
 }
 
 fn source(motion: &ImportedMotion) -> SourceRow {
-    let RecordedMotion { event, station, component, .. } = &motion.record;
+    let NamedRecord { motion_id, source, motion: record, .. } = &motion.record;
+    let RecordedMotion { event, station, component, .. } = record;
     let names: Vec<&str> = [event, station, component].into_iter().flatten().map(String::as_str).collect();
     SourceRow {
-        motion_id: motion.motion_id.clone(),
+        motion_id: motion_id.clone(),
         suite: Suite::Record,
         name: (!names.is_empty()).then(|| names.join(", ")),
         earthquake: event.clone(),
-        mw: motion.record.mw,
-        re_km: motion.record.re_km,
+        mw: record.mw,
+        re_km: record.re_km,
         station: station.clone(),
         component: component.clone(),
-        azimuth_deg: motion.record.azimuth_deg,
-        source_file: motion.source.path.clone(),
-        source_blake3: motion.source.blake3.clone(),
+        azimuth_deg: record.azimuth_deg,
+        source_file: source.path.clone(),
+        source_blake3: source.blake3.clone(),
         scale: motion.scale,
-        dt_s: motion.record.dt_s,
+        dt_s: record.dt_s,
     }
 }
 

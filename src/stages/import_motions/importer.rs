@@ -3,11 +3,11 @@
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::bail;
 use rayon::prelude::*;
 
+use super::summary::Summary;
 use crate::inputs::words::is_vertical;
 use crate::inputs::{About, Known, Member, unpack};
 use crate::motion::LONGEST_MOTION;
@@ -20,7 +20,7 @@ use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records}
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
-use crate::warning::{Warning, Warnings};
+use crate::warning::Warning;
 
 pub struct Importer {
     pub files: Vec<File>,
@@ -29,9 +29,12 @@ pub struct Importer {
     pub about: About,
     /// Whether vertical components are imported too.
     pub vertical: bool,
-    /// Components that were left out.
-    pub left_out_vertical: AtomicUsize,
-    pub left_out_in_borehole: AtomicUsize,
+}
+
+/// Why a component is not imported: what it is, or in words what is wrong with it.
+pub enum NotImported {
+    LeftOut(&'static str),
+    Refused(String),
 }
 
 /// A file, or one in an archive.
@@ -68,80 +71,58 @@ pub fn named(paths: Vec<PathBuf>) -> Vec<File> {
 }
 
 impl Importer {
-    /// All work in order, and what cannot be read already.
-    pub fn work(&self, context: &Context) -> anyhow::Result<(Vec<Work>, Vec<String>)> {
+    /// All work in order; the summary gets what is not imported already.
+    pub fn work(&self, context: &Context, summary: &mut Summary) -> anyhow::Result<Vec<Work>> {
         if self.processing.direction.is_none() {
-            return Ok((self.files.iter().cloned().map(Work::File).collect(), Vec::new()));
+            return Ok(self.files.iter().cloned().map(Work::File).collect());
         }
-        let (mut components, mut refused) = (Vec::new(), Vec::new());
+        let mut components = Vec::new();
         for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
             let (records, others): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
-            refused.extend(others.into_iter().filter_map(Result::err));
-            for (index, record) in records.into_iter().flatten().enumerate() {
-                // Samples are read again once a pair is found: that takes less memory than keeping all of
-                // them.
-                if !self.leaves_out(&record.motion) {
-                    components.push((Component::new(&record.motion), (file.clone(), index)));
-                }
-            }
+            others.into_iter().filter_map(Result::err).for_each(|why| summary.leave_out(why));
+            // Samples are read again once a pair is found: that takes less memory than keeping all of them.
+            let records = records.into_iter().flatten().enumerate();
+            components.extend(
+                records.map(|(index, record)| (Component::new(&record.motion), (file.clone(), index))),
+            );
         }
         let horizontal = counted(components.len(), "horizontal component");
         let (pairs, left_out) = pairs(components);
-        if pairs.is_empty() && refused.is_empty() {
+        if pairs.is_empty() && summary.refused.is_empty() {
             bail!(
                 "no pair among {horizontal}; expected two of one event, station and time step at right \
                  angles. Without --rotate each is imported by itself"
             );
         }
-        let mut alone = Warnings::default();
-        left_out.iter().for_each(|(file, _)| alone.add(Warning::NoPartner, text(file.path.file_name())));
-        context.warn(alone);
-        Ok((pairs.into_iter().map(Work::Pair).collect(), refused))
+        let alone = left_out.iter().map(|(file, _)| (Warning::NoPartner, text(file.path.file_name())));
+        context.warn(alone.collect());
+        Ok(pairs.into_iter().map(Work::Pair).collect())
     }
 
-    /// Counts the components that were left out, in words.
-    pub fn left_out(&self) -> Option<String> {
-        let counts = [
-            (&self.left_out_vertical, "vertical component"),
-            (&self.left_out_in_borehole, "borehole component"),
-        ];
-        let counts = counts.map(|(count, name)| (count.load(Ordering::Relaxed), name)).into_iter();
-        let words = counts.filter(|(count, _)| *count > 0).map(|(count, name)| counted(count, name));
-        let words: Vec<String> = words.collect();
-        (!words.is_empty()).then(|| words.join(" and "))
-    }
-
-    /// Counts a component that is not to be imported. A column that was chosen is.
-    fn leaves_out(&self, motion: &RecordedMotion) -> bool {
+    /// What a component is that is not to be imported. A column that was chosen is.
+    fn left_out(&self, motion: &RecordedMotion) -> Option<&'static str> {
         let is_vertical = motion.is_vertical() && !self.vertical && self.reading.column.is_none();
-        let counter = match (motion.is_in_borehole, is_vertical) {
-            (true, _) => &self.left_out_in_borehole,
-            (_, true) => &self.left_out_vertical,
-            _ => return false,
+        let vertical = is_vertical.then_some("vertical component");
+        motion.is_in_borehole.then_some("borehole component").or(vertical)
+    }
+
+    pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, NotImported>> {
+        let file = match work {
+            Work::File(file) => file,
+            Work::Pair(pair) => return vec![self.import_pair(pair)],
         };
-        counter.fetch_add(1, Ordering::Relaxed);
-        true
+        let records = self.read(file);
+        let several = records.len() > 1;
+        let imported = records.into_iter().map(|record| {
+            let record = record?;
+            let column = record.motion.component.clone().filter(|_| several);
+            let column = column.map_or(String::new(), |column| format!("column '{column}': "));
+            self.processing.import(record).map_err(|error| unprocessed(&file.path, &column, &error))
+        });
+        imported.collect()
     }
 
-    pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, String>> {
-        match work {
-            Work::File(file) => {
-                let mut records = self.read(file);
-                let several = records.len() > 1;
-                records.retain(|read| read.as_ref().map_or(true, |record| !self.leaves_out(&record.motion)));
-                let imported = records.into_iter().map(|record| {
-                    let record = record?;
-                    let column = record.motion.component.clone().filter(|_| several);
-                    let column = column.map_or(String::new(), |column| format!("column '{column}': "));
-                    self.processing.import(record).map_err(|error| unprocessed(&file.path, &column, &error))
-                });
-                imported.collect()
-            }
-            Work::Pair(pair) => vec![self.import_pair(pair)],
-        }
-    }
-
-    fn import_pair(&self, pair: &[(File, usize); 2]) -> Result<Vec<ImportedMotion>, String> {
+    fn import_pair(&self, pair: &[(File, usize); 2]) -> Result<Vec<ImportedMotion>, NotImported> {
         let [first, second] = pair.each_ref().map(|(file, index)| {
             let record = self.read(file).into_iter().flatten().nth(*index);
             record.ok_or_else(|| refusal(&file.path, &"changed while it was read; run again"))
@@ -151,28 +132,27 @@ impl Importer {
             .map_err(|error| unprocessed(&pair[0].0.path, "", &error))
     }
 
-    /// Reads the records of a file, or of those in an archive; in words what is wrong with some.
-    fn read(&self, file: &File) -> Vec<Result<NamedRecord, String>> {
+    /// Reads the records of a file, or of those in an archive.
+    fn read(&self, file: &File) -> Vec<Result<NamedRecord, NotImported>> {
         let members = source::read(&file.path).map_err(|error| refusal(&file.path, &error));
         let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(&file.path, &error)));
-        let members = match members {
-            Ok(members) => members,
-            Err(refusal) => return vec![Err(refusal)],
-        };
-        let records = file.unpacked(&members).into_iter().zip(&members).flat_map(|(file, member)| match self
-            .read_one(&file, &member.bytes)
-        {
-            Ok(records) => records.into_iter().map(Ok).collect(),
+        match members {
             Err(refusal) => vec![Err(refusal)],
-        });
-        records.collect()
+            Ok(members) => {
+                let files = file.unpacked(&members).into_iter().zip(&members);
+                files.flat_map(|(file, member)| self.read_one(&file, &member.bytes)).collect()
+            }
+        }
     }
 
     /// Reads the records in the bytes of a file.
-    fn read_one(&self, file: &File, bytes: &[u8]) -> Result<Vec<NamedRecord>, String> {
+    fn read_one(&self, file: &File, bytes: &[u8]) -> Vec<Result<NamedRecord, NotImported>> {
         let File { path, name, below } = file;
         let source = SourceFile { path: below.clone(), blake3: blake3::hash(bytes).to_hex().to_string() };
-        let motions = read_records(bytes, &self.reading).map_err(|error| unread(path, &error))?;
+        let motions = match read_records(bytes, &self.reading) {
+            Ok(motions) => motions,
+            Err(error) => return vec![Err(unread(path, &error))],
+        };
         let several = motions.len() > 1;
         let records = (1..).zip(motions).map(|(number, mut motion)| {
             if let Some(Known { mw, re_km, earthquake }) = self.about.get(path).cloned() {
@@ -188,6 +168,9 @@ impl Importer {
             let last = name.rsplit(['-', '_', '.', ' ']).next().unwrap_or_default();
             if !several && motion.azimuth_deg.is_none() && last != name && is_vertical(last) {
                 motion.component = Some(last.to_string());
+            }
+            if let Some(what) = self.left_out(&motion) {
+                return Err(NotImported::LeftOut(what));
             }
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
@@ -224,12 +207,12 @@ fn text(name: Option<&OsStr>) -> String {
     name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn refusal(file: &Path, reason: &impl ToString) -> String {
-    format!("{}: {}", file.display(), reason.to_string())
+fn refusal(file: &Path, reason: &impl ToString) -> NotImported {
+    NotImported::Refused(format!("{}: {}", file.display(), reason.to_string()))
 }
 
 /// What is wrong with a file, and the option that helps.
-fn unread(file: &Path, error: &RecordFileError) -> String {
+fn unread(file: &Path, error: &RecordFileError) -> NotImported {
     let option = match error {
         RecordFileError::NoUnit { .. } => ", or --unit, such as --unit g",
         RecordFileError::NoTimeStep { .. } => ", or --dt, such as --dt 0.005",
@@ -237,11 +220,11 @@ fn unread(file: &Path, error: &RecordFileError) -> String {
         RecordFileError::Column { .. } => ": choose with --column, or --column all if lines wrap",
         _ => "",
     };
-    format!("{}{option}", refusal(file, error))
+    refusal(file, &format!("{error}{option}"))
 }
 
 /// Why a record cannot be imported, and the option that helps.
-fn unprocessed(file: &Path, column: &str, error: &ProcessingError) -> String {
+fn unprocessed(file: &Path, column: &str, error: &ProcessingError) -> NotImported {
     let option = match error {
         ProcessingError::Implausible(Implausibility::Drift { .. }) => {
             " (--baseline linear corrects it, --accept-implausible imports it anyway)"

@@ -6,7 +6,6 @@ mod importer;
 mod summary;
 
 use std::path::PathBuf;
-use std::sync::atomic::AtomicUsize;
 
 use clap::Args;
 use rayon::prelude::*;
@@ -17,7 +16,6 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
 use crate::motion::MeasurePlan;
-use crate::number::counted;
 use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
@@ -134,15 +132,8 @@ impl Stage for ImportMotions {
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = self.records().files(&self.outputs(), &Planned::new())?;
-        let mut importer = Importer {
-            files: importer::named(files),
-            reading,
-            processing,
-            about,
-            vertical: self.vertical,
-            left_out_vertical: AtomicUsize::default(),
-            left_out_in_borehole: AtomicUsize::default(),
-        };
+        let files = importer::named(files);
+        let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
             let about = std::path::absolute(&**path)?;
@@ -152,8 +143,8 @@ impl Stage for ImportMotions {
                 return Err(UsageError::because(problem));
             }
         }
-        let (work, mut refused) = importer.work(context)?;
         let mut summary = Summary::default();
+        let work = importer.work(context, &mut summary)?;
         let bar = context.bar(work.len());
         pipelined(
             work.chunks(AT_ONCE).map(Ok),
@@ -163,37 +154,29 @@ impl Stage for ImportMotions {
             },
             |results| {
                 for result in results {
-                    let imported = result.unwrap_or_else(|refusal| {
-                        refused.push(refusal);
-                        Vec::new()
-                    });
-                    summary.add(&imported)?;
-                    context.warn(imported.iter().flat_map(warnings).collect());
-                    writer.append(&batch(&imported, &periods)?)?;
+                    match result {
+                        Err(why) => summary.leave_out(why),
+                        Ok(imported) => {
+                            summary.add(&imported)?;
+                            context.warn(imported.iter().flat_map(warnings).collect());
+                            writer.append(&batch(&imported, &periods)?)?;
+                        }
+                    }
                 }
                 Ok(())
             },
         )?;
-        if summary.is_empty() && refused.is_empty() {
-            let left_out = importer.left_out().unwrap_or("no component".to_string());
-            anyhow::bail!(
-                "{left_out}; expected horizontal ones at the surface (--vertical imports vertical ones)"
-            );
-        }
-        if summary.is_empty() || !refused.is_empty() && !self.keep_going {
-            let others = if summary.is_empty() { "" } else { "\n--keep-going imports the others" };
-            let records = counted(refused.len(), "record");
-            anyhow::bail!("{records} cannot be imported:\n{}{others}", refused.join("\n"));
-        }
-        context.warn(refused.into_iter().map(|refusal| (Warning::UnreadableFile, refusal)).collect());
-        let summary = summary.text(importer.left_out());
-        context.finish(writer, &summary)?;
-        Ok(summary)
+        summary.expect_motions(self.keep_going)?;
+        context.warn(summary.refused.iter().map(|why| (Warning::UnreadableFile, why.clone())).collect());
+        let text = summary.text();
+        context.finish(writer, &text)?;
+        Ok(text)
     }
 }
 
 fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> {
-    motion.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", motion.motion_id)))
+    let record = &motion.record;
+    record.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", record.motion_id)))
 }
 
 impl ImportMotions {

@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use anyhow::bail;
 
+use super::importer::NotImported;
 use crate::motion::MotionMeasures;
 use crate::number::listed;
 use crate::number::{count, counted, fixed};
-use crate::records::processing::{ImportedMotion, SourceFile};
+use crate::records::processing::{ImportedMotion, NamedRecord, SourceFile};
 use crate::units::G_M_S2;
 
 /// Kinds of files that the summary names.
@@ -25,24 +26,28 @@ pub struct Summary {
     kinds: BTreeMap<String, usize>,
     pga_g: Vec<f64>,
     pgv_m_s: Vec<f64>,
+    /// How many components of each kind were left out.
+    left_out: BTreeMap<&'static str, usize>,
+    /// What is wrong with others.
+    pub refused: Vec<String>,
 }
 
 impl Summary {
     /// Adds motions, which must differ from those before in their names and files.
     pub fn add(&mut self, imported: &[ImportedMotion]) -> anyhow::Result<()> {
         for motion in imported {
-            let SourceFile { path, blake3 } = &motion.source;
+            let NamedRecord { motion_id: id, source: SourceFile { path, blake3 }, motion: record, .. } =
+                &motion.record;
             let first = self.files.entry(blake3.clone()).or_insert_with(|| path.clone());
             if first != path {
                 bail!("{path}: the same record as {first}; leave out one");
             }
-            let id = &motion.motion_id;
             if !self.ids.insert(id.clone()) {
                 bail!("{path}: two motions are called '{id}'; rename the file");
             }
             self.pulses += usize::from(motion.pulse.is_some());
-            self.magnitudes += usize::from(motion.record.mw.is_some());
-            let kind = format!("{} in {}", motion.record.format, motion.record.unit.name);
+            self.magnitudes += usize::from(record.mw.is_some());
+            let kind = format!("{} in {}", record.format, record.unit.name);
             *self.kinds.entry(kind).or_default() += 1;
             let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
             self.pga_g.push(pga_m_s2 / G_M_S2);
@@ -51,13 +56,37 @@ impl Summary {
         Ok(())
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.pga_g.is_empty()
+    pub fn leave_out(&mut self, why: NotImported) {
+        match why {
+            NotImported::LeftOut(what) => *self.left_out.entry(what).or_default() += 1,
+            NotImported::Refused(why) => self.refused.push(why),
+        }
     }
 
-    pub fn text(&self, left_out: Option<String>) -> String {
+    /// Refuses a call without motions, or one that does not keep going beside what is wrong.
+    pub fn expect_motions(&self, keep_going: bool) -> anyhow::Result<()> {
+        let (is_empty, left_out) = (self.pga_g.is_empty(), self.left_out());
+        if is_empty && self.refused.is_empty() {
+            let found = if left_out.is_empty() { "no component" } else { &left_out };
+            bail!("{found}; expected horizontal ones at the surface (--vertical imports vertical ones)");
+        }
+        if is_empty || !self.refused.is_empty() && !keep_going {
+            let others = if is_empty { "" } else { "\n--keep-going imports the others" };
+            let records = counted(self.refused.len(), "record");
+            bail!("{records} cannot be imported:\n{}{others}", self.refused.join("\n"));
+        }
+        Ok(())
+    }
+
+    /// Counts the components that were left out, in words.
+    fn left_out(&self) -> String {
+        self.left_out.iter().map(|(what, n)| counted(*n, what)).collect::<Vec<_>>().join(" and ")
+    }
+
+    pub fn text(&self) -> String {
         let kinds: Vec<String> = self.kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
-        let left_out = left_out.map_or(String::new(), |components| format!("; {components} left out"));
+        let left_out = self.left_out();
+        let left_out = if left_out.is_empty() { String::new() } else { format!("; {left_out} left out") };
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
             counted(self.pga_g.len(), "motion"),
