@@ -47,6 +47,8 @@ pub const FREQUENCIES_RAD_S: RangeInclusive<f64> = 1e-3..=100.0;
 pub const GIVEN_FREQUENCIES_RAD_S: RangeInclusive<f64> = 0.2..=50.0;
 /// Solid blocks of a smaller p (rad/s) are higher than about 18 m, as few monuments are.
 pub const LEAST_P_RAD_S: f64 = 0.9;
+/// Slenderness, rad, of a base of a 25th of the height: few monuments stand on less.
+pub const LEAST_ALPHA_RAD: f64 = 0.04;
 
 /// Columns with a range of their own, and what is expected of them; of motions those that solver and scaling
 /// bear.

@@ -54,7 +54,7 @@ impl Warning {
             AtRim => "beyond 4.5 g, 5 m/s or PGV/PGA 0.005 to 3 s: answered at that rim",
             OtherPeak => "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?",
             LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
-            ImplausibleSize => "taller than all but a few monuments: a wrong unit?",
+            ImplausibleSize => "taller or more slender than all but a few monuments: a wrong unit?",
             LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
             HazardEndsEarly => "the hazard curve ends too early: the result is a range",
             HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",

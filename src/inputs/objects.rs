@@ -37,6 +37,9 @@ enum Column {
     Unused,
 }
 
+/// Floors beyond this number are levels in percent, or something else.
+const HIGHEST: f64 = 50.0;
+
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Common {
@@ -152,7 +155,8 @@ impl List<'_> {
         level.is_some_and(|at| {
             let rows = 0..self.grid.lines.len();
             let levels: Vec<f64> = rows.filter_map(|row| self.grid.number(row, at).ok()).collect();
-            levels.iter().any(|level| *level > 1.0) && levels.iter().all(|level| level.fract() == 0.0)
+            levels.iter().any(|level| *level > 1.0)
+                && levels.iter().all(|level| level.fract() == 0.0 && *level < HIGHEST)
         })
     }
 

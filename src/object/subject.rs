@@ -5,7 +5,7 @@ use super::given::{Object, Reason};
 use crate::fragility::{Direction, Kind, Model, Z_95};
 use crate::keyword::keywords;
 use crate::motion::{Floor, IntensityMeasures, Peaks};
-use crate::plausibility::LEAST_P_RAD_S;
+use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
 use crate::warning::Warning;
 
@@ -215,6 +215,7 @@ impl Subject {
 
 /// Warns of a structure that is hardly possible.
 pub fn structure_warnings(structure: &Structure) -> Vec<Warning> {
-    let size = (structure.p_rad_s < LEAST_P_RAD_S).then_some(Warning::ImplausibleSize);
+    let is_unlike = structure.p_rad_s < LEAST_P_RAD_S || structure.alpha_rad < LEAST_ALPHA_RAD;
+    let size = is_unlike.then_some(Warning::ImplausibleSize);
     size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
 }

@@ -199,6 +199,7 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,on wheels?\na,0.5,2,maybe\n", "'maybe'"),
         ("name,width,height,Anchored\na,0.5,2,No (bolts removed)\n", "yes or no"),
         ("name,width,height,Level,T1 (s)\na,0.5,2,1,0.6\nb,0.5,2,2,0.6\nc,0.5,2,0,0.6\n", "floor 1"),
+        ("name,width,height,Level,T1 (s)\na,0.5,2,60,0.6\n", "level is 60"),
         ("name,width,height,Secured\na,0.5,2,2 bolts M10\n", "not free to rock"),
         ("name,width,height,Secured\na,0.5,2,x\n", "not free to rock"),
         ("name,width,height,on wheels?\na,0.5,2,yes\n", "rolls"),
@@ -216,6 +217,8 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
     let tall = text("name,width,depth,height\na,5,5,19\nb,5,5,15\n");
     let warnings = tall.iter().map(|object| structure_warnings(&object.sides().unwrap()[0].structure));
     assert_eq!(warnings.collect::<Vec<_>>(), [vec![Warning::ImplausibleSize], vec![]]);
+    let pole = text("name,width,height\na,0.05,1.7\n");
+    assert_eq!(structure_warnings(&pole[0].sides().unwrap()[0].structure), [Warning::ImplausibleSize]);
     let free = "name,width,height,Secured,on wheels?\na,0.5,2,not bolted,no\nb,0.5,2,unsecured,n\n";
     assert!(text(free).iter().all(|object| object.refused.is_none()));
     assert!(reason("name,width,height,Unit\na,0.5,2,Intensive care\n").is_empty());

@@ -103,6 +103,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
         (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Input(Cell { line: 32"),
+        (lines("time,acc_g", G, |k, _| format!("{:.2},", time(k))), "", "Input(Cell { line: 2"),
         (csv("time,acc_g", G).replace('.', ","), "", "Input(Cells"),
         (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
         (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),

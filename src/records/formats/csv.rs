@@ -112,11 +112,11 @@ impl Samples<'_> {
             return Err(self.not_acceleration(format!("'{}': {what}", heading(at).text)));
         }
         let (mut named, mut unknown) = (Vec::new(), Vec::new());
-        for at in (0..self.grid.columns).filter(|&at| !self.grid.cell(0, at).is_empty()) {
+        for at in 0..self.grid.columns {
             match self.quantities[at] {
                 Some(Quantity::Acceleration) => named.push(at),
-                Some(_) => {}
-                None => unknown.push(at),
+                None if !self.grid.cell(0, at).is_empty() => unknown.push(at),
+                _ => {}
             }
         }
         let mut words = named.iter().flat_map(|at| heading(*at).name.split('_'));

@@ -10,6 +10,7 @@ use crate::inputs::intensities::motions;
 use crate::inputs::objects::{self, Common};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
+use crate::object::structure_warnings;
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
 use crate::warning::{Warning, Warnings};
@@ -62,6 +63,7 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let (structure, peaks) = (sides[0].structure.clone(), motions.peaks[row]);
+        structure_warnings(&structure).into_iter().for_each(|warning| doubts.add(warning, line.clone()));
         let fell = has_fallen(grid, row, fell)?;
         if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
             bail!(
