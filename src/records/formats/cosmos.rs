@@ -105,7 +105,7 @@ impl Channel<'_> {
     ) -> Result<RecordedMotion, RecordFileError> {
         let unit = unit_of(after(announcement, "units=").unwrap_or(""), line)?;
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
-        let missing = RecordFileError::NoTimeStep { line, expected: "it in ms as 62nd real of the header" };
+        let missing = RecordFileError::missing(line, "time step", "it in ms as 62nd real of the header");
         let dt_s = step.or(options.dt_s).ok_or(missing)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);

@@ -149,7 +149,7 @@ impl Samples<'_> {
         }
         let unit = self.unit(heading)?;
         let expected = "a column of times, or a comment such as dt = 0.005 s";
-        let dt_s = options.dt_s.or(found).ok_or(RecordFileError::NoTimeStep { line, expected })?;
+        let dt_s = options.dt_s.or(found).ok_or(RecordFileError::missing(line, "time step", expected))?;
         expect_step(options.dt_s, found.unwrap_or(dt_s), line)?;
         let (name, direction) = (Some(&*heading.text).filter(|text| !text.is_empty()), direction(heading));
         Ok(RecordedMotion {

@@ -12,10 +12,6 @@ pub enum RecordFileError {
     NotAcceleration { line: usize, found: String },
     #[error("line {line}: no {field}; expected {expected}")]
     Missing { line: usize, field: &'static str, expected: &'static str },
-    #[error("line {line}: no unit; expected one of acceleration, such as g or cm/s2")]
-    NoUnit { line: usize },
-    #[error("line {line}: no time step; expected {expected}")]
-    NoTimeStep { line: usize, expected: &'static str },
     #[error("line {line}: {field} '{found}'; expected {expected}")]
     Value { line: usize, field: &'static str, found: String, expected: &'static str },
     #[error("line {line}: {field} {found}, but {given} was given; correct the one or leave out the other")]

@@ -31,7 +31,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     };
     let step = number_field(header, "SAMPLING_INTERVAL_S:").or(options.dt_s.map(|dt_s| (end, dt_s)));
     let expected = "SAMPLING_INTERVAL_S";
-    let (line, dt_s) = step.ok_or(RecordFileError::NoTimeStep { line: end, expected })?;
+    let (line, dt_s) = step.ok_or(RecordFileError::missing(end, "time step", expected))?;
     let expected = "the number of samples, such as 'NDATA: 18904'";
     let (_, announced) =
         number_field(header, "NDATA:").ok_or(RecordFileError::missing(end, "NDATA", expected))?;

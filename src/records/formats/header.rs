@@ -31,7 +31,8 @@ pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
 
 /// Returns the given unit, for a file without one.
 pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
-    options.unit.ok_or(RecordFileError::NoUnit { line })
+    let expected = "one of acceleration, such as g or cm/s2";
+    options.unit.ok_or(RecordFileError::missing(line, "unit", expected))
 }
 
 /// Checks that a file has no other time step (s) than the given one.

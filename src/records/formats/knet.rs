@@ -25,7 +25,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let hertz = number_field(header, "Sampling Freq(Hz)").map(|(line, hertz)| (line, 1.0 / hertz));
     let step = hertz.or(options.dt_s.map(|dt_s| (end, dt_s)));
     let expected = "a line with Sampling Freq(Hz)";
-    let (line, dt_s) = step.ok_or(RecordFileError::NoTimeStep { line: end, expected })?;
+    let (line, dt_s) = step.ok_or(missing(end, "time step", expected))?;
     let dt_s = time_step(dt_s, line)?;
     let scale = field(header, "Scale Factor");
     let (line, text) = scale.ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;

@@ -43,7 +43,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
     let dt_s = named(counts, "DT").or(second).or(options.dt_s);
     let expected = "one such as 'DT= .0050 SEC'";
-    let dt_s = dt_s.ok_or(RecordFileError::NoTimeStep { line: at + 1, expected })?;
+    let dt_s = dt_s.ok_or(missing(at + 1, "time step", expected))?;
     let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.

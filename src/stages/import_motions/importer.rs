@@ -214,8 +214,8 @@ fn refusal(file: &Path, reason: &impl ToString) -> NotImported {
 /// What is wrong with a file, and the option that helps.
 fn unread(file: &Path, error: &RecordFileError) -> NotImported {
     let option = match error {
-        RecordFileError::NoUnit { .. } => ", or --unit, such as --unit g",
-        RecordFileError::NoTimeStep { .. } => ", or --dt, such as --dt 0.005",
+        RecordFileError::Missing { field: "unit", .. } => ", or --unit, such as --unit g",
+        RecordFileError::Missing { field: "time step", .. } => ", or --dt, such as --dt 0.005",
         RecordFileError::UnevenTime { .. } => " Rounded times? Give --dt",
         RecordFileError::Column { .. } => ": choose with --column, or --column all if lines wrap",
         _ => "",
