@@ -117,20 +117,11 @@ impl<'a> Ruler<'a> {
     fn log_ticks(&self, most: usize) -> Vec<Tick> {
         // Powers of ten where plain numbers would be long.
         let as_powers = self.low < 0.00099 || self.high > 100_100.0;
-        let choices: [(&[f64], i32); 10] = [
-            (&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], 1),
-            (&[1.0, 2.0, 3.0, 5.0], 1),
-            (&[1.0, 2.0, 5.0], 1),
-            (&[1.0, 3.0], 1),
-            (&[1.0], 1),
-            (&[1.0], 2),
-            (&[1.0], 3),
-            (&[1.0], 5),
-            (&[1.0], 10),
-            (&[1.0], 20),
-        ];
-        let choices = choices[if as_powers { 2 } else { 0 }..].iter();
-        let mut fitting = choices.map(|&(factors, every)| self.in_decades(factors, every));
+        let dense: [&[f64]; 4] =
+            [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 3.0, 5.0], &[1.0, 2.0, 5.0], &[1.0, 3.0]];
+        let dense = dense[if as_powers { 2 } else { 0 }..].iter().map(|factors| (*factors, 1));
+        let choices = dense.chain([1, 2, 3, 5, 10, 20].map(|every| (&[1.0][..], every)));
+        let mut fitting = choices.map(|(factors, every)| self.in_decades(factors, every));
         let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
         let label = if as_powers { power_of_ten } else { number::plain };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];

@@ -241,7 +241,6 @@ impl Pen {
         match layer.shape {
             Shape::Points => self.dots(&[middle], 2.0, colour, 1.0),
             Shape::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
-            Shape::Area => self.path(&[from, end], colour, 6.0, Dash::Solid),
             Shape::Estimates => {
                 self.interval(Point::new(from.x + 1.0, y), Point::new(end.x - 1.0, y), colour);
                 self.dots(&[middle], 2.2, colour, 1.0);
@@ -325,7 +324,6 @@ impl Pen {
         let (colour, marks) = (layer.ink.colour(), &layer.marks);
         let places: Vec<Point> = marks.iter().map(|mark| place.at(mark.x, mark.y)).collect();
         match layer.shape {
-            Shape::Area => self.fill(&places, colour, 0.22),
             Shape::Points => {
                 let (radius, opacity) = match marks.len() {
                     ..6 => (2.2, 1.0),

@@ -96,8 +96,6 @@ pub enum Shape {
     Line(Dash),
     /// Values with limits of y, or of x where y is an axis of names.
     Estimates,
-    /// A closed outline, filled.
-    Area,
 }
 
 /// A place over the axes; with limits if it is an estimate.

@@ -1,9 +1,9 @@
 //! The page of fragilities: the intensities of one peak at which half of the motions overturn each object.
 
 use super::answers::Outline;
-use super::figure::{Figure, Ink, Layer, Panel, Span};
+use super::figure::{Figure, Ink, Layer};
 use super::list::doubts;
-use super::object::{HEIGHT, averaged, axes, curve, fragility_panel, model_in_words, sketch};
+use super::object::{HEIGHT, averaged, curve, curves_panel, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
 use crate::fragility::{LimitState, Peak};
@@ -18,42 +18,26 @@ const DRAWN: usize = 6;
 pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure {
     let known: Vec<(&ObjectRow, &Fragility)> =
         all.iter().filter_map(|one| Some((&one.object, one.row.curve.as_ref()?))).collect();
-    match known[..] {
-        [] => Figure::default(),
-        [(object, curve)] => {
-            let sketch = outline.map(|outline| sketch(&outline, object));
-            let panels = sketch.into_iter().chain([fragility_panel(curve, object, None)]).collect();
-            Figure::new("fragility", &object.marked_title(), 2, HEIGHT, panels)
-        }
-        [(_, first), ..] => {
-            let mut layers = Vec::new();
-            for (number, (object, fragility)) in known.iter().take(DRAWN).enumerate() {
-                let marks = curve(fragility, LimitState::Overturning, known.len() < 3);
-                layers.push(Layer::line(&object.marked_name(), Ink::Data(number), marks));
-            }
-            let ends = layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.x);
-            let ends = Span::from_values(ends);
-            let (x, y) = axes(first);
-            let what = first.over.words().0;
-            let rest = match known.len().saturating_sub(DRAWN) {
-                0 => String::new(),
-                rest => format!(" Not drawn: {} that need more.", number::counted(rest, "object")),
-            };
-            let caption = format!(
-                "Probability of overturning under a motion of this {what}, {}.{rest}",
-                averaged(first.over)
-            );
-            let panel = Panel::new("", x.over(ends.low, ends.high), y, layers);
-            Figure::new(
-                "fragility",
-                "How strong a motion overturns each object",
-                1,
-                1.6 * HEIGHT,
-                vec![panel],
-            )
-            .explained(caption)
-        }
+    let Some((object, first)) = known.first() else { return Figure::default() };
+    if known.len() == 1 {
+        let sketch = outline.map(|outline| sketch(&outline, object));
+        let panels = sketch.into_iter().chain([fragility_panel(first, object, None)]).collect();
+        return Figure::new("fragility", &object.marked_title(), 2, HEIGHT, panels);
     }
+    let mut layers = Vec::new();
+    for (number, (object, fragility)) in known.iter().take(DRAWN).enumerate() {
+        let marks = curve(fragility, LimitState::Overturning, known.len() < 3);
+        layers.push(Layer::line(&object.marked_name(), Ink::Data(number), marks));
+    }
+    let rest = match known.len().saturating_sub(DRAWN) {
+        0 => String::new(),
+        rest => format!(" Not drawn: {} that need more.", number::counted(rest, "object")),
+    };
+    let (what, averaged) = (first.over.words().0, averaged(first.over));
+    let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
+    let panel = curves_panel(first.over, layers);
+    let title = "How strong a motion overturns each object";
+    Figure::new("fragility", title, 1, 1.6 * HEIGHT, vec![panel]).explained(caption)
 }
 
 /// The page of fragilities, those that need least first; at a site, with its hazard in words.

@@ -56,7 +56,11 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
     let layers = vec![
         Layer::line("", Ink::Muted, [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0))),
-        Layer::new("", Ink::Data(0), Shape::Area, corners),
+        Layer::line(
+            "",
+            Ink::Data(0),
+            [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) }),
+        ),
         Layer::line("", Ink::Text, corners),
         Layer::guide(Ink::Data(1), turned),
         Layer::guide(Ink::Data(1), [edge, tipped(centre)]),
@@ -96,50 +100,33 @@ pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<
     marks.collect()
 }
 
-/// An axis of intensities, from the first of these to the last.
-fn peak_axis(peak: Peak, mut intensities: impl DoubleEndedIterator<Item = f64>) -> Axis {
-    let (what, unit, symbol) = peak.words();
-    let axis = Axis::log(&format!("{what} ({symbol})"));
-    match intensities.next().zip(intensities.next_back()) {
-        Some((first, last)) => axis.over(first / unit, last / unit),
-        None => axis,
-    }
+fn peak_axis(peak: Peak) -> Axis {
+    let (what, _, symbol) = peak.words();
+    Axis::log(&format!("{what} ({symbol})"))
 }
 
-/// The axes of fragility curves.
-pub fn axes(fragility: &Fragility) -> (Axis, Axis) {
-    let x = peak_axis(fragility.over, fragility.points.iter().map(|point| point.intensity));
-    (x, Axis::linear("probability, %").over(0.0, 101.0))
+/// The axes of fragility curves, and these.
+pub fn curves_panel(over: Peak, layers: Vec<Layer>) -> Panel {
+    Panel::new("", peak_axis(over), Axis::linear("probability, %").over(0.0, 101.0), layers)
 }
 
 /// The limit states of one object, with the usual intensities of a site.
 pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option<&SiteHazard>) -> Panel {
-    let too_far = object.too_far().replace("its slenderness", "*α*");
+    let too_far = format!("{}, or overturns", object.too_far().replace("its slenderness", "*α*"));
+    let failure = curve(fragility, LimitState::Failure, false);
+    let overturning = curve(fragility, LimitState::Overturning, true);
     let layers = vec![
-        Layer::line(
-            &format!("{too_far}, or overturns"),
-            Ink::Data(0),
-            curve(fragility, LimitState::Failure, false),
-        ),
-        Layer::line(
-            "overturns, with 95 % limits",
-            Ink::Data(1),
-            curve(fragility, LimitState::Overturning, true),
-        ),
+        Layer::line(&too_far, Ink::Data(0), failure),
+        Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
     ];
-    let (x, y) = axes(fragility);
-    let ends = x.range;
-    let (what, _, _) = fragility.over.words();
-    let mut panel = Panel::new("Fragility", x, y, layers);
-    for usual in
-        hazard.filter(|hazard| hazard.peak == fragility.over).iter().flat_map(|hazard| hazard.usual())
-    {
-        let (x, text) = (usual.intensity, years(usual.years));
-        if ends.is_some_and(|ends| ends.low <= x && x <= ends.high) {
-            panel.add_upright(Words { x, y: 100.0, text, side: Side::Along, ink: Ink::Muted }, 0.0);
-        }
+    let mut panel = curves_panel(fragility.over, layers);
+    panel.title = "Fragility".to_string();
+    let hazard = hazard.filter(|hazard| hazard.peak == fragility.over);
+    for Usual { intensity: x, years: period } in hazard.iter().flat_map(|hazard| hazard.usual()) {
+        let words = Words { x, y: 100.0, text: years(period), side: Side::Along, ink: Ink::Muted };
+        panel.add_upright(words, 0.0);
     }
-    let place = if hazard.is_some() { " at the site" } else { "" };
+    let (what, place) = (fragility.over.words().0, if hazard.is_some() { " at the site" } else { "" });
     panel
         .explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(fragility.over)))
 }
@@ -185,10 +172,6 @@ impl SiteHazard {
             Usual { intensity, years }
         })
     }
-
-    fn axis(&self) -> Axis {
-        peak_axis(self.peak, self.curve.points().iter().map(|point| point.0))
-    }
 }
 
 /// How rare an intensity is: `475 years`.
@@ -199,7 +182,8 @@ fn years(years: f64) -> String {
 fn hazard_panel(hazard: &SiteHazard) -> Panel {
     let (what, unit, symbol) = hazard.peak.words();
     let [_, (_, lowest)] = hazard.curve.ends();
-    let mut panel = Panel::new("Hazard", hazard.axis(), Axis::log("exceeded, times a year"), Vec::new());
+    let mut panel =
+        Panel::new("Hazard", peak_axis(hazard.peak), Axis::log("exceeded, times a year"), Vec::new());
     let (mut words, mut dots) = (Vec::new(), Vec::new());
     for Usual { intensity, years: period } in hazard.usual() {
         let (text, y) = (years(period), 1.0 / period);
@@ -238,7 +222,7 @@ fn shares(hazard: &SiteHazard) -> Option<Panel> {
     );
     let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
-    Some(Panel::new("Where the rate comes from", hazard.axis(), y, layers).explained(caption))
+    Some(Panel::new("Where the rate comes from", peak_axis(hazard.peak), y, layers).explained(caption))
 }
 
 /// What is not known, by how far it moves the rate.

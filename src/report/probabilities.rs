@@ -1,6 +1,6 @@
 //! Probabilities in rows: names, values with their limits, words beside them, and a target.
 
-use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
+use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Span, Words};
 use crate::number::{Limited, OF_HUNDRED, PERCENT};
 
 /// A row of a panel.
@@ -34,9 +34,7 @@ const APART: f64 = 0.34;
 /// An axis in percent over all of these.
 pub fn axis(label: &str, all: impl IntoIterator<Item = Limited>) -> Axis {
     let ends = all.into_iter().flat_map(|p| [p.value, p.low, p.high]).flatten();
-    let values: Vec<f64> = ends.filter(|p| *p > 0.0).map(|p| 100.0 * p).collect();
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(0.0, f64::max);
+    let Span { low, high } = Span::from_values(ends.filter(|p| *p > 0.0).map(|p| 100.0 * p));
     let axis = Axis::log(&format!("{label}, %"));
     if low <= high { axis.over(low / 1.3, (1.3 * high).min(104.0)) } else { axis }
 }

@@ -1,14 +1,14 @@
 //! One response: rotation and ground motion over time, with its events; and the block as it moves.
 
 use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Span, Words};
+use super::figures::common::called;
 use super::figures::envelope;
 use super::page::Page;
 use super::text::{escape, file_words, literal, words};
 use crate::number;
-use crate::rocking::SolverEvent;
+use crate::rocking::{SolverEvent, Structure};
 use crate::table::responses::TraceRow;
 use crate::units::G_M_S2;
-use crate::warning::UNNAMED;
 
 /// A structure under a motion: a row at each sample and event, one or more.
 #[derive(Debug, Clone)]
@@ -33,25 +33,14 @@ const PICTURES_A_SECOND: f64 = 25.0;
 const MOST_PICTURES: f64 = 1200.0;
 
 impl Trace {
-    /// The structure; without a name, the block that rocks like it.
+    /// The structure, or the block that rocks like it.
     fn structure(&self) -> String {
-        match self.0[0].structure.as_str() {
-            UNNAMED => format!("a block of {}", self.block()),
-            name => literal(name),
-        }
-    }
-
-    /// The sides of the block that rocks like it: `0.50 × 1.90 m`.
-    fn block(&self) -> String {
-        format!(
-            "{} × {} m",
-            number::length(self.0[0].block_width_m),
-            number::length(self.0[0].block_height_m)
-        )
+        let TraceRow { structure, p_rad_s, alpha_rad, eta, .. } = &self.0[0];
+        called(&Structure { name: structure.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta })
     }
 
     fn title(&self) -> String {
-        format!("Response of {} to motion {}", self.structure(), literal(&self.0[0].motion_id))
+        format!("Motion {}: {}", literal(&self.0[0].motion_id), self.structure())
     }
 
     fn times(&self, event: SolverEvent) -> Vec<f64> {
@@ -72,23 +61,21 @@ impl Trace {
     fn sentence(&self) -> String {
         let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
         let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
-        let (structure, motion) = (self.structure(), literal(&self.0[0].motion_id));
+        let angle =
+            format!("its tipping angle of {}°", number::significant(self.0[0].alpha_rad.to_degrees(), 3));
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
                 let [tipped, at] =
                     [self.tipped_at().unwrap_or(at), at].map(|time_s| number::fixed(time_s, 1));
                 format!(
-                    "Motion {motion} overturns {structure}: it passes its tipping angle at {tipped} s and lies flat at \
-                     {at} s, after {impacts}."
+                    "It overturns: it passes {angle} at {tipped} s and lies flat at {at} s, after {impacts}."
                 )
             }
-            (None, Some(at)) => format!(
-                "Under motion {motion}, {structure} rocks from {} s on, to {} of its tipping angle at most, with \
-                 {impacts}.",
-                number::fixed(*at, 1),
-                number::PERCENT.one(most)
-            ),
-            _ => format!("Motion {motion} does not uplift {structure}."),
+            (None, Some(at)) => {
+                let (at, most) = (number::fixed(*at, 1), number::PERCENT.one(most));
+                format!("It rocks from {at} s on, up to {most} of {angle}, with {impacts}.")
+            }
+            _ => "It does not rock.".to_string(),
         }
     }
 
@@ -96,18 +83,13 @@ impl Trace {
     fn caption(&self) -> String {
         let Span { low, high } = self.span();
         let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
-        let like = match self.0[0].structure.as_str() {
-            UNNAMED => String::new(),
-            _ => format!(" A block of {} rocks like it.", self.block()),
-        };
         let times = self.times(SolverEvent::Impact);
         let close = times.windows(2).filter(|pair| pair[1] - pair[0] < APART * (high - low)).count();
         let close =
             if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
-        let degrees = number::significant(self.0[0].alpha_rad.to_degrees(), 3);
         format!(
-            "In real time, from {start} to {end} s.{like} Dots: uplift and impacts{close}. Dashed: its \
-             slenderness *α*, the {degrees}° at which it tips."
+            "A block that rocks like it, in real time from {start} to {end} s. Dots: uplift and impacts{close}. \
+             Dashed: the tipping angle, its slenderness *α*."
         )
     }
 
@@ -182,15 +164,11 @@ pub fn page(all: &[Trace]) -> Page {
             format!("{overturned} of {} overturn.", all.len()),
         ),
     };
-    Page { title, sentence, figures: figures(all), ..Page::default() }
-}
-
-/// One moment of what moves: the time as a fraction of all, the rotation in degrees, and the corner about which.
-#[derive(Clone, Copy)]
-struct Keyframe {
-    at: f64,
-    degrees: f64,
-    corner: f64,
+    let mut figures = figures(all);
+    for (figure, response) in figures.iter_mut().zip(all).filter(|_| all.len() > 1) {
+        figure.caption = format!("{} {}", response.sentence(), figure.caption);
+    }
+    Page { title, sentence, figures, ..Page::default() }
 }
 
 /// The block as it moves in real time, from a click on its button: a picture without any code. The diagonal of
@@ -201,20 +179,19 @@ fn moving(response: &Trace, id: usize) -> String {
     let TraceRow { block_width_m: width_m, block_height_m: height_m, .. } = response.0[0];
     let scale = DIAGONAL / width_m.hypot(height_m);
     let (half, high) = (0.5 * scale * width_m, scale * height_m);
-    let frames = keyframes(response, span);
+    let turns = turns(response, span);
     // How far the corners go to each side.
     let [left, right] = [-1.0, 1.0].map(|side| {
-        let most = frames.iter().map(|frame| side * frame.degrees).fold(0.0, f64::max);
+        let most = turns.iter().map(|degrees| side * degrees).fold(0.0, f64::max);
         half + high * most.to_radians().sin() + MARGIN
     });
     let spare = (NARROWEST - left - right).max(0.0);
     let (middle, width) = (left + 0.5 * spare, left + right + spare);
     let (ground, height) = (high + 40.0, high + 70.0);
-    let times: Vec<String> = frames.iter().map(|frame| short(frame.at, 4)).collect();
-    let turns = frames.iter().map(|Keyframe { degrees, corner, .. }| {
-        format!("{} {} 0", short(*degrees, 2), short(corner * half, 1))
-    });
-    let (times, turns) = (times.join(";"), turns.collect::<Vec<_>>().join(";"));
+    // A block turns about the corner on the side to which it leans.
+    let turns =
+        turns.iter().map(|degrees| format!("{} {} 0", short(*degrees, 2), short(half.copysign(*degrees), 1)));
+    let turns = turns.collect::<Vec<_>>().join(";");
     let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", short(seconds, 2));
     let name = escape(&format!("{}, moving", words(&response.title())));
     let (end, time, below) = (width - 60.0, number::fixed(seconds, 1), ground + 15.0);
@@ -227,8 +204,7 @@ fn moving(response: &Trace, id: usize) -> String {
          <rect x=\"{edge}\" y=\"{top}\" width=\"{wide}\" height=\"{tall}\" fill=\"var(--data0)\" \
          fill-opacity=\"0.2\" stroke=\"var(--ink)\" stroke-width=\"1.6\"/>\n\
          <circle cx=\"0\" cy=\"{centre}\" r=\"3.4\" fill=\"var(--data1)\"/>\n\
-         <animateTransform attributeName=\"transform\" type=\"rotate\" {clock} keyTimes=\"{times}\" \
-         values=\"{turns}\"/>\n</g></g>\n\
+         <animateTransform attributeName=\"transform\" type=\"rotate\" {clock} values=\"{turns}\"/>\n</g></g>\n\
          <path d=\"M20 {below:.1}H{end:.0}\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
          <circle cx=\"20\" cy=\"{below:.1}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" {clock} \
          from=\"20\" to=\"{end:.0}\"/></circle>\n\
@@ -243,33 +219,16 @@ fn moving(response: &Trace, id: usize) -> String {
     )
 }
 
-/// The rotation at equal times, and at each sample where it changes its corner; a block turns about the
-/// corner on the side to which it leans.
-fn keyframes(response: &Trace, Span { low: start, high: end }: Span) -> Vec<Keyframe> {
-    let seconds = (end - start).max(1e-9);
-    let step = (1.0 / PICTURES_A_SECOND).max(seconds / MOST_PICTURES);
+/// The rotation at equal times, degrees.
+fn turns(response: &Trace, Span { low, high }: Span) -> Vec<f64> {
+    let pictures = (PICTURES_A_SECOND * (high - low)).clamp(1.0, MOST_PICTURES).ceil();
     let alpha = response.0[0].alpha_rad.to_degrees();
-    let (mut frames, mut next, mut corner): (Vec<Keyframe>, f64, f64) = (Vec::new(), start, 1.0);
-    for point in response.0.iter().filter(|point| (start..=end).contains(&point.time_s)) {
-        let at = (point.time_s - start) / seconds;
-        let side = if point.theta_over_alpha < 0.0 { -1.0 } else { 1.0 };
-        let is_turning = point.theta_over_alpha != 0.0 && side != corner;
-        if is_turning {
-            // At no rotation both corners are on the ground.
-            frames.extend([corner, side].map(|corner| Keyframe { at, degrees: 0.0, corner }));
-            corner = side;
-        }
-        if point.time_s >= next || is_turning {
-            let degrees = (alpha * point.theta_over_alpha).clamp(-90.0, 90.0);
-            frames.push(Keyframe { at, degrees, corner });
-            next = point.time_s + step;
-        }
-    }
-    if let Some((first, last)) = frames.first().copied().zip(frames.last().copied()) {
-        frames.insert(0, Keyframe { at: 0.0, ..first });
-        frames.push(Keyframe { at: 1.0, ..last });
-    }
-    frames
+    let turn = |picture: i32| {
+        let time_s = low + (high - low) * f64::from(picture) / pictures;
+        let at = response.0.partition_point(|point| point.time_s < time_s).min(response.0.len() - 1);
+        (alpha * response.0[at].theta_over_alpha).clamp(-90.0, 90.0)
+    };
+    (0..=pictures as i32).map(turn).collect()
 }
 
 /// A number without zeros at its end.

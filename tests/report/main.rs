@@ -428,7 +428,7 @@ fn names_of_responses_are_no_markup() {
     let page = response::page(&[traced(100)]).html();
     assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
     let words = svg(&response::figure(&traced(100), 0), "");
-    assert!(words.contains("<title>Response of fra*me*2 to motion m&lt;1&gt;</title>"));
+    assert!(words.contains("<title>Motion m&lt;1&gt;: fra*me*2</title>"));
 }
 
 #[test]

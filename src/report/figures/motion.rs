@@ -25,8 +25,8 @@ pub fn motion(motions: &[Motion]) -> Figure {
     let line = |label: &str, ink: Ink, values: &[f64], most: usize| {
         vec![Layer::line(label, ink, envelope(values, *dt_s, most))]
     };
-    let panel = |title: &str, time: &str, unit: &str, layers: Vec<Layer>| {
-        let time = Axis::linear(time).over(0.0, acceleration_m_s2.len() as f64 * dt_s);
+    let panel = |title: &str, unit: &str, layers: Vec<Layer>| {
+        let time = Axis::linear("time (s)").over(0.0, acceleration_m_s2.len() as f64 * dt_s);
         Panel::new(title, time, Axis::linear(unit), layers)
     };
     const UNIT: &str = "*a* (m/s^{2})";
@@ -38,14 +38,14 @@ pub fn motion(motions: &[Motion]) -> Figure {
         let rest: Vec<f64> = parts.map(|(whole, pulse)| whole - pulse).collect();
         let coherent = line("pulse", Ink::Data(1), &pulse.acceleration_m_s2, SMOOTH_VALUES);
         let rest = line("high frequencies", Ink::Muted, &rest, VALUES);
-        panels.push(panel("Coherent pulse", "", UNIT, coherent));
-        panels.push(panel("High frequencies", "", UNIT, rest));
+        panels.push(panel("Coherent pulse", UNIT, coherent));
+        panels.push(panel("High frequencies", UNIT, rest));
         velocities.extend(line("pulse", Ink::Data(1), &velocity(pulse), SMOOTH_VALUES));
         caption = compare(&format!("A combined motion and its parts: {}.", words(whole)), "Figure 1");
     }
     let whole = line("whole motion", Ink::Data(0), acceleration_m_s2, VALUES);
-    panels.push(panel("Whole motion", "", UNIT, whole));
-    panels.push(panel("Velocity", "time (s)", "*v* (m/s)", velocities));
+    panels.push(panel("Whole motion", UNIT, whole));
+    panels.push(panel("Velocity", "*v* (m/s)", velocities));
     Figure::new("motion", "A ground motion", 1, 46.0, panels).explained(caption)
 }
 

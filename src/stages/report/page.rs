@@ -29,23 +29,20 @@ const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
-synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), high \
-frequencies of a stochastic source, or both.
+synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), stochastic high \
+frequencies, or both.
 import-motions: Ground motions are records, one component each.
-simulate: The rocking of each structure, a rigid block or frame that does not slide, follows from the \
-equation of motion with a loss of velocity at each impact (Eqs. 4 to 6). The demand is the largest \
-rotation over the slenderness *α* (Eq. 7); *p* is the frequency parameter.
-fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions \
-and one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & \
-Structural Dynamics 44, 2015\u{2013}2033).
-fit-pro: The probability of overturning given rocking is the paper's lognormal curve of one measure or of \
-a hybrid of two (Eqs. 19 to 24), or the universal surface, which predicts it for any block from peak \
-acceleration and velocity; the responses calibrate level and slope of its logit.
-ida: Incremental dynamic analysis scales each motion until it overturns the structure; a lognormal \
-distribution of these intensities has the median.
-validate: Validation compares predicted probabilities with the outcomes of motions that were not fitted.
-evaluate: Annual rates are the integral over the hazard of the site of the probabilities of the universal \
-surface, calibrated where there are responses.";
+simulate: Each structure is a rigid block or frame that rocks without sliding and loses velocity at each \
+impact (Eqs. 4 to 6). Its demand is the largest rotation over *α* (Eq. 7).
+fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions and \
+one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
+Dynamics 44, 2015\u{2013}2033).
+fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to 24), \
+or the universal surface over peak acceleration and velocity, calibrated to the responses.
+ida: Each motion is scaled until it overturns the structure; a lognormal distribution of these intensities has \
+the median.
+validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
+evaluate: Annual rates integrate the probabilities of the universal surface over the hazard of the site.";
 
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
@@ -54,9 +51,23 @@ pub fn head(tables: &Tables) -> anyhow::Result<Page> {
         ([], [], []) if !tables.fragilities.is_empty() => {
             return Ok(fragility::page(&tables.fragilities, None, None));
         }
-        ([], [], []) => responses_page(tables)?,
+        ([], [], []) => Page {
+            title: match tables.groups.is_empty() {
+                true => "Fits and motions".to_string(),
+                false => "What rocks and what overturns".to_string(),
+            },
+            sentence: overturned(&tables.groups),
+            tables: vec![outcomes(tables)?].into_iter().filter(|table| !table.rows.is_empty()).collect(),
+            ..Page::default()
+        },
         ([], [], traces) => return Ok(response::page(traces)),
-        ([], compared, _) => paper_page(tables, compared),
+        ([], compared, _) => Page {
+            title: "The paper's fragilities, made again".to_string(),
+            place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
+            sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
+            tables: vec![planes(compared)],
+            ..Page::default()
+        },
         (evaluations, ..) => match (tables.comparison(), evaluations) {
             (Some([before, after]), _) => compare::page(before, after),
             (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
@@ -103,28 +114,6 @@ pub fn page(tables: &Tables, head: Page, figures: Vec<Figure>, notes: Vec<String
     Ok(Page { facts, notes: all_notes, figures, sections, ..head })
 }
 
-fn paper_page(tables: &Tables, compared: &[Comparison]) -> Page {
-    Page {
-        title: "The paper's fragilities, made again".to_string(),
-        place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
-        sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
-        tables: vec![planes(compared)],
-        ..Page::default()
-    }
-}
-
-fn responses_page(tables: &Tables) -> anyhow::Result<Page> {
-    Ok(Page {
-        title: match tables.groups.is_empty() {
-            true => "Fits and motions".to_string(),
-            false => "What rocks and what overturns".to_string(),
-        },
-        sentence: overturned(&tables.groups),
-        tables: vec![outcomes(tables)?].into_iter().filter(|table| !table.rows.is_empty()).collect(),
-        ..Page::default()
-    })
-}
-
 /// By which motions, of which structures.
 fn facts(tables: &Tables) -> Vec<String> {
     let mut facts = Vec::new();
@@ -140,7 +129,7 @@ fn facts(tables: &Tables) -> Vec<String> {
         all.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", called(same[0])));
     }
     if !all.is_empty() {
-        facts.push(format!("Structures: {}.", listed(&all, MOST_NAMED)));
+        facts.extend([format!("Structures: {}.", listed(&all, MOST_NAMED)), object::ANGLES.to_string()]);
     }
     facts
 }
