@@ -187,15 +187,7 @@ impl Calibration {
         measures: &IntensityMeasures,
         mw: Option<f64>,
     ) -> Option<Predictor> {
-        let ln_seconds = ln_seconds(structure, measures)?;
-        let section = Section::new(self.kind, structure, self.limit_state, [0.0, 1.0, 1.0], mw);
-        let cut = section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
-        Some(Predictor {
-            logit: cut.logit(ln_seconds),
-            magnitude: section.magnitude(ln_seconds + cut.excess),
-            magnitude_sd: section.magnitude_sd,
-            added: cut.gain(ln_seconds),
-        })
+        self.branch(structure, mw).predictor_of(structure, measures)
     }
 
     /// Returns the predictor of a case that counts, with the probability; none at uplift, or where a measure
@@ -206,15 +198,22 @@ impl Calibration {
         measures: &IntensityMeasures,
         mw: Option<f64>,
     ) -> Option<(Predictor, f64)> {
-        let predictor = self.predictor(structure, measures, mw)?;
-        let p = self.probability(structure, measures, mw, Scenarios::Many)?.value;
+        let branch = self.branch(structure, mw);
+        let predictor = branch.predictor_of(structure, measures)?;
+        let p = branch.probability(&predictor, Level::Estimate);
         (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
     }
 
     /// Makes the calibrated surface ready for a structure and motions of a magnitude, if it is known.
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
-        let by = [self.c, self.ln_s.exp(), self.m];
-        Branch { calibration: self, section: Section::new(self.kind, structure, self.limit_state, by, mw) }
+        let section = Section::new(self.kind, structure, self.limit_state, mw);
+        let errors = self.errors().map(|ends| ends.map(Parameters::new)).collect();
+        Branch {
+            calibration: self,
+            section,
+            parameters: Parameters::new([self.c, self.ln_s, self.m]),
+            errors,
+        }
     }
 
     /// Computes the calibrated probability given rocking, with limits; none where a measure is missing.
@@ -225,20 +224,23 @@ impl Calibration {
         mw: Option<f64>,
         scenarios: Scenarios,
     ) -> Option<Estimate> {
-        let ln_seconds = ln_seconds(structure, measures)?;
         let branch = self.branch(structure, mw);
-        let cut = branch.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
-        let magnitude = branch.section.magnitude(ln_seconds + cut.excess);
-        Some(Level::all(scenarios, |level| logistic(branch.logit(&cut, ln_seconds, magnitude, level))))
+        let predictor = branch.predictor_of(structure, measures)?;
+        let [value, low, high] =
+            Level::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
+        Some(Estimate { value, low, high })
+    }
+
+    /// Returns c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
+    fn errors(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+        let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
+        errors.into_iter().map(|ends| ends.map(|b| [b[0], b[1], b[2]]))
     }
 
     /// Returns it with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
     pub(super) fn ends(&self) -> Vec<[Calibration; 2]> {
-        let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
-        let ends = errors
-            .into_iter()
-            .map(|ends| ends.map(|b| Calibration { c: b[0], ln_s: b[1], m: b[2], ..self.clone() }));
-        ends.collect()
+        let with = |[c, ln_s, m]: [f64; 3]| Calibration { c, ln_s, m, ..self.clone() };
+        self.errors().map(|ends| ends.map(with)).collect()
     }
 
     /// Returns how PGA and PGV go together in the motions that it stands for.
@@ -281,30 +283,77 @@ impl Calibration {
 }
 
 /// P_ro or P_ex of a structure under motions of one magnitude: ready for many of them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Branch<'a> {
     calibration: &'a Calibration,
     pub section: Section,
+    parameters: Parameters,
+    /// With each independent error at its 2.5 and 97.5 % quantiles.
+    errors: Vec<[Parameters; 2]>,
+}
+
+/// The three numbers of a calibration.
+#[derive(Debug, Clone, Copy)]
+struct Parameters {
+    c: f64,
+    s: f64,
+    m: f64,
+}
+
+impl Parameters {
+    fn new([c, ln_s, m]: [f64; 3]) -> Parameters {
+        Parameters { c, s: ln_s.exp(), m }
+    }
 }
 
 impl Branch<'_> {
-    /// Computes c + s L + m (M - 6.9) + g. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta
-    /// method, J V J', and of one scenario by tau and the spread of an unknown magnitude too.
-    pub fn logit(&self, cut: &Cut, ln_seconds: f64, magnitude: f64, level: Level) -> f64 {
-        let Branch { calibration, section } = self;
-        let scaled = cut.logit(ln_seconds);
-        let logit = scaled + section.m * magnitude + cut.gain(ln_seconds);
+    /// Returns what the surface says of a motion; none where a measure is missing.
+    fn predictor_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<Predictor> {
+        let ln_seconds = ln_seconds(structure, measures)?;
+        let cut = self.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
+        Some(self.predictor(&cut, ln_seconds, self.section.magnitude(ln_seconds + cut.excess)))
+    }
+
+    /// Returns what the surface says of motions with this ln(PGV / PGA), s, and M - 6.9.
+    pub fn predictor(&self, cut: &Cut, ln_seconds: f64, magnitude: f64) -> Predictor {
+        Predictor {
+            logit: cut.logit(ln_seconds),
+            magnitude,
+            magnitude_sd: self.section.magnitude_sd,
+            added: cut.gain(ln_seconds),
+        }
+    }
+
+    /// Computes the probability, whose logit is c + s L + m (M - 6.9) + g.
+    pub fn probability(&self, predictor: &Predictor, level: Level) -> f64 {
+        logistic(self.logit(predictor, level))
+    }
+
+    /// Computes the logit. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta method, J V J', and of
+    /// one scenario by tau and the spread of an unknown magnitude too.
+    pub fn logit(&self, predictor: &Predictor, level: Level) -> f64 {
+        let Parameters { c, s, m } = match level {
+            Level::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+            _ => self.parameters,
+        };
+        // A magnitude that PGV / PGA tells does not count where P would fall with it: P never falls as PGV
+        // rises.
+        let is_told = predictor.magnitude_sd > 0.0;
+        let magnitude =
+            if is_told && m < 0.0 { self.section.middle_magnitude() } else { predictor.magnitude };
+        let scaled = s * predictor.logit;
+        let logit = c + scaled + m * magnitude + predictor.added;
         let (sign, scenarios) = match level {
-            Level::Estimate => return logit,
+            Level::Estimate | Level::Error { .. } => return logit,
             Level::Low(scenarios) => (-1.0, scenarios),
             Level::High(scenarios) => (1.0, scenarios),
         };
-        let by_parameters = [1.0, scaled - calibration.c, magnitude];
         let between = match scenarios {
-            Scenarios::One => calibration.tau.hypot(section.m * section.magnitude_sd),
+            Scenarios::One => self.calibration.tau.hypot(m * predictor.magnitude_sd),
             Scenarios::Many => 0.0,
         };
-        logit + sign * Z_95 * variance(&calibration.covariance, &by_parameters).sqrt().hypot(between)
+        let variance = variance(&self.calibration.covariance, &[1.0, scaled, magnitude]);
+        logit + sign * Z_95 * variance.sqrt().hypot(between)
     }
 }
 
@@ -314,7 +363,7 @@ fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64
     Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
 }
 
-pub(super) fn logistic(z: f64) -> f64 {
+fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 

@@ -70,28 +70,35 @@ impl<'a> GivenPeak<'a> {
 
     /// Computes the probabilities of the limit states at an intensity; NaN where the model has none.
     pub fn limit_states(&self, intensity: f64) -> LimitStates<f64> {
-        self.at_level(intensity, Level::Estimate)
+        self.at_levels(intensity, &[Level::Estimate])[0]
     }
 
     /// Computes them with limits.
     pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Estimate> {
-        Level::limit_states(scenarios, |level| self.at_level(intensity, level))
+        LimitStates::from_levels(&self.at_levels(intensity, &Level::with_limits(scenarios)))
     }
 
-    fn at_level(&self, intensity: f64, level: Level) -> LimitStates<f64> {
-        let mut mean = LimitStates::all(0.0);
+    /// Computes them at each level.
+    pub(crate) fn at_levels(&self, intensity: f64, levels: &[Level]) -> Vec<LimitStates<f64>> {
+        let mut means = vec![LimitStates::all(0.0); levels.len()];
         if self.peak == Peak::Pga && intensity < self.least_uplift_m_s2() {
-            return mean;
+            return means;
         }
+        let mut states = means.clone();
         let at_pga = (self.peak == Peak::Pga).then(|| self.ready.at(intensity));
         self.for_each_node(intensity, |ln_seconds, weight| {
-            let states = match &at_pga {
-                Some(at_pga) => at_pga(ln_seconds, level),
-                None => self.ready.at(intensity * (-ln_seconds).exp())(ln_seconds, level),
-            };
-            mean = mean.zip(states, |sum, p| sum + weight * p);
+            match &at_pga {
+                Some(at_pga) => at_pga.limit_states(ln_seconds, levels, &mut states),
+                None => {
+                    let at_pga = self.ready.at(intensity * (-ln_seconds).exp());
+                    at_pga.limit_states(ln_seconds, levels, &mut states);
+                }
+            }
+            for (mean, state) in means.iter_mut().zip(&states) {
+                *mean = mean.zip(*state, |sum, p| sum + weight * p);
+            }
         });
-        mean
+        means
     }
 
     /// Returns the least PGA that uplifts the object.

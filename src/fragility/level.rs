@@ -1,5 +1,6 @@
-//! Whether a probability is taken at its estimate or at a limit.
+//! At which values of its parameters a model is taken.
 
+use super::model::Direction;
 use super::tree::LimitStates;
 use crate::statistics::Estimate;
 
@@ -13,37 +14,36 @@ pub enum Scenarios {
     Many,
 }
 
-/// A probability is taken at its estimate or at one of its 95 % limits.
+/// A probability is taken at its estimate, at one of its 95 % limits, or with one of the independent errors of
+/// the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
     Estimate,
     Low(Scenarios),
     High(Scenarios),
+    Error { number: usize, is_high: bool },
 }
 
 impl Level {
-    /// Computes an estimate and its limits.
-    pub fn all(scenarios: Scenarios, p_at: impl Fn(Level) -> f64) -> Estimate {
-        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
-        Estimate { value: p_at(Level::Estimate), low, high }
+    /// Returns the levels of an estimate with its limits.
+    pub fn with_limits(scenarios: Scenarios) -> [Level; 3] {
+        [Level::Estimate, Level::Low(scenarios), Level::High(scenarios)]
     }
 
-    /// Computes the estimates of all limit states and their limits.
-    pub fn limit_states(
-        scenarios: Scenarios,
-        p_at: impl Fn(Level) -> LimitStates<f64>,
-    ) -> LimitStates<Estimate> {
-        let [low, high] = [Level::Low(scenarios), Level::High(scenarios)].map(&p_at);
-        let limits = low.zip(high, |low, high| (low, high));
-        p_at(Level::Estimate).zip(limits, |value, (low, high)| Estimate { value, low, high })
+    /// Returns the level of the estimate, then those of each error of the models, at the lower and at the upper
+    /// quantile: the same error moves all directions.
+    pub fn with_errors(directions: &[Direction]) -> Vec<Level> {
+        let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
+        let errors =
+            (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
+        [Level::Estimate].into_iter().chain(errors).collect()
     }
+}
 
-    /// Returns the value of an estimate, or one of its limits.
-    pub fn pick(self, estimate: Estimate) -> f64 {
-        match self {
-            Level::Estimate => estimate.value,
-            Level::Low(_) => estimate.low,
-            Level::High(_) => estimate.high,
-        }
+impl LimitStates<Estimate> {
+    /// Joins probabilities at the [levels of an estimate with its limits](Level::with_limits).
+    pub(super) fn from_levels(states: &[LimitStates<f64>]) -> LimitStates<Estimate> {
+        let limits = states[1].zip(states[2], |low, high| (low, high));
+        states[0].zip(limits, |value, (low, high)| Estimate { value, low, high })
     }
 }

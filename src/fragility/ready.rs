@@ -1,7 +1,7 @@
 //! An object ready for many motions: what does not depend on the motion is computed once, what depends on PGA
 //! alone once for all motions of that PGA.
 
-use super::calibration::{Branch, logistic};
+use super::calibration::{Branch, Predictor};
 use super::level::{Level, Scenarios};
 use super::model::{CONFIDENCE, Direction, Model, paper_probabilities};
 use super::on_floor::{FloorMotions, OnFloor};
@@ -32,11 +32,16 @@ impl Model {
             }
             Model::Calibrated { floor: Some(_), .. } => {
                 let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
-                let direction = ReadyDirection::new(structure, self, mw);
-                let at = direction.at(pga_m_s2);
                 let ln_seconds = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
-                let states = |level| at.limit_states(ln_seconds, &mut None, level);
-                Probabilities::on_floor(Level::limit_states(scenarios, states), ln_seconds.is_finite())
+                let mut states = [LimitStates::all(0.0); 3];
+                let direction = ReadyDirection::new(structure, self, mw);
+                direction.at(pga_m_s2).join(
+                    ln_seconds,
+                    &mut None,
+                    &Level::with_limits(scenarios),
+                    &mut states,
+                );
+                Probabilities::on_floor(LimitStates::from_levels(&states), ln_seconds.is_finite())
             }
             Model::Paper { demand, overturning, limit_state, .. } => {
                 paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE)
@@ -64,12 +69,12 @@ struct ReadyDirection<'a> {
     by: By<'a>,
 }
 
-/// What predicts: P_ro and P_ex of the calibrated surface, or the paper's fits.
-#[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
+/// What predicts: P_ro and P_ex of the calibrated surface, or the paper's fits, with each error of these at
+/// its quantiles.
 enum By<'a> {
     Ground([Branch<'a>; 2]),
     Floor([Branch<'a>; 2], OnFloor),
-    Paper(&'a Model),
+    Paper(&'a Model, Vec<[Model; 2]>),
 }
 
 impl<'a> ReadyDirection<'a> {
@@ -83,7 +88,7 @@ impl<'a> ReadyDirection<'a> {
                     None => By::Ground(branches),
                 }
             }
-            Model::Paper { .. } => By::Paper(model),
+            Model::Paper { .. } => By::Paper(model, model.ends()),
         };
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }
@@ -100,7 +105,9 @@ impl<'a> ReadyDirection<'a> {
             }
             By::Ground(_) => DirectionAtPga::Still,
             By::Floor(branches, on_floor) => DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 },
-            By::Paper(model) => DirectionAtPga::Paper { model, structure: self.structure, pga_m_s2 },
+            By::Paper(model, ends) => {
+                DirectionAtPga::Paper { model, ends, structure: self.structure, pga_m_s2 }
+            }
         }
     }
 }
@@ -110,53 +117,76 @@ enum DirectionAtPga<'a> {
     Still,
     Ground(&'a [Branch<'a>; 2], [Cut; 2]),
     Floor { branches: &'a [Branch<'a>; 2], on_floor: &'a OnFloor, im4: f64, ln_im4: f64 },
-    Paper { model: &'a Model, structure: &'a Structure, pga_m_s2: f64 },
+    Paper { model: &'a Model, ends: &'a [[Model; 2]], structure: &'a Structure, pga_m_s2: f64 },
 }
 
 impl DirectionAtPga<'_> {
-    /// Computes the probabilities under motions with this ln(PGV / PGA), s. `motions` are those of the floor,
-    /// which are the same for all directions: the first that needs them computes them.
-    fn limit_states(
+    /// Joins the probabilities at each level under motions with this ln(PGV / PGA), s, to those of other
+    /// directions: an object falls in either, independently under one motion. `motions` are those of the
+    /// floor, which are the same for all directions: the first that needs them computes them.
+    fn join(
         &self,
         ln_seconds: f64,
         motions: &mut Option<FloorMotions>,
-        level: Level,
-    ) -> LimitStates<f64> {
+        levels: &[Level],
+        joined: &mut [LimitStates<f64>],
+    ) {
+        let levels = joined.iter_mut().zip(levels);
         match self {
-            DirectionAtPga::Still => LimitStates::all(0.0),
+            DirectionAtPga::Still => {}
             DirectionAtPga::Ground(branches, cuts) => {
-                let [p_ro, p_ex] = [0, 1].map(|k| {
-                    let magnitude = branches[k].section.magnitude(ln_seconds + cuts[k].excess);
-                    logistic(branches[k].logit(&cuts[k], ln_seconds, magnitude, level))
+                let predictors = [0, 1].map(|k| {
+                    let (branch, cut) = (&branches[k], &cuts[k]);
+                    branch.predictor(cut, ln_seconds, branch.section.magnitude(ln_seconds + cut.excess))
                 });
-                let failure = p_failure_given_rocking(p_ro, p_ex);
-                LimitStates { rocking: 1.0, failure, overturning: p_ro }
+                for (joined, level) in levels {
+                    let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
+                    let failure = p_failure_given_rocking(p_ro, p_ex);
+                    *joined = joined.or(LimitStates { rocking: 1.0, failure, overturning: p_ro });
+                }
             }
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
                 let motions = motions.get_or_insert_with(|| on_floor.motions(ln_seconds));
+                let (added, rocking) = (on_floor.added(motions), motions.p_rocking(*ln_im4));
                 let magnitudes = branches.each_ref().map(|branch| branch.section.magnitude(ln_seconds));
-                let added = on_floor.added(motions);
-                let (mut failure, mut overturning) = (0.0, 0.0);
-                for node in motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0) {
+                let rocks = motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0).map(|node| {
                     let at = AtIm4::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
-                    let [p_ro, p_ex] = [0, 1].map(|k| {
+                    let predictors = [0, 1].map(|k| {
                         let cut = branches[k].section.at(&at);
-                        let logit = branches[k].logit(&cut, node.ln_seconds, magnitudes[k], level);
-                        logistic(logit + added[k])
+                        let predictor = branches[k].predictor(&cut, node.ln_seconds, magnitudes[k]);
+                        Predictor { added: predictor.added + added[k], ..predictor }
                     });
-                    failure += node.weight * p_failure_given_rocking(p_ro, p_ex);
-                    overturning += node.weight * p_ro;
+                    (node.weight, predictors)
+                });
+                let rocks: Vec<(f64, [Predictor; 2])> = rocks.collect();
+                for (joined, level) in levels {
+                    let (mut failure, mut overturning) = (0.0, 0.0);
+                    for (weight, predictors) in &rocks {
+                        let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
+                        failure += weight * p_failure_given_rocking(p_ro, p_ex);
+                        overturning += weight * p_ro;
+                    }
+                    let [failure, overturning] = [failure, overturning].map(|p: f64| p.min(rocking));
+                    *joined = joined.or(LimitStates { rocking, failure, overturning });
                 }
-                let rocking = motions.p_rocking(*ln_im4);
-                LimitStates { rocking, failure: failure.min(rocking), overturning: overturning.min(rocking) }
             }
-            DirectionAtPga::Paper { model, structure, pga_m_s2 } => {
+            DirectionAtPga::Paper { model, ends, structure, pga_m_s2 } => {
                 let peaks = Peaks { pga_m_s2: *pga_m_s2, pgv_m_s: pga_m_s2 * ln_seconds.exp() };
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
-                let tree = model.probabilities(structure, &measures, None, Scenarios::Many);
-                let rocking = Estimate::exact(1.0 - tree.p_nr);
-                let unknown = LimitStates { rocking, failure: UNKNOWN, overturning: UNKNOWN };
-                tree.limit_states().unwrap_or(unknown).map(|state| level.pick(state))
+                for (joined, level) in levels {
+                    let model = match *level {
+                        Level::Error { number, is_high } => &ends[number][usize::from(is_high)],
+                        _ => *model,
+                    };
+                    let tree = model.probabilities(structure, &measures, None, Scenarios::Many);
+                    let rocking = Estimate::exact(1.0 - tree.p_nr);
+                    let unknown = LimitStates { rocking, failure: UNKNOWN, overturning: UNKNOWN };
+                    *joined = joined.or(tree.limit_states().unwrap_or(unknown).map(|p| match level {
+                        Level::Low(_) => p.low,
+                        Level::High(_) => p.high,
+                        Level::Estimate | Level::Error { .. } => p.value,
+                    }));
+                }
             }
         }
     }
@@ -175,33 +205,48 @@ impl<'a> ReadyObject<'a> {
         ReadyObject { directions: directions.iter().map(ready).collect(), mw }
     }
 
-    /// Returns the probabilities of the limit states under motions of a PGA (m/s2) as a function of their
-    /// ln(PGV / PGA), s: in either of the directions, which fall independently under one motion. NaN where a
-    /// model has none.
-    pub fn at(&self, pga_m_s2: f64) -> impl Fn(f64, Level) -> LimitStates<f64> {
-        let directions: Vec<DirectionAtPga> =
-            self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect();
-        move |ln_seconds, level| {
-            let mut motions = None;
-            let mut all = LimitStates::all(0.0);
-            for direction in &directions {
-                let one = direction.limit_states(ln_seconds, &mut motions, level);
-                all = all.zip(one, |a, b| a + b - a * b);
-            }
-            match ln_seconds.is_finite() || all.rocking == 0.0 {
-                true => all,
-                false => LimitStates { rocking: all.rocking, ..LimitStates::all(f64::NAN) },
-            }
-        }
+    /// Returns it under motions of the ground with this PGA, m/s2.
+    pub fn at(&self, pga_m_s2: f64) -> ObjectAtPga<'_> {
+        ObjectAtPga(self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect())
     }
 
-    /// Returns the probabilities of the limit states under motions with these peaks.
-    pub fn limit_states(&self, peaks: Peaks, level: Level) -> LimitStates<f64> {
-        self.at(peaks.pga_m_s2)((peaks.pgv_m_s / peaks.pga_m_s2).ln(), level)
+    /// Returns the probabilities of the limit states under motions with these peaks, at each level.
+    pub fn limit_states(&self, peaks: Peaks, levels: &[Level]) -> Vec<LimitStates<f64>> {
+        let mut states = vec![LimitStates::all(0.0); levels.len()];
+        let ln_seconds = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
+        self.at(peaks.pga_m_s2).limit_states(ln_seconds, levels, &mut states);
+        states
     }
 
     /// Returns them with limits.
     pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Estimate> {
-        Level::limit_states(scenarios, |level| self.limit_states(peaks, level))
+        LimitStates::from_levels(&self.limit_states(peaks, &Level::with_limits(scenarios)))
+    }
+}
+
+/// An object under motions of one PGA of the ground.
+pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
+
+impl ObjectAtPga<'_> {
+    /// Computes the probabilities of the limit states at each level under motions with this ln(PGV / PGA), s;
+    /// NaN where a model has none.
+    pub fn limit_states(&self, ln_seconds: f64, levels: &[Level], states: &mut [LimitStates<f64>]) {
+        let mut motions = None;
+        states.fill(LimitStates::all(0.0));
+        for direction in &self.0 {
+            direction.join(ln_seconds, &mut motions, levels, states);
+        }
+        if !ln_seconds.is_finite() {
+            for state in states.iter_mut().filter(|state| state.rocking != 0.0) {
+                *state = LimitStates { rocking: state.rocking, ..LimitStates::all(f64::NAN) };
+            }
+        }
+    }
+}
+
+impl LimitStates<f64> {
+    /// Joins the probabilities of independent events to those of either.
+    fn or(self, other: LimitStates<f64>) -> LimitStates<f64> {
+        self.zip(other, |a, b| a + b - a * b)
     }
 }

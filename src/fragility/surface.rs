@@ -64,39 +64,25 @@ pub(super) struct Section {
     intercept: f64,
     slope: f64,
     magnitudes: Range,
-    /// By how much a logit rises with magnitude.
-    pub m: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
 }
 
 impl Section {
-    /// Makes the section of logit = c + s L + m (M - 6.9) + g; of P_ex at a limit state, of P_ro at none. A
-    /// magnitude that is not known is that which PGV / PGA tells, which does not count where P would fall
-    /// with it: P never falls as PGV rises.
-    pub fn new(
-        kind: Kind,
-        structure: &Structure,
-        limit_state: Option<f64>,
-        [c, s, m]: [f64; 3],
-        mw: Option<f64>,
-    ) -> Section {
+    /// Makes the section of P_ex at a limit state, of P_ro at none. A magnitude that is not known is that which
+    /// PGV / PGA tells.
+    pub fn new(kind: Kind, structure: &Structure, limit_state: Option<f64>, mw: Option<f64>) -> Section {
         let (domain, curve) = (&SURFACE.domain, SURFACE.curve(kind, limit_state));
         let [limit, end] = limits(limit_state);
         let p = domain.p.held(structure.p_rad_s);
         let fixed = [(domain.eta.held(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
         let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
-        coefficients[0][0][0] = c;
         for Term { coefficient, powers: [x, w, r, others @ ..] } in &curve.terms {
             let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power as i32));
-            coefficients[*x][*w][*r] += s * coefficient * others.product::<f64>();
+            coefficients[*x][*w][*r] += coefficient * others.product::<f64>();
         }
         let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
-        let (intercept, slope) = match mw {
-            Some(mw) => (mw, 0.0),
-            None if m < 0.0 => (0.5 * (range.low + range.high), 0.0),
-            None => (intercept, slope),
-        };
+        let (intercept, slope) = mw.map_or((intercept, slope), |mw| (mw, 0.0));
         Section {
             coefficients,
             lower: 0.4 * limit,
@@ -106,7 +92,6 @@ impl Section {
             intercept,
             slope,
             magnitudes: range,
-            m,
             magnitude_sd: if mw.is_some() { 0.0 } else { sd },
         }
     }
@@ -116,7 +101,12 @@ impl Section {
         self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
-    /// Returns the section at an IM4: c + s L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule in
+    /// Returns M - 6.9 in the middle of the magnitudes of the data.
+    pub fn middle_magnitude(&self) -> f64 {
+        0.5 * (self.magnitudes.low + self.magnitudes.high) - REFERENCE_MAGNITUDE
+    }
+
+    /// Returns the section at an IM4: L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule in
     /// w = ln IM4 - r - 0.4 l.
     pub fn at(&self, at: &AtIm4) -> Cut {
         let AtIm4 { ln_im4, held, x, ln_above } = *at;
@@ -164,7 +154,7 @@ impl AtIm4 {
 /// A section at one IM4: a function of ln(PGV / PGA), s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cut {
-    /// c + s L by powers of r.
+    /// L by powers of r.
     cubic: [f64; POWERS],
     /// ln of PGA over that at which it is held.
     pub excess: f64,
@@ -177,7 +167,7 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// Computes c + s L. PGA / PGV is held within the domain.
+    /// Computes L. PGA / PGV is held within the domain.
     pub fn logit(&self, ln_seconds: f64) -> f64 {
         let r = self.ln_ratio.held(-ln_seconds - self.excess) - self.ln_p;
         self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)

@@ -6,10 +6,10 @@ use super::motion::logit;
 use super::motions::Motions;
 use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
-use crate::fragility::{Direction, GivenPeak, LimitState, LimitStates, Peak};
+use crate::fragility::{Direction, GivenPeak, Level, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
-use crate::object::Subject;
+use crate::object::{Subject, Unknown};
 use crate::statistics::numerics::{equal_ratios, first};
 use crate::statistics::{Estimate, Limited, least_squares, normal};
 
@@ -145,12 +145,16 @@ impl Fragility {
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
         let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
-        let values = probabilities(&middle, &intensities);
-        let ends = motions.ends(subject, &subject.model_errors(), |given| probabilities(given, &intensities));
+        let levels = Level::with_errors(&subject.directions);
+        let by_level = probabilities(&middle, &intensities, &levels);
+        let mut ends =
+            motions.ends(subject, |given| probabilities(given, &intensities, &[Level::Estimate]).remove(0));
+        ends.extend(Unknown::from_fit_errors(&by_level));
+        let values = &by_level[0];
         let budget = |k: usize, state: LimitState| {
-            Budget::new(&values, &ends, |states: &Vec<LimitStates<f64>>| logit(states[k].get(state)))
+            Budget::new(values, &ends, |states: &Vec<LimitStates<f64>>| logit(states[k].get(state)))
         };
-        let points = intensities.iter().zip(&values).enumerate().map(|(k, (&intensity, p))| {
+        let points = intensities.iter().zip(values).enumerate().map(|(k, (&intensity, p))| {
             let [failure, overturning] = [LimitState::Failure, LimitState::Overturning]
                 .map(|state| budget(k, state).limit_probability(p.get(state), p.rocking, 0.0));
             let rocking = Estimate::exact(p.rocking);
@@ -192,7 +196,7 @@ impl Lognormal {
         let end = points[points.len() - 1].intensity;
         let to = reaching(given, points, state, MOST_FITTED).unwrap_or(end);
         let intensities: Vec<f64> = equal_ratios(from, to, STEPS_FITTED).collect();
-        let p: Vec<f64> = probabilities(given, &intensities).iter().map(|p| p.get(state)).collect();
+        let p: Vec<f64> = intensities.iter().map(|im| given.limit_states(*im).get(state)).collect();
         let x: Vec<f64> = intensities.iter().map(|intensity| intensity.ln()).collect();
         let z: Vec<f64> = p.iter().map(|p| normal::quantile(*p)).collect();
         let Ok(line) = least_squares(&[&x], &z) else { return lognormal };
@@ -211,8 +215,10 @@ pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
     }
 }
 
-fn probabilities(given: &GivenPeak, intensities: &[f64]) -> Vec<LimitStates<f64>> {
-    intensities.iter().map(|intensity| given.limit_states(*intensity)).collect()
+/// Computes the probabilities at each level and intensity.
+fn probabilities(given: &GivenPeak, intensities: &[f64], levels: &[Level]) -> Vec<Vec<LimitStates<f64>>> {
+    let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_levels(*im, levels)).collect();
+    (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()
 }
 
 /// Finds the intensity from which on a probability is at least `level`, sought beside the first point that

@@ -60,14 +60,14 @@ impl Motion {
             // What magnitude adds is beside tau in the limits of one motion.
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
-                let ends = subject.ends(&[], |directions| {
-                    ReadyObject::new(directions, self.mw).limit_states(peaks, Level::Estimate)
+                let ends = subject.ends(|directions| {
+                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Estimate])[0]
                 });
                 Known::new(|scenarios| ready.estimates(peaks, scenarios), ends)
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
-                let ends = motions.ends(subject, &[], |given| given.limit_states(intensity));
+                let ends = motions.ends(subject, |given| given.limit_states(intensity));
                 Known::new(|scenarios| given.estimates(intensity, scenarios), ends)
             }
         };

@@ -62,21 +62,15 @@ impl Motions {
         GivenPeak::new(directions, self.peak, self.velocity.at(mean, ln), mw)
     }
 
-    /// Finds what follows with each unknown of the motions, each of these errors of the models, and each
-    /// unknown of the object at its quantiles.
-    pub fn ends<T>(
-        &self,
-        subject: &Subject,
-        errors: &[Unknown],
-        result: impl Fn(&GivenPeak) -> T,
-    ) -> Vec<Unknown<T>> {
+    /// Finds what follows with each unknown of the motions and of the object at its quantiles.
+    pub fn ends<T>(&self, subject: &Subject, result: impl Fn(&GivenPeak) -> T) -> Vec<Unknown<T>> {
         let directions = &subject.directions[..];
         let mut ends = Vec::new();
         if directions[0].model.depends_on_magnitude() && self.above.is_some() {
             ends.push(self.unknown.map(|mean| result(&self.with_mean(directions, *mean, 0.0))));
         }
         ends.push(self.velocity.unknown().map(|ln| result(&self.given(directions, *ln))));
-        ends.extend(subject.ends(errors, |directions| result(&self.given(directions, 0.0))));
+        ends.extend(subject.ends(|directions| result(&self.given(directions, 0.0))));
         ends
     }
 }

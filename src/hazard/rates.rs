@@ -56,31 +56,32 @@ impl Rate {
 
 /// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
-    OverCurve::new(given_peak, curve).rates()
+    OverCurve::new(given_peak, curve, &[Level::Estimate]).rates(0)
 }
 
-/// The probabilities of an object at intensities that stand for all of a curve, and at its last one, which
-/// stands for those beyond.
+/// The probabilities of an object, at each level, at intensities that stand for all of a curve, and at its last
+/// one, which stands for those beyond.
 pub(super) struct OverCurve {
-    within: Vec<(Node, LimitStates<f64>)>,
-    beyond: (Node, LimitStates<f64>),
+    within: Vec<(Node, Vec<LimitStates<f64>>)>,
+    beyond: (Node, Vec<LimitStates<f64>>),
 }
 
 impl OverCurve {
-    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve) -> OverCurve {
-        let at = |node: Node| (node, given_peak.limit_states(node.intensity));
+    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, levels: &[Level]) -> OverCurve {
+        let at = |node: Node| (node, given_peak.at_levels(node.intensity, levels));
         let [_, (intensity, annual_rate)] = curve.ends();
         let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel()).into_iter();
         OverCurve { within: nodes.map(at).collect(), beyond: at(Node { intensity, annual_rate }) }
     }
 
-    pub fn rates(&self) -> LimitStates<Rate> {
+    /// Returns the annual rates at a level, by its number.
+    pub fn rates(&self, level: usize) -> LimitStates<Rate> {
         let mut sums = LimitStates::all(0.0);
         for (node, states) in self.within.iter().chain([&self.beyond]) {
-            sums = sums.zip(*states, |sum, p| sum + p * node.annual_rate);
+            sums = sums.zip(states[level], |sum, p| sum + p * node.annual_rate);
         }
-        let (Node { annual_rate, .. }, at_last) = self.beyond;
-        sums.zip(at_last, |value, at_last| Rate {
+        let annual_rate = self.beyond.0.annual_rate;
+        sums.zip(self.beyond.1[level], |value, at_last| Rate {
             value,
             at_last: at_last * annual_rate,
             beyond: (1.0 - at_last).max(0.0) * annual_rate,
@@ -89,11 +90,11 @@ impl OverCurve {
 
     /// Finds the intensity above which half of the annual rate of overturning comes from.
     pub fn median_intensity(&self) -> f64 {
-        let half = 0.5 * self.rates().overturning.value;
+        let half = 0.5 * self.rates(0).overturning.value;
         // A part lies half below its node, half above.
         let (mut before, mut below, mut last) = (0.0, 0.0, None);
         for (node, states) in &self.within {
-            let part = states.overturning * node.annual_rate;
+            let part = states[0].overturning * node.annual_rate;
             let at_node = below + 0.5 * part;
             let from = last.replace(node.intensity).unwrap_or(node.intensity);
             if at_node >= half {
@@ -105,19 +106,25 @@ impl OverCurve {
     }
 }
 
-/// Sums the probabilities of an object in its directions, times the rates, over bins of PGA and PGV.
+/// Sums the probabilities of an object in its directions at each level, times the rates, over bins of PGA and
+/// PGV.
 pub(super) fn rates_over_pairs(
     directions: &[Direction],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
-) -> LimitStates<Rate> {
-    let (mut ready, mut rates) = (ReadyObject::new(directions, mw), LimitStates::all(0.0));
+    levels: &[Level],
+) -> Vec<LimitStates<Rate>> {
+    let mut ready = ReadyObject::new(directions, mw);
+    let mut rates = vec![LimitStates::all(0.0); levels.len()];
     for bin in bins {
         let mw = bin.mw.or(mw);
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
-        rates = rates.zip(ready.limit_states(bin.peaks, Level::Estimate), |sum, p| sum + p * bin.annual_rate);
+        for (rate, states) in rates.iter_mut().zip(ready.limit_states(bin.peaks, levels)) {
+            *rate = rate.zip(states, |sum, p| sum + p * bin.annual_rate);
+        }
     }
-    rates.map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })
+    let rates = rates.into_iter();
+    rates.map(|rate| rate.map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })).collect()
 }

@@ -7,7 +7,7 @@ use super::curve::HazardCurve;
 use super::motions::Motions;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Cases, Direction, GivenPeak, Kind, LimitState, LimitStates, Peak};
+use crate::fragility::{Cases, Direction, GivenPeak, Kind, Level, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -129,9 +129,14 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
             Hazard::Joint(bins) => {
-                let rates = |directions: &[Direction]| rates_over_pairs(directions, self.mw, bins);
-                let ends = subject.ends(&subject.model_errors(), rates);
-                let varied = Varied { rates: rates(&subject.directions), ends };
+                let levels = Level::with_errors(&subject.directions);
+                let all = rates_over_pairs(&subject.directions, self.mw, bins, &levels);
+                let varied = Varied::new(
+                    all,
+                    subject.ends(|directions| {
+                        rates_over_pairs(directions, self.mw, bins, &[Level::Estimate])[0]
+                    }),
+                );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
                 let motion = strongest.map_or(Peaks { pga_m_s2: 0.0, pgv_m_s: 0.0 }, |bin| bin.peaks);
                 varied.with_limits(motion, false)
@@ -142,28 +147,31 @@ impl Site {
     /// Computes the annual rate of overturning alone; none where the hazard ends too early for it.
     pub fn overturning(&self, subject: &Subject) -> Option<f64> {
         let rates = match &self.hazard {
-            Hazard::Joint(bins) => rates_over_pairs(&subject.directions, self.mw, bins),
+            Hazard::Joint(bins) => {
+                rates_over_pairs(&subject.directions, self.mw, bins, &[Level::Estimate])[0]
+            }
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
-                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given);
-                Some(over.rates()).filter(|_| !ends_early)?
+                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given, &[Level::Estimate]);
+                Some(over.rates(0)).filter(|_| !ends_early)?
             }
         };
         Some(rates.overturning.value).filter(|rate| !rate.is_nan())
     }
 
-    /// Integrates the probabilities over a curve, which is extrapolated if it ends too early and is to be.
-    pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak) -> Integrated {
-        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve));
+    /// Integrates the probabilities at these levels, the estimate first, over a curve, which is extrapolated if
+    /// it ends too early and is to be.
+    pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak, levels: &[Level]) -> Integrated {
+        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, levels));
         let [_, (last, _)] = curve.ends();
-        let overturning = over.rates().overturning;
+        let overturning = over.rates(0).overturning;
         let ends_early = last < strongest(hazard.peak) && overturning.beyond > NEGLIGIBLE * overturning.value;
         if !(ends_early && self.extrapolate) {
             return Integrated { curve, over, ends_early, beyond: None };
         }
         let curve = curve.extrapolated();
-        let over = OverCurve::new(given, &curve);
-        let beyond = Some(1.0 - overturning.least() / over.rates().overturning.value);
+        let over = OverCurve::new(given, &curve, levels);
+        let beyond = Some(1.0 - overturning.least() / over.rates(0).overturning.value);
         Integrated { curve, over, ends_early: false, beyond }
     }
 
@@ -177,9 +185,9 @@ impl Site {
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
         let motions = self.motions(hazard, subject);
         let middle = motions.given(&subject.directions, 0.0);
-        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle);
-        let mut ends =
-            motions.ends(subject, &subject.model_errors(), |given| rates_over_curve(given, &curve));
+        let levels = Level::with_errors(&subject.directions);
+        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &levels);
+        let mut ends = motions.ends(subject, |given| rates_over_curve(given, &curve));
         if let Some([low, high]) = &hazard.fractiles {
             ends.push(Unknown { part: Part::Hazard, low, high }.map(|fractile| match beyond {
                 Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
@@ -199,7 +207,8 @@ impl Site {
             beyond,
             counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().flatten().collect(),
-            ..Varied { rates: over.rates(), ends }.with_limits(motion, ends_early)
+            ..Varied::new((0..levels.len()).map(|level| over.rates(level)).collect(), ends)
+                .with_limits(motion, ends_early)
         }
     }
 
@@ -234,6 +243,13 @@ pub(super) struct Integrated {
 }
 
 impl Varied {
+    /// Joins rates at the [levels of all errors of the models](Level::with_errors) with those at the other
+    /// unknowns' quantiles.
+    fn new(by_level: Vec<LimitStates<Rate>>, mut ends: Vec<Unknown<LimitStates<Rate>>>) -> Varied {
+        ends.extend(Unknown::from_fit_errors(&by_level));
+        Varied { rates: by_level[0], ends }
+    }
+
     /// Gives the rates their limits; `ends_early` where the hazard does so for values.
     fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
         let rocking = self.rates.rocking;

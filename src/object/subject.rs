@@ -86,6 +86,14 @@ impl<T> Unknown<T> {
     }
 }
 
+impl<T: Clone> Unknown<T> {
+    /// Takes the results with the errors of models, which follow the first, each at both quantiles.
+    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = Unknown<T>> {
+        let ends = results[1..].chunks_exact(2);
+        ends.map(|ends| Unknown { part: Part::Fit, low: ends[0].clone(), high: ends[1].clone() })
+    }
+}
+
 /// A change of a subject.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Change {
@@ -93,13 +101,6 @@ pub enum Change {
     Structures(Vec<Structure>),
     /// Another floor.
     Floor(Floor),
-    /// One of the independent errors of the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
-    Model {
-        /// The number of the error.
-        error: usize,
-        /// Whether it is at its upper quantile.
-        is_high: bool,
-    },
 }
 
 /// Standard deviation of the logarithm of a building's period that is not given.
@@ -170,28 +171,13 @@ impl Subject {
                     }
                 }
             }
-            Change::Model { error, is_high } => {
-                for Direction { model, .. } in &mut directions {
-                    if let Some(ends) = model.ends().into_iter().nth(*error) {
-                        let [low, high] = ends;
-                        *model = if *is_high { high } else { low };
-                    }
-                }
-            }
         }
         directions
     }
 
-    /// Lists the uncertainties of the models: the same error moves all directions.
-    pub fn model_errors(&self) -> Vec<Unknown> {
-        let fewest = self.directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
-        let ends = Unknown { part: Part::Fit, low: false, high: true };
-        (0..fewest).map(|error| ends.map(|&is_high| Change::Model { error, is_high })).collect()
-    }
-
-    /// Finds what follows with each of these errors of the models, and each unknown, at its quantiles.
-    pub fn ends<T>(&self, errors: &[Unknown], result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
-        let all = errors.iter().chain(&self.unknowns);
+    /// Finds what follows with each unknown at its quantiles.
+    pub fn ends<T>(&self, result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
+        let all = self.unknowns.iter();
         all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
     }
 
