@@ -21,7 +21,7 @@ const STEP_ON_FLOORS: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
 /// which reach down to uplift.
 const PANEL_OF_PGA: f64 = 3.0;
-const PANEL_OF_PGV: f64 = 0.7;
+const PANEL_OF_PGV: f64 = 1.0;
 /// Times the PGA of uplift, up to which probabilities rise steeply.
 const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
@@ -142,7 +142,7 @@ impl<'a> GivenPeak<'a> {
     /// pulses has a dispersion of 0.03.
     pub(crate) fn widest_panel(&self) -> f64 {
         let mut models = self.directions.iter().map(|direction| &direction.model);
-        if models.any(|model| matches!(model, Model::Paper { .. })) { 0.02 } else { 0.4 }
+        if models.any(|model| matches!(model, Model::Paper { .. })) { 0.02 } else { 0.6 }
     }
 
     /// Returns the PGA at which a probability jumps, m/s2, rising.

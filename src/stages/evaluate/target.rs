@@ -36,9 +36,10 @@ const LEAST: f64 = 1e-12;
 /// relative offset; none where none within the domain of the surface meets it. `rate` is that of the object
 /// as it is.
 pub fn bases(object: &Object, models: &Models, site: &Site, rate: Limited, target: f64) -> TargetBases {
-    let mut searches = vec![Search::new(object, models, site, false)];
-    searches.extend(object.shape.depth.map(|_| Search::new(object, models, site, true)));
-    let mut searches: Vec<Search> = searches.into_iter().flatten().collect();
+    let both = object.shape.depth.map(|_| true);
+    let searches = [false].into_iter().chain(both);
+    let mut searches: Vec<Search> =
+        searches.filter_map(|both_sides| Search::new(object, models, site, both_sides, rate)).collect();
     let by_estimate =
         searches.iter_mut().find_map(|search| Some((search.both_sides, search.by_estimate(target)?)));
     let by_limit = searches
@@ -67,6 +68,8 @@ struct Search<'a> {
     least: f64,
     most: f64,
     own: f64,
+    /// ln of the rate at ln of a width, the latest last.
+    known: Vec<(f64, f64)>,
 }
 
 impl Search<'_> {
@@ -75,6 +78,7 @@ impl Search<'_> {
         models: &'a Models,
         site: &'a Site,
         both_sides: bool,
+        rate: Limited,
     ) -> Option<Search<'a>> {
         let shape = &object.shape;
         let (width, height) = shape.width.zip(shape.height)?;
@@ -83,7 +87,9 @@ impl Search<'_> {
         let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
         let smaller = if both_sides { shape.depth.map_or(width, |depth| depth.min(width)) } else { width };
         let own = smaller.ln().clamp(least, most);
-        Some(Search { object, models, site, both_sides, least, most, own })
+        let known = rate.value.filter(|_| own == smaller.ln()).map(|rate| (own, rate.max(LEAST).ln()));
+        let known = known.into_iter().collect();
+        Some(Search { object, models, site, both_sides, least, most, own, known })
     }
 
     /// The object with another base.
@@ -100,7 +106,7 @@ impl Search<'_> {
     }
 
     fn by_estimate(&mut self, target: f64) -> Option<f64> {
-        Some(self.solve(self.own, |_| target.ln())?.exp())
+        Some(self.solve(|_| target.ln())?.exp())
     }
 
     /// Finds where the upper limit meets the target. By how much it is above the estimate changes little
@@ -109,47 +115,60 @@ impl Search<'_> {
         let (mut at, mut above, mut per_ln) =
             (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
         for _ in 0..MOST_SPREADS {
-            let next = self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?;
+            let next = self.solve(|ln_width| target.ln() - above - per_ln * (ln_width - at))?;
             if (next - at).abs() < CLOSE {
                 return Some(next.exp());
             }
             let there = self.spread_at(next)?;
             (at, above, per_ln) = (next, there, (there - above) / (next - at));
         }
-        Some(self.solve(at, |ln_width| target.ln() - above - per_ln * (ln_width - at))?.exp())
+        Some(self.solve(|ln_width| target.ln() - above - per_ln * (ln_width - at))?.exp())
     }
 
     /// ln of the upper limit over the estimate.
-    fn spread_at(&self, ln_width: f64) -> Option<f64> {
-        spread(self.site.rates(&self.subject(ln_width)?).overturning)
+    fn spread_at(&mut self, ln_width: f64) -> Option<f64> {
+        let rate = self.site.rates(&self.subject(ln_width)?).overturning;
+        self.learn(ln_width, rate.value?);
+        spread(rate)
     }
 
-    /// Finds ln of the width at which ln rate is what is wanted of it, by secants. Where the hazard ends too
-    /// early for the rate of a wide object, the search ends there.
-    fn solve(&mut self, from: f64, wanted: impl Fn(f64) -> f64) -> Option<f64> {
-        let (mut at, mut fall, mut last): (f64, f64, Option<(f64, f64)>) = (from, USUAL_FALL, None);
+    fn is_known(&self, ln_width: f64) -> bool {
+        self.known.last().is_some_and(|(last, _)| *last == ln_width)
+    }
+
+    fn learn(&mut self, ln_width: f64, rate: f64) {
+        if !self.is_known(ln_width) {
+            self.known.push((ln_width, rate.max(LEAST).ln()));
+        }
+    }
+
+    /// Finds ln of the width at which ln rate is what is wanted of it, by secants from the last width on. Where
+    /// the hazard ends too early for the rate of a wide object, the search ends there.
+    fn solve(&mut self, wanted: impl Fn(f64) -> f64) -> Option<f64> {
         let mut halvings = 0;
+        let mut at = self.known.last().map_or(self.own, |(ln_width, _)| *ln_width);
         for _ in 0..MOST_STEPS {
-            let Some(rate) = self.site.overturning(&self.subject(at)?) else {
-                let (known, _) = last?;
-                halvings += 1;
-                self.most = 0.5 * (known + at);
-                if halvings > HALVINGS {
-                    return None;
-                }
-                at = self.most;
-                continue;
-            };
-            let excess = rate.max(LEAST).ln() - wanted(at);
-            let slope_from = last.filter(|(before, _)| *before != at);
-            if let Some((before, excess_before)) = slope_from {
-                fall = ((excess_before - excess) / (at - before)).max(LEAST_FALL);
+            if !self.is_known(at) {
+                let Some(rate) = self.site.overturning(&self.subject(at)?) else {
+                    let (known, _) = self.known.last()?;
+                    halvings += 1;
+                    self.most = 0.5 * (known + at);
+                    if halvings > HALVINGS {
+                        return None;
+                    }
+                    at = self.most;
+                    continue;
+                };
+                self.learn(at, rate);
             }
-            last = Some((at, excess));
-            let free = at + excess / fall;
-            let next = free.clamp(self.least, self.most);
+            let excess = |(ln_width, ln_rate): (f64, f64)| ln_rate - wanted(ln_width);
             // A step by a fall that was measured nearby is right to a few per cent of itself.
-            let enough = if slope_from.is_some() { LAST_STEP } else { ACCURACY };
+            let (fall, enough) = match self.known[..] {
+                [.., before, last] => ((excess(before) - excess(last)) / (last.0 - before.0), LAST_STEP),
+                _ => (USUAL_FALL, ACCURACY),
+            };
+            let free = at + excess((at, self.known[self.known.len() - 1].1)) / fall.max(LEAST_FALL);
+            let next = free.clamp(self.least, self.most);
             if (next - at).abs() < enough {
                 return (free <= self.most + enough).then_some(next);
             }
