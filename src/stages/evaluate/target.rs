@@ -16,14 +16,10 @@ pub fn parse(text: &str) -> Result<f64, String> {
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
 const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Relative accuracy of a width, and the most steps of a search.
-const ACCURACY: f64 = 2e-5;
-const LAST_STEP: f64 = 1e-3;
+/// Steps of ln width after which the next is right to 2e-5: by a fall that is assumed, by the line through two
+/// widths, by the parabola through three.
+const LAST_STEPS: [f64; 3] = [2e-5, 1e-3, 2e-2];
 const MOST_STEPS: usize = 40;
-/// The most full rates of a search by the upper limit, and the change of ln width after which a line
-/// suffices.
-const MOST_SPREADS: usize = 3;
-const CLOSE: f64 = 0.01;
 /// By how much ln rate falls with ln width, about, where a search begins; and the least fall that it trusts.
 const USUAL_FALL: f64 = 5.0;
 const LEAST_FALL: f64 = 0.2;
@@ -39,12 +35,12 @@ pub fn bases(object: &Object, models: &Models, site: &Site, rate: Limited, targe
     let both = object.shape.depth.map(|_| true);
     let searches = [false].into_iter().chain(both);
     let mut searches: Vec<Search> =
-        searches.filter_map(|both_sides| Search::new(object, models, site, both_sides, rate)).collect();
-    let by_estimate =
-        searches.iter_mut().find_map(|search| Some((search.both_sides, search.by_estimate(target)?)));
-    let by_limit = searches
-        .iter_mut()
-        .find_map(|search| Some((search.both_sides, search.by_upper_limit(rate, target)?)));
+        searches.filter_map(|both_sides| Search::new(object, models, site, both_sides)).collect();
+    let mut first = |sought: Sought| {
+        let as_is = sought.in_rates(rate);
+        searches.iter_mut().find_map(|search| Some((search.both_sides, search.solve(sought, as_is, target)?)))
+    };
+    let (by_estimate, by_limit) = (first(Sought::Estimate), first(Sought::UpperLimit));
     TargetBases {
         target_width_m: side(by_estimate, false),
         target_width_m_high: side(by_limit, false),
@@ -58,6 +54,23 @@ fn side(found: Option<(bool, f64)>, both_sides: bool) -> Option<f64> {
     found.filter(|(by_both, _)| *by_both == both_sides).map(|(_, side)| side)
 }
 
+/// What is to be the target.
+#[derive(Debug, Clone, Copy)]
+enum Sought {
+    Estimate,
+    UpperLimit,
+}
+
+impl Sought {
+    /// Returns it where the rate is known.
+    fn in_rates(self, rate: Limited) -> Option<f64> {
+        rate.value.and(match self {
+            Sought::Estimate => rate.value,
+            Sought::UpperLimit => rate.high,
+        })
+    }
+}
+
 /// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
 struct Search<'a> {
     object: &'a Object,
@@ -68,8 +81,10 @@ struct Search<'a> {
     least: f64,
     most: f64,
     own: f64,
-    /// ln of the rate at ln of a width, the latest last.
-    known: Vec<(f64, f64)>,
+    /// Whether that is of the object as it is.
+    is_as_is: bool,
+    /// By how much ln rate falls with ln width.
+    fall: f64,
 }
 
 impl Search<'_> {
@@ -78,7 +93,6 @@ impl Search<'_> {
         models: &'a Models,
         site: &'a Site,
         both_sides: bool,
-        rate: Limited,
     ) -> Option<Search<'a>> {
         let shape = &object.shape;
         let (width, height) = shape.width.zip(shape.height)?;
@@ -87,9 +101,8 @@ impl Search<'_> {
         let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
         let smaller = if both_sides { shape.depth.map_or(width, |depth| depth.min(width)) } else { width };
         let own = smaller.ln().clamp(least, most);
-        let known = rate.value.filter(|_| own == smaller.ln()).map(|rate| (own, rate.max(LEAST).ln()));
-        let known = known.into_iter().collect();
-        Some(Search { object, models, site, both_sides, least, most, own, known })
+        let (is_as_is, fall) = (own == smaller.ln(), USUAL_FALL);
+        Some(Search { object, models, site, both_sides, least, most, own, is_as_is, fall })
     }
 
     /// The object with another base.
@@ -105,80 +118,75 @@ impl Search<'_> {
         Some(self.models.subject(&resized).ok()?.0)
     }
 
-    fn by_estimate(&mut self, target: f64) -> Option<f64> {
-        Some(self.solve(|_| target.ln())?.exp())
-    }
-
-    /// Finds where the upper limit meets the target. By how much it is above the estimate changes little
-    /// with width: a line through the last two widths tells it.
-    fn by_upper_limit(&mut self, rate: Limited, target: f64) -> Option<f64> {
-        let (mut at, mut above, mut per_ln) =
-            (self.own, spread(rate).or_else(|| self.spread_at(self.own))?, 0.0);
-        for _ in 0..MOST_SPREADS {
-            let next = self.solve(|ln_width| target.ln() - above - per_ln * (ln_width - at))?;
-            if (next - at).abs() < CLOSE {
-                return Some(next.exp());
-            }
-            let there = self.spread_at(next)?;
-            (at, above, per_ln) = (next, there, (there - above) / (next - at));
-        }
-        Some(self.solve(|ln_width| target.ln() - above - per_ln * (ln_width - at))?.exp())
-    }
-
-    /// ln of the upper limit over the estimate.
-    fn spread_at(&mut self, ln_width: f64) -> Option<f64> {
-        let rate = self.site.rates(&self.subject(ln_width)?).overturning;
-        self.learn(ln_width, rate.value?);
-        spread(rate)
-    }
-
-    fn is_known(&self, ln_width: f64) -> bool {
-        self.known.last().is_some_and(|(last, _)| *last == ln_width)
-    }
-
-    fn learn(&mut self, ln_width: f64, rate: f64) {
-        if !self.is_known(ln_width) {
-            self.known.push((ln_width, rate.max(LEAST).ln()));
+    fn rate(&self, sought: Sought, ln_width: f64) -> Option<f64> {
+        let subject = self.subject(ln_width)?;
+        match sought {
+            Sought::Estimate => self.site.overturning(&subject),
+            Sought::UpperLimit => sought.in_rates(self.site.rates(&subject).overturning),
         }
     }
 
-    /// Finds ln of the width at which ln rate is what is wanted of it, by secants from the last width on. Where
-    /// the hazard ends too early for the rate of a wide object, the search ends there.
-    fn solve(&mut self, wanted: impl Fn(f64) -> f64) -> Option<f64> {
-        let mut halvings = 0;
-        let mut at = self.known.last().map_or(self.own, |(ln_width, _)| *ln_width);
+    /// Finds the width at which a rate is the target, from that of the object as it is on. Where the hazard ends
+    /// too early for the rate of a wide object, the search ends there.
+    fn solve(&mut self, sought: Sought, as_is: Option<f64>, target: f64) -> Option<f64> {
+        let (mut at, mut halvings, mut known) = (self.own, 0, Vec::new());
+        let mut next_rate = as_is.filter(|_| self.is_as_is).or_else(|| self.rate(sought, at));
         for _ in 0..MOST_STEPS {
-            if !self.is_known(at) {
-                let Some(rate) = self.site.overturning(&self.subject(at)?) else {
-                    let (known, _) = self.known.last()?;
-                    halvings += 1;
-                    self.most = 0.5 * (known + at);
-                    if halvings > HALVINGS {
-                        return None;
-                    }
-                    at = self.most;
-                    continue;
-                };
-                self.learn(at, rate);
-            }
-            let excess = |(ln_width, ln_rate): (f64, f64)| ln_rate - wanted(ln_width);
-            // A step by a fall that was measured nearby is right to a few per cent of itself.
-            let (fall, enough) = match self.known[..] {
-                [.., before, last] => ((excess(before) - excess(last)) / (last.0 - before.0), LAST_STEP),
-                _ => (USUAL_FALL, ACCURACY),
+            let Some(rate_there) = next_rate else {
+                let Known { ln_width, .. } = known.last()?;
+                halvings += 1;
+                self.most = 0.5 * (ln_width + at);
+                if halvings > HALVINGS {
+                    return None;
+                }
+                at = self.most;
+                next_rate = self.rate(sought, at);
+                continue;
             };
-            let free = at + excess((at, self.known[self.known.len() - 1].1)) / fall.max(LEAST_FALL);
+            known.push(Known { ln_width: at, excess: (rate_there.max(LEAST) / target).ln() });
+            let (free, enough) = self.next(&known);
             let next = free.clamp(self.least, self.most);
             if (next - at).abs() < enough {
-                return (free <= self.most + enough).then_some(next);
+                return (free <= self.most + enough).then_some(next.exp());
             }
             at = next;
+            next_rate = self.rate(sought, at);
         }
         None
     }
+
+    /// Returns ln of the width at which the excess is 0 by what is known, and the step below which it is right.
+    fn next(&mut self, known: &[Known]) -> (f64, f64) {
+        let last = known[known.len() - 1];
+        if let [.., before, last] = known {
+            let fall = (before.excess - last.excess) / (last.ln_width - before.ln_width);
+            self.fall = fall.max(LEAST_FALL);
+        }
+        let by_line = last.ln_width + last.excess / self.fall;
+        let step = (by_line - last.ln_width).abs();
+        match known {
+            [.., a, b, c] => match parabola_at_zero([*a, *b, *c]) {
+                by_parabola if (by_parabola - by_line).abs() < 0.5 * step => (by_parabola, LAST_STEPS[2]),
+                _ => (by_line, LAST_STEPS[1]),
+            },
+            [_, _] => (by_line, LAST_STEPS[1]),
+            _ => (by_line, LAST_STEPS[0]),
+        }
+    }
 }
 
-/// ln of the upper limit of a rate over the rate.
-fn spread(rate: Limited) -> Option<f64> {
-    Some((rate.high? / rate.value?).ln()).filter(|ln| ln.is_finite())
+/// ln of a rate over the target at ln of a width.
+#[derive(Clone, Copy)]
+struct Known {
+    ln_width: f64,
+    excess: f64,
+}
+
+/// Finds ln of the width at excess 0 by the parabola of ln width over the excess through three points.
+fn parabola_at_zero(points: [Known; 3]) -> f64 {
+    let weight = |k: usize| {
+        let others = points.iter().enumerate().filter(|(other, _)| *other != k);
+        others.map(|(_, other)| other.excess / (other.excess - points[k].excess)).product::<f64>()
+    };
+    (0..3).map(|k| weight(k) * points[k].ln_width).sum()
 }
