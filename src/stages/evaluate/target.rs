@@ -16,9 +16,11 @@ pub fn parse(text: &str) -> Result<f64, String> {
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
 const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Steps of ln width after which the next is right to 2e-5: by a fall that is assumed, by the line through two
+/// Relative accuracy of a width.
+const ACCURACY: f64 = 2e-5;
+/// Steps of ln width after which the next is right to that: by a fall that is assumed, by the line through two
 /// widths, by the parabola through three.
-const LAST_STEPS: [f64; 3] = [2e-5, 1e-3, 2e-2];
+const LAST_STEPS: [f64; 3] = [ACCURACY, 1e-3, 3e-3];
 const MOST_STEPS: usize = 40;
 /// By how much ln rate falls with ln width, about, where a search begins; and the least fall that it trusts.
 const USUAL_FALL: f64 = 5.0;
@@ -147,7 +149,7 @@ impl Search<'_> {
             let (free, enough) = self.next(&known);
             let next = free.clamp(self.least, self.most);
             if (next - at).abs() < enough {
-                return (free <= self.most + enough).then_some(next.exp());
+                return (free <= self.most + ACCURACY).then_some(next.exp());
             }
             at = next;
             next_rate = self.rate(sought, at);
