@@ -78,6 +78,23 @@ impl Batch {
             .collect()
     }
 
+    /// Returns the lists of numbers of a column.
+    pub fn lists(&self, name: &str) -> Result<Vec<Vec<f64>>, TableError> {
+        let Some(column) = self.rows.column_by_name(name) else {
+            return Err(TableError::missing_column(&self.path, name));
+        };
+        let expected = "a list of numbers";
+        let lists = column.as_list_opt::<i32>().ok_or_else(|| self.other_type(name, column, expected))?;
+        let null =
+            |row: usize| self.value_error(row, name, format!("null, or with a null; expected {expected}"));
+        let read = lists.iter().enumerate().map(|(row, list)| {
+            let numbers = numbers(&list.ok_or_else(|| null(row))?);
+            let numbers = numbers.ok_or_else(|| self.other_type(name, column, expected))?;
+            numbers.into_iter().collect::<Option<Vec<f64>>>().ok_or_else(|| null(row))
+        });
+        read.collect()
+    }
+
     /// Makes the structures of the rows, which have these names.
     pub fn structures(&self, names: &[Cow<str>]) -> Result<Vec<Structure>, TableError> {
         let (p, alpha) = (self.required_numbers("p_rad_s")?, self.required_numbers("alpha_rad")?);

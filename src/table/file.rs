@@ -337,11 +337,7 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
 }
 
 /// Checks that the `wanted` columns of a row group are not too large.
-pub(super) fn expect_small(
-    path: &Path,
-    group: &RowGroupMetaData,
-    wanted: &ProjectionMask,
-) -> Result<(), TableError> {
+fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &ProjectionMask) -> Result<(), TableError> {
     let columns = group.columns().iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf));
     let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();
     match bytes <= MOST_BYTES {
@@ -358,10 +354,7 @@ thread_local! {
 }
 
 /// Calls `read`; a panic of the decoder is an error of a damaged file.
-pub(super) fn guarded<T, E: ToString>(
-    path: &Path,
-    read: impl FnOnce() -> Result<T, E>,
-) -> Result<T, TableError> {
+fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
     let before = GUARDED.replace(true);
     let read = catch_unwind(AssertUnwindSafe(read));
     GUARDED.set(before);

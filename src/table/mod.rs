@@ -6,7 +6,6 @@
 //! file        a table on disk: a file, or a folder of files
 //! columns     columns of a batch by name, from any program
 //! pages       pages and their checksums
-//! lists       a column of lists of numbers, read without building lists
 //! writer      atomic writing
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
@@ -25,7 +24,6 @@ pub mod dictionary;
 pub mod file;
 pub mod frame;
 pub mod keys;
-pub mod lists;
 pub mod marks;
 pub mod motions;
 mod pages;

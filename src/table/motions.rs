@@ -14,7 +14,6 @@ use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
 use super::file::{Partition, RowGroup, Table, or_error};
-use super::lists::Lists;
 use super::rows::{self, side_by_side};
 use crate::records::rotation::{Component, pairs};
 use crate::rocking::{Record, RecordError};
@@ -117,11 +116,11 @@ pub fn read(
     wanted: &dyn Fn(&str) -> bool,
     at_once: usize,
 ) -> Result<impl Iterator<Item = Result<Sampled, TableError>> + Send + use<>, TableError> {
-    let batches = table.read(group, &|name| name != ACCELERATION && wanted(name), at_once)?;
-    let mut samples = Lists::open(table, group, ACCELERATION)?;
-    Ok(batches.map(move |batch| {
-        let batch = batch?;
-        let samples = samples.read(batch.rows.num_rows())?;
+    let batches = table.read(group, &|name| name == ACCELERATION || wanted(name), at_once)?;
+    Ok(batches.map(|batch| {
+        let mut batch = batch?;
+        let samples = batch.lists(ACCELERATION)?;
+        batch.rows.remove_column(batch.rows.schema().index_of(ACCELERATION).unwrap_or_default());
         Ok((batch, samples))
     }))
 }
