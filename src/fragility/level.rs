@@ -1,6 +1,5 @@
 //! At which values of its parameters a model is taken.
 
-use super::model::Direction;
 use super::tree::LimitStates;
 use crate::statistics::Estimate;
 
@@ -28,15 +27,6 @@ impl Level {
     /// Returns the levels of an estimate with its limits.
     pub fn with_limits(scenarios: Scenarios) -> [Level; 3] {
         [Level::Estimate, Level::Low(scenarios), Level::High(scenarios)]
-    }
-
-    /// Returns the level of the estimate, then those of each error of the models, at the lower and at the upper
-    /// quantile: the same error moves all directions.
-    pub fn with_errors(directions: &[Direction]) -> Vec<Level> {
-        let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
-        let errors =
-            (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
-        [Level::Estimate].into_iter().chain(errors).collect()
     }
 }
 

@@ -192,6 +192,17 @@ impl DirectionAtPga<'_> {
     }
 }
 
+impl Level {
+    /// Returns the level of the estimate, then those of each error of the models, at the lower and at the upper
+    /// quantile: the same error moves all directions.
+    pub fn with_errors(directions: &[Direction]) -> Vec<Level> {
+        let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
+        let errors =
+            (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
+        [Level::Estimate].into_iter().chain(errors).collect()
+    }
+}
+
 /// An object in its directions, ready for motions of one magnitude.
 pub(crate) struct ReadyObject<'a> {
     directions: Vec<ReadyDirection<'a>>,

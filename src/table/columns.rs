@@ -85,12 +85,17 @@ impl Batch {
         };
         let expected = "a list of numbers";
         let lists = column.as_list_opt::<i32>().ok_or_else(|| self.other_type(name, column, expected))?;
-        let null =
-            |row: usize| self.value_error(row, name, format!("null, or with a null; expected {expected}"));
         let read = lists.iter().enumerate().map(|(row, list)| {
-            let numbers = numbers(&list.ok_or_else(|| null(row))?);
-            let numbers = numbers.ok_or_else(|| self.other_type(name, column, expected))?;
-            numbers.into_iter().collect::<Option<Vec<f64>>>().ok_or_else(|| null(row))
+            let Some(list) = list.filter(|list| list.null_count() == 0) else {
+                return Err(self.value_error(
+                    row,
+                    name,
+                    format!("null, or with a null; expected {expected}"),
+                ));
+            };
+            let numbers = numbers(&list).ok_or_else(|| self.other_type(name, column, expected))?;
+            // The record tells of NaN.
+            Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
         });
         read.collect()
     }
