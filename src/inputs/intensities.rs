@@ -39,6 +39,7 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));
     }
+    expect_motions_alone(grid)?;
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let rows = 0..grid.lines.len();
@@ -47,9 +48,6 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
             None if !is_peak => Ok(None),
             _ => grid.number(row, at).map(Some),
         });
-        if let Some(row) = rows.clone().find(|row| means(grid.cell(*row, at), "total")) {
-            return Err(grid.refusal(row, at, "motions alone"));
-        }
         let cells = match numbers.collect() {
             Ok(numbers) => Cells::Numbers(numbers),
             Err(error) if is_peak || means(&heading.name, "magnitude") => return Err(error),
@@ -66,6 +64,16 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
         columns.push((name.to_string(), cells));
     }
     Ok(columns)
+}
+
+/// Refuses a row of totals or means.
+fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
+    let mut cells = (0..grid.lines.len()).flat_map(|row| (0..grid.columns).map(move |at| (row, at)));
+    let total = cells.find(|(row, at)| {
+        let cell = grid.cell(*row, *at);
+        cell.starts_with(char::is_alphabetic) && means(cell, "total")
+    });
+    total.map_or(Ok(()), |(row, at)| Err(grid.refusal(row, at, "motions alone")))
 }
 
 /// The motions in the rows of a table.
@@ -87,6 +95,7 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, 
     else {
         return Ok(None);
     };
+    expect_motions_alone(grid)?;
     let magnitude = grid.about("magnitude");
     let (mut given, mut mw) = (Vec::new(), Vec::new());
     for row in 0..grid.lines.len() {
