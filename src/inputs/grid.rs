@@ -9,7 +9,6 @@ use super::decode::decode;
 use super::error::InputError;
 use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
-use super::rename::Renames;
 use super::unpack::{Member, unpack};
 use super::words::{joined, words};
 use super::workbook;
@@ -50,12 +49,6 @@ impl Grid {
         let bytes =
             source::read(&file).map_err(|error| InputError::Unreadable(error.kind(), error.to_string()))?;
         Grid::parse(&bytes, sheet.as_deref())
-    }
-
-    /// Reads a table whose columns the user may name.
-    pub fn read_renamed(path: &Path, renames: &mut Renames) -> Result<Grid, InputError> {
-        let mut grid = Grid::read(path)?;
-        renames.apply(&mut grid).map(|()| grid)
     }
 
     /// Reads a table, packed or not: text, or a sheet of a workbook.

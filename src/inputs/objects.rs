@@ -64,9 +64,7 @@ pub fn read(
     renames: &mut Renames,
     common: &Common,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
-    Grid::read_renamed(path, renames)
-        .and_then(|grid| in_rows(&grid, &[], common))
-        .map_err(|error| error.in_file(path))
+    renames.read(path).and_then(|grid| in_rows(&grid, &[], common)).map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.

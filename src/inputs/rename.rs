@@ -1,5 +1,6 @@
 //! Headings that the user names: `--columns pga_g=PGA`.
 
+use std::path::Path;
 use std::str::FromStr;
 
 use super::error::InputError;
@@ -41,8 +42,9 @@ impl<'a> Renames<'a> {
         Renames { all, seen: Vec::new() }
     }
 
-    /// Renames the columns of a table that has the headings. A unit or a percent sign of the heading stays.
-    pub fn apply(&mut self, grid: &mut Grid) -> Result<(), InputError> {
+    /// Reads a table and renames its columns. A unit or a percent sign of the heading stays.
+    pub fn read(&mut self, path: &Path) -> Result<Grid, InputError> {
+        let mut grid = Grid::read(path)?;
         for heading in &mut grid.headings {
             self.seen.push(heading.text.clone());
             let Some(rename) = self.all.iter().find(|rename| rename.heading == heading.text) else {
@@ -56,7 +58,7 @@ impl<'a> Renames<'a> {
             let unit = wanted.unit.or(heading.unit);
             *heading = Heading { unit, is_percent: heading.is_percent, ..wanted };
         }
-        Ok(())
+        Ok(grid)
     }
 
     /// The name of a column of a table of others, as it is to be called.

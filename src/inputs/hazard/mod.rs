@@ -2,6 +2,7 @@
 //! periods, or what OpenQuake exports: curves, and ground-motion fields.
 
 mod columns;
+mod motions;
 mod openquake;
 
 use std::collections::BTreeMap;
@@ -9,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 pub use self::columns::peak;
 use self::columns::{Column, Content, Frequency, Measure, Statistic, noted_statistic};
-use super::intensities::{Motions, motions};
+pub use self::motions::{Motions, expect_motions_alone, motions};
 use super::words::means;
 use super::{Grid, InputError, Renames};
 use crate::fragility::Peak;
@@ -149,7 +150,7 @@ impl Found {
         renames: &mut Renames,
         effective_years: Option<f64>,
     ) -> Result<(), InputError> {
-        let mut grid = Grid::read_renamed(path, renames)?;
+        let mut grid = renames.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
             ["gmv_", "poe-"].map(|start| grid.headings.iter().any(|heading| heading.text.starts_with(start)));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use rayon::prelude::*;
 
-use super::summary::Summary;
+use super::summary::{NotImported, Summary};
 use crate::inputs::words::is_vertical;
 use crate::inputs::{About, Known, Member, unpack};
 use crate::motion::LONGEST_MOTION;
@@ -29,12 +29,6 @@ pub struct Importer {
     pub about: About,
     /// Whether vertical components are imported too.
     pub vertical: bool,
-}
-
-/// Why a component is not imported: what it is, or in words what is wrong with it.
-pub enum NotImported {
-    LeftOut(&'static str),
-    Refused(String),
 }
 
 /// A file, or one in an archive.

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use anyhow::bail;
 
-use super::importer::NotImported;
 use crate::motion::MotionMeasures;
 use crate::number::listed;
 use crate::number::{count, counted, fixed};
@@ -13,6 +12,12 @@ use crate::units::G_M_S2;
 
 /// Kinds of files that the summary names.
 const NAMED: usize = 10;
+
+/// Why a component is not imported: what it is, or in words what is wrong with it.
+pub enum NotImported {
+    LeftOut(&'static str),
+    Refused(String),
+}
 
 /// What was read, so that a wrong unit is seen.
 #[derive(Default)]

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, bail};
 
 use crate::fragility::ObservedOutcome;
-use crate::inputs::intensities::motions;
+use crate::inputs::hazard::motions;
 use crate::inputs::objects::{self, Common};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};

@@ -1,0 +1,57 @@
+//! Motions in the rows of a table, by their peaks.
+
+use super::columns::peak;
+use crate::fragility::Peak;
+use crate::inputs::words::means;
+use crate::inputs::{Grid, InputError};
+use crate::motion::{Peaks, judge_medians};
+use crate::plausibility::MAGNITUDES;
+use crate::warning::{Warning, Warnings};
+
+/// Refuses a row of totals or means.
+pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
+    let mut cells = (0..grid.lines.len()).flat_map(|row| (0..grid.columns).map(move |at| (row, at)));
+    let total = cells.find(|(row, at)| {
+        let cell = grid.cell(*row, *at);
+        cell.starts_with(char::is_alphabetic) && means(cell, "total")
+    });
+    total.map_or(Ok(()), |(row, at)| Err(grid.refusal(row, at, "motions alone")))
+}
+
+/// The motions in the rows of a table.
+pub struct Motions {
+    /// Peaks as they are given, and none beyond any record.
+    pub given: Vec<Peaks>,
+    pub peaks: Vec<Peaks>,
+    pub mw: Vec<Option<f64>>,
+    /// Columns of PGA, PGV and magnitude.
+    pub columns: Vec<usize>,
+}
+
+/// Reads the motions of a table with both peaks, which must show no wrong unit, and warns of those beyond any
+/// record.
+pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, InputError> {
+    let headings = || grid.headings.iter().enumerate().filter_map(|(at, heading)| Some((at, peak(heading)?)));
+    let [Some((pga, (_, pga_unit))), Some((pgv, (_, pgv_unit)))] =
+        [Peak::Pga, Peak::Pgv].map(|wanted| headings().find(|(_, (peak, _))| *peak == wanted))
+    else {
+        return Ok(None);
+    };
+    expect_motions_alone(grid)?;
+    let magnitude = grid.about("magnitude");
+    let (mut given, mut mw) = (Vec::new(), Vec::new());
+    for row in 0..grid.lines.len() {
+        let [pga, pgv] =
+            [pga, pgv].map(|at| grid.within(row, at, &(0.0..=f64::MAX), "a number of 0 or more"));
+        given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
+        mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
+    }
+    judge_medians(given.iter().copied())?;
+    let peaks: Vec<Peaks> = given.iter().map(|peaks| peaks.at_rim()).collect();
+    let beyond = given.iter().zip(&peaks).filter(|(given, peaks)| given != peaks).count();
+    if beyond > 0 {
+        warnings.add(Warning::AtRim, format!("{beyond} of {} rows", given.len()));
+    }
+    let columns = [Some(pga), Some(pgv), magnitude].into_iter().flatten().collect();
+    Ok(Some(Motions { given, peaks, mw, columns }))
+}
