@@ -15,7 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
         {
             assert!(grid.number(row, column).is_ok_and(f64::is_finite) || grid.number(row, column).is_err());
         }
-        let _ = objects::in_rows(&grid, &[]);
+        let _ = objects::in_rows(&grid, &[], &objects::Common::default());
     }
     let formats = Format::ALL.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];
