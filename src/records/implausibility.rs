@@ -99,11 +99,6 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     let velocity_m_s = velocity.last().map_or(0.0, |last| last.abs());
     let frequency_hz = mean_frequency_hz(acceleration, dt_s);
     let spike = spike(acceleration, pga_m_s2);
-    let (start, end) = ((FIRST_S / dt_s) as usize, ((1.0 - LAST) * samples as f64) as usize);
-    let at_start = peak(&acceleration[..start.min(samples)]) / pga_m_s2;
-    let at_end = peak(&acceleration[end..]) / pga_m_s2;
-    let is_clipped =
-        [pga_m_s2, -pga_m_s2].iter().all(|top| acceleration.iter().filter(|a| *a == top).count() >= AT_PEAK);
     let warnings = [
         (!RECORDED_STEPS_S.contains(&dt_s), Implausibility::TimeStep { dt_s }),
         (samples < FEWEST_SAMPLES, Implausibility::FewSamples { samples }),
@@ -119,13 +114,24 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
             Implausibility::Fast { frequency_hz },
         ),
         (pga_g < WEAKEST_PGA_G, Implausibility::WeakPga { pga_g }),
-        (at_start > QUIET, Implausibility::CutOff { share: at_start, part: "its first 0.1 s" }),
-        (at_end > QUIET, Implausibility::CutOff { share: at_end, part: "its last 5 %" }),
-        (is_clipped, Implausibility::Clipped { pga_g }),
         (pga_g > RARE_PGA_G, Implausibility::RarePga { pga_g }),
         (pgv_m_s > RARE_PGV_M_S, Implausibility::RarePgv { pgv_m_s }),
     ];
     warnings.into_iter().find_map(|(is_so, warning)| is_so.then_some(warning))
+}
+
+/// Checks that an acceleration (m/s2) at steps of `dt_s` is all of a record, which a pulse or a sine is not.
+pub fn incompleteness(acceleration: &[f64], dt_s: f64) -> Option<Implausibility> {
+    let (samples, pga_m_s2) = (acceleration.len(), peak(acceleration));
+    let (start, end) = ((FIRST_S / dt_s) as usize, ((1.0 - LAST) * samples as f64) as usize);
+    let ends =
+        [(&acceleration[..start.min(samples)], "its first 0.1 s"), (&acceleration[end..], "its last 5 %")];
+    let mut shares = ends.into_iter().map(|(end, part)| (peak(end) / pga_m_s2, part));
+    let cut = shares.find(|(share, _)| *share > QUIET);
+    let count_at = |top: f64| acceleration.iter().filter(|a| **a == top).count();
+    let is_clipped = count_at(pga_m_s2).min(count_at(-pga_m_s2)) >= AT_PEAK;
+    let clipped = Implausibility::Clipped { pga_g: pga_m_s2 / G_M_S2 };
+    cut.map(|(share, part)| Implausibility::CutOff { share, part }).or(is_clipped.then_some(clipped))
 }
 
 /// Returns the index of the largest sample if it is a spike.

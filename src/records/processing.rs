@@ -1,7 +1,7 @@
 //! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
 use super::RecordedMotion;
-use super::implausibility::{Implausibility, implausibility};
+use super::implausibility::{Implausibility, implausibility, incompleteness};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
@@ -129,7 +129,8 @@ impl Processing {
             }
             high_pass(&mut motion.acceleration_m_s2, motion.dt_s, corner_hz);
         }
-        if let Some(why) = implausibility(&motion.acceleration_m_s2, motion.dt_s) {
+        let checks = [implausibility, incompleteness];
+        for why in checks.into_iter().filter_map(|check| check(&motion.acceleration_m_s2, motion.dt_s)) {
             if why.is_impossible() && !self.accept_implausible {
                 return Err(ProcessingError::Implausible(why));
             }

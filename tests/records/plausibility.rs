@@ -1,6 +1,6 @@
 //! Plausible and implausible records.
 
-use rockfrag::records::implausibility::{Implausibility, implausibility};
+use rockfrag::records::implausibility::{Implausibility, implausibility, incompleteness};
 
 use crate::shared::reference_motions;
 use crate::writers::{DT, G, motion};
@@ -12,8 +12,6 @@ fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
         match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
             None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}
-            // Two sines have no end.
-            Some(Implausibility::CutOff { .. }) => {}
             // Half-sine and rectangular pulses end with a velocity, or never turn.
             Some(Implausibility::Drift { .. } | Implausibility::OneSided) => half_pulses += 1,
             Some(other) => panic!("{}: {other}", motion.motion_id),
@@ -29,6 +27,7 @@ fn every_limit_is_kept() {
         let samples: Vec<f64> = motion(1000).into_iter().enumerate().map(|(k, a)| change(k, a)).collect();
         format!("{:?}", implausibility(&samples, dt_s))
     };
+    let clipped: Vec<f64> = motion(1000).iter().map(|a| a.clamp(-2.0, 2.0)).collect();
     for (found, expected) in [
         (kind(DT, &|_, a| a), "None"),
         (kind(DT, &|_, a| 100.0 * a), "Some(Pga { pga_g: 30."),
@@ -43,10 +42,10 @@ fn every_limit_is_kept() {
         (kind(DT, &|k, _| slow(k)), "Some(Slow { ratio_s: 3.18"),
         (kind(DT, &|k, _| 4.0 * slow(k)), "Some(Pgv { pgv_m_s: 12.7"),
         (format!("{:?}", implausibility(&motion(1000)[..20], DT)), "Some(FewSamples { samples: 20"),
-        (format!("{:?}", implausibility(&motion(1000)[..540], DT)), "Some(CutOff { share: 0.9"),
-        (format!("{:?}", implausibility(&motion(1000)[460..], DT)), "Some(CutOff { share: "),
-        (format!("{:?}", implausibility(&motion(1000)[100..900], DT)), "None"),
-        (kind(DT, &|_, a| a.clamp(-2.0, 2.0)), "Some(Clipped { pga_g: 0.20"),
+        (format!("{:?}", incompleteness(&motion(1000)[..540], DT)), "Some(CutOff { share: 0.9"),
+        (format!("{:?}", incompleteness(&motion(1000)[460..], DT)), "Some(CutOff { share: "),
+        (format!("{:?}", incompleteness(&motion(1000)[100..900], DT)), "None"),
+        (format!("{:?}", incompleteness(&clipped, DT)), "Some(Clipped { pga_g: 0.20"),
     ] {
         assert!(found.starts_with(expected), "{expected}: {found}");
     }
