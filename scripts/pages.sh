@@ -9,25 +9,25 @@ evaluate() { "$program" evaluate --quiet --force --hazard "$hazard" "$@" > /dev/
 
 evaluate --structure "name=Display case,width=0.5,height=1.9" --target 1% --out object.html
 cat > objects.csv <<'CSV'
-name,width (cm),depth (cm),height (cm),level,period (s),anchored
-Vase,22,22,70,0.6,0.5,no
-Statue,45,40,170,0,,no
-Display case 1,50,50,190,0,,no
-Display case 2,60,60,190,0.3,0.5,no
-Server rack,60,100,200,0.6,0.5,no
-Bookcase,35,90,210,1,0.5,no
-Filing cabinet,46,62,132,0.3,0.5,no
-Bust on a pedestal,40,40,165,0,,no
-Autoclave,70,80,180,0,,bolted
-Oxygen cylinder,24,24,150,0,,no
-Switchgear,80,60,220,0,,no
-Vending machine,90,80,183,0,,no
-Fridge,60,65,185,0.6,0.5,no
-Pallet stack,80,120,240,0,,no
-Low chest,120,60,60,0,,no
+name,width (cm),depth (cm),height (cm),floor,storeys,anchored
+Vase,22,22,70,3,5,no
+Statue,45,40,170,G,5,no
+Display case 1,50,50,190,G,5,no
+Display case 2,60,60,190,3,5,no
+Server rack,60,100,200,3,5,no
+Bookcase,35,90,210,5,5,no
+Filing cabinet,46,62,132,3,5,no
+Bust on a pedestal,40,40,165,G,5,no
+Autoclave,70,80,180,G,5,bolted
+Oxygen cylinder,24,24,150,G,5,no
+Switchgear,80,60,220,G,5,no
+Vending machine,90,80,183,G,5,no
+Fridge,60,65,185,5,5,no
+Pallet stack,80,120,240,G,5,no
+Low chest,120,60,60,G,5,no
 CSV
 evaluate --structures objects.csv --target 2% --out list.html
-sed -e 's/,35,90,210,/,50,90,210,/; s/^Vase,22,22,70,0.6/Vase,22,22,70,0/; s/,45,40,170,/,60,60,170,/' objects.csv > changed.csv
+sed -e 's/,35,90,210,/,50,90,210,/; s/^Vase,22,22,70,3/Vase,22,22,70,G/; s/,45,40,170,/,60,60,170,/' objects.csv > changed.csv
 evaluate --structures objects.csv --target 2% --out before.parquet
 evaluate --structures changed.csv --target 2% --out after.parquet
 "$program" report --quiet --force --in before.parquet,after.parquet --out compared.html > /dev/null

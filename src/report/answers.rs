@@ -80,11 +80,9 @@ impl Evaluation {
             ..first.clone()
         };
         for Evaluation { file, rows, .. } in all {
-            let named = rows.iter().map(|rated| {
-                let object = ObjectRow { file: file.clone(), ..rated.object.clone() };
-                Rated { object, ..rated.clone() }
-            });
-            joined.rows.extend(named);
+            joined.rows.extend(rows.iter().cloned());
+            let own = joined.rows.iter_mut().rev().take(rows.len()).filter(|_| !others.is_empty());
+            own.for_each(|rated| rated.object.file.clone_from(file));
         }
         joined.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
         joined
@@ -101,18 +99,13 @@ impl ObjectRow {
     pub fn size(&self) -> String {
         let sides = [self.width_m, self.depth_m, self.height_m].into_iter().flatten().map(number::length);
         match (self.width_m.zip(self.height_m), self.p_rad_s.zip(self.alpha_rad)) {
-            (Some(_), _) => format!("{} m", sides.collect::<Vec<_>>().join(" x ")),
+            (Some(_), _) => format!("{} m", sides.collect::<Vec<_>>().join(" × ")),
             (_, Some((p, alpha))) => {
                 let [p, alpha] = [p, alpha].map(|value| number::significant(value, 3));
-                format!("p {p} rad/s, alpha {alpha}")
+                format!("p {p} rad/s, α {alpha}")
             }
             _ => "-".to_string(),
         }
-    }
-
-    /// The size with the signs of a page.
-    pub fn set_size(&self) -> String {
-        self.size().replace(" x ", " × ").replace("alpha", "α")
     }
 
     pub fn is_upstairs(&self) -> bool {
@@ -144,7 +137,7 @@ impl ObjectRow {
         period.map_or(String::new(), |period| format!("{sign}{} (period {period} s)", self.place()))
     }
 
-    /// What it is called in a text: `Block of 0.50 x 1.90 m, on the roof (period 0.5 s)`.
+    /// What it is called in a text: `Block of 0.50 × 1.90 m, on the roof (period 0.5 s)`.
     pub fn title(&self) -> String {
         let floor = self.floor_after(", ");
         match self.name() {
@@ -155,12 +148,12 @@ impl ObjectRow {
 
     /// The name, or what it is: marked text.
     pub fn marked_name(&self) -> String {
-        self.name().map_or_else(|| format!("{} of {}", self.kind(), self.set_size()), literal)
+        self.name().map_or_else(|| format!("{} of {}", self.kind(), self.size()), literal)
     }
 
     /// The name and the size, for the title of a page.
     pub fn marked_title(&self) -> String {
-        let size = self.name().map_or(String::new(), |_| format!(", {}", self.set_size()));
+        let size = self.name().map_or(String::new(), |_| format!(", {}", self.size()));
         self.marked_name() + &size
     }
 
@@ -183,7 +176,7 @@ pub fn in_years(years: f64) -> String {
 pub fn base_in_words(object: &ObjectRow, width: Option<f64>, sides: Option<f64>) -> Option<String> {
     let least = sides.unwrap_or(0.0);
     let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
-    let depth = object.depth_m.map(|depth| format!(" x {:.2}", depth.max(least)));
+    let depth = object.depth_m.map(|depth| format!(" × {:.2}", depth.max(least)));
     Some(format!("{width:.2}{} m", depth.unwrap_or_default()))
 }
 
@@ -248,9 +241,9 @@ impl Answer<RatesRow> {
         match base {
             _ if self.meets(target) => format!("It meets the target of {words}."),
             Some(base) => {
-                format!("A base of {} would meet the target of {words}.", base.replace(" x ", " × "))
+                format!("A base of {} would meet the target of {words}.", base)
             }
-            None => format!("It misses the target of {words}."),
+            None => format!("No wider base meets the target of {words}."),
         }
     }
 

@@ -61,7 +61,7 @@ impl Pair<'_> {
     fn changes(&self) -> Vec<String> {
         let both = [self.before, self.after].map(|rated| &rated.object);
         let mut words: Vec<String> =
-            [both.map(|object| literal(&object.place())), both.map(|object| object.set_size())]
+            [both.map(|object| literal(&object.place())), both.map(|object| object.size())]
                 .into_iter()
                 .filter(|[old, new]| old != new)
                 .map(|[old, new]| format!("{old} → {new}"))

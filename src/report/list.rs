@@ -130,38 +130,41 @@ fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
 fn tables(evaluation: &Evaluation) -> (Vec<Table>, Option<String>) {
     let Evaluation { when, target, rows, .. } = evaluation;
     let (overturns, too_far) = (format!("overturns {when}, %"), format!("rocks too far {when}, %"));
-    let all: [(&str, &dyn Fn(&Rated) -> String); 11] = [
-        ("object", &|rated| rated.object.name().map_or("unnamed".to_string(), literal)),
-        (&overturns, &|rated| answered(rated, OF_HUNDRED.value(rated.row.p_overturning))),
-        ("95 % limits", &limits),
-        ("floor", &|rated| rated.object.short_place()),
-        ("base for the target", &|rated| base(rated, *target)),
-        ("once in years", &|rated| rated.row.return_period_years.map_or(String::new(), number::period)),
-        (&too_far, &|rated| answered(rated, OF_HUNDRED.value(rated.row.p_failure))),
-        ("friction needed", &friction),
-        ("size", &|rated| rated.object.set_size().replace(' ', "\u{a0}")),
-        ("number", &|rated| rated.object.count.map_or(String::new(), number::plain)),
-        ("file", &|rated| literal(&rated.object.file)),
+    let column = |cell: &dyn Fn(&Rated) -> String| -> Vec<String> { rows.iter().map(cell).collect() };
+    let names = column(&|rated| rated.object.name().map_or("unnamed".to_string(), literal));
+    let mut answers = vec![
+        ("object", names.clone()),
+        (&overturns, column(&|rated| answered(rated, OF_HUNDRED.value(rated.row.p_overturning)))),
+        ("95 % limits", column(&limits)),
     ];
-    let (mut columns, mut same): (Vec<(usize, &str, Vec<String>)>, Vec<String>) = Default::default();
-    for (at, (head, cell)) in all.into_iter().enumerate() {
-        let cells: Vec<String> = rows.iter().map(cell).collect();
+    let (mut others, mut same) = (vec![("object", names)], Vec::new());
+    for (is_answer, head, cells) in [
+        (true, "floor", column(&|rated| rated.object.short_place())),
+        (true, "base for the target", column(&|rated| base(rated, *target))),
+        (
+            false,
+            "once in years",
+            column(&|rated| rated.row.return_period_years.map_or(String::new(), number::period)),
+        ),
+        (false, &too_far, column(&|rated| answered(rated, OF_HUNDRED.value(rated.row.p_failure)))),
+        (false, "friction needed", column(&friction)),
+        (false, "size", column(&|rated| rated.object.size().replace(' ', "\u{a0}"))),
+        (false, "number", column(&|rated| rated.object.count.map_or(String::new(), number::plain))),
+        (false, "file", column(&|rated| literal(&rated.object.file))),
+    ] {
         let answered = rows.iter().zip(&cells).filter(|(rated, _)| rated.is_answered());
         let differ: BTreeSet<&String> = answered.map(|(_, cell)| cell).collect();
-        if at < 3 || differ.len() > 1 {
-            columns.push((at, head, cells));
+        if differ.len() > 1 {
+            if is_answer { &mut answers } else { &mut others }.push((head, cells));
         } else if !["floor", "file"].contains(&head) {
             let value = differ.first().filter(|value| !value.is_empty());
             same.extend(value.map(|value| format!("{head} {value}")));
         }
     }
-    let names = columns[0].clone();
-    let (answers, mut others): (Vec<_>, Vec<_>) = columns.into_iter().partition(|(at, ..)| *at < 5);
-    others.insert(0, names);
     let tables = [answers, others].into_iter().filter(|columns| columns.len() > 1).map(|columns| Table {
-        heads: columns.iter().map(|(_, head, _)| head.to_string()).collect(),
+        heads: columns.iter().map(|(head, _)| head.to_string()).collect(),
         rows: (0..rows.len())
-            .map(|row| columns.iter().map(|(.., cells)| cells[row].clone()).collect())
+            .map(|row| columns.iter().map(|(_, cells)| cells[row].clone()).collect())
             .collect(),
         ..Table::default()
     });
@@ -186,7 +189,7 @@ fn base(rated: &Rated, target: Option<f64>) -> String {
     let bases = &rated.row.bases;
     match base_in_words(&rated.object, bases.target_width_m, bases.target_sides_m) {
         _ if target.is_some_and(|target| rated.meets(target)) => "meets it".to_string(),
-        base => base.unwrap_or_default().replace(" x ", " × ").replace(' ', "\u{a0}"),
+        base => base.unwrap_or_default().replace(' ', "\u{a0}"),
     }
 }
 

@@ -10,9 +10,10 @@ use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, scaled_label};
 use crate::report::text::{literal, minus, words};
-use crate::report::{Figure, Page, Section, Table, compare, fragility, list, object, response};
+use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
 use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::{both, coefficient};
+use crate::stages::evaluate::pages;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
 use crate::table::capacities::CapacityFitRow;
@@ -70,8 +71,7 @@ pub fn head(tables: &Tables) -> anyhow::Result<Page> {
         },
         (evaluations, ..) => match (tables.comparison(), evaluations) {
             (Some([before, after]), _) => compare::page(before, after),
-            (_, [one]) if one.rows.len() == 1 => object::page(one, &one.rows[0]),
-            (_, several) => list::page(&Evaluation::joined(several)),
+            (None, all) => pages::page(&Evaluation::joined(all)),
         },
     };
     head.figures.extend(response::figures(&tables.traces));
