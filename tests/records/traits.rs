@@ -196,7 +196,8 @@ fn columns_of_directions_are_motions_of_their_own() {
             "",
         ),
     ];
-    for (text, options) in unclear {
+    let mixed = table("time,NS (g),EW (m/s2)", G, 2, seconds);
+    for (text, options) in unclear.into_iter().chain([(mixed, "")]) {
         let refusal = read_csv(&text, options);
         assert!(matches!(refusal, Err(RecordFileError::Column { .. })), "{}", &text[..40]);
     }

@@ -14,6 +14,8 @@ const DAY_S: f64 = 86400.0;
 const UNEVEN: f64 = 0.05;
 /// Relative difference of the peaks of two columns up to which they are one motion, such as in two units.
 const SAME_PEAK: f64 = 1e-3;
+/// By which factor the peaks of two components in different units may differ.
+const FAR_PEAKS: f64 = 5.0;
 /// Usual time steps, s: one alone above the samples is none of them.
 const USUAL_S: [f64; 9] = [0.001, 0.002, 0.0025, 0.004, 0.005, 0.01, 0.02, 0.04, 0.05];
 /// Names of horizontal components without an azimuth.
@@ -60,7 +62,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
     let mut motions = Vec::<RecordedMotion>::new();
     for column in columns {
         let motion = table.motion(&table.headings[column], table.samples(column, step)?, step)?;
-        if motions.iter().any(|other| is_same(other, &motion)) {
+        if motions.iter().any(|other| are_unlike_components(other, &motion)) {
             return Err(table.which_column());
         }
         motions.push(motion);
@@ -68,11 +70,14 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
     Ok(motions)
 }
 
-/// Whether two columns have one motion, such as in two units, or two instruments in one direction.
-fn is_same(motion: &RecordedMotion, other: &RecordedMotion) -> bool {
+/// Whether two columns cannot both be meant: one motion, such as in two units, two instruments in one
+/// direction, or peaks that differ as only those in wrong units do.
+fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> bool {
     let [pga, other_pga] = [motion, other].map(|motion| peak(&motion.acceleration_m_s2));
+    let are_far = (pga / other_pga).ln().abs() > FAR_PEAKS.ln();
     (pga - other_pga).abs() < SAME_PEAK * pga
         || motion.azimuth_deg.is_some() && motion.azimuth_deg == other.azimuth_deg
+        || motion.unit != other.unit && are_far
 }
 
 impl Samples<'_> {

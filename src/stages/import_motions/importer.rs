@@ -179,21 +179,16 @@ impl Importer {
 }
 
 impl File {
-    /// The files in an archive, named without their endings if they still differ; the file itself if it is
-    /// none.
+    /// The files in an archive, named among each other; the file itself if it is none.
     fn unpacked(&self, members: &[Member]) -> Vec<File> {
-        let stems = members.iter().map(|member| Path::new(member.name.as_deref()?).file_stem());
-        let differ = stems.collect::<HashSet<_>>().len() == members.len();
-        let files = members.iter().map(|member| {
-            let Some(inner) = member.name.as_deref().map(Path::new) else { return self.clone() };
-            let name = if differ { inner.file_stem() } else { inner.file_name() };
-            File {
-                path: self.path.join(inner),
-                below: Path::new(&self.below).join(inner).display().to_string(),
-                name: format!("{}/{}", self.name, text(name)),
-            }
+        let inner = members.iter().filter_map(|member| member.name.as_deref()).map(PathBuf::from);
+        let inner = named(inner.collect()).into_iter().map(|File { path, name, .. }| File {
+            below: Path::new(&self.below).join(&path).display().to_string(),
+            path: self.path.join(path),
+            name: format!("{}/{name}", self.name),
         });
-        files.collect()
+        let inner: Vec<File> = inner.collect();
+        if inner.is_empty() { vec![self.clone()] } else { inner }
     }
 }
 
