@@ -14,8 +14,6 @@ pub type Rated = Answer<RatesRow>;
 /// An evaluation of objects over the hazard of a site, or under one motion.
 #[derive(Debug, Clone, Default)]
 pub struct Evaluation {
-    /// Name of its file, where there are several.
-    pub file: String,
     /// The exposure time or the motion, in words: `in 50 years`.
     pub when: String,
     /// Probability of overturning that is aimed at.
@@ -68,24 +66,23 @@ pub struct SiteHazard {
 }
 
 impl Evaluation {
-    /// Joins evaluations of the same time of exposure, whose objects then have the names of their files.
+    /// Joins evaluations of the same time of exposure.
     pub fn joined(all: &[Evaluation]) -> Evaluation {
-        let [first, others @ ..] = all else { return Evaluation::default() };
-        let mut hazards: Vec<&str> = all.iter().map(|one| one.hazard.as_str()).collect();
-        hazards.dedup();
-        let mut joined = Evaluation {
-            target: first.target.filter(|target| others.iter().all(|other| other.target == Some(*target))),
-            hazard: hazards.join("; "),
-            rows: Vec::new(),
-            ..first.clone()
-        };
-        for Evaluation { file, rows, .. } in all {
-            joined.rows.extend(rows.iter().cloned());
-            let own = joined.rows.iter_mut().rev().take(rows.len()).filter(|_| !others.is_empty());
-            own.for_each(|rated| rated.object.file.clone_from(file));
+        let mut joined = all.first().cloned().unwrap_or_default();
+        for other in all.iter().skip(1) {
+            joined.target = joined.target.filter(|target| other.target == Some(*target));
+            if other.hazard_key != joined.hazard_key {
+                joined.hazard = format!("{}; {}", joined.hazard, other.hazard);
+            }
+            joined.rows.extend(other.rows.iter().cloned());
         }
         joined.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
         joined
+    }
+
+    /// The name of its file; none of a call's own answers.
+    pub fn file(&self) -> String {
+        self.rows.first().map_or(String::new(), |rated| literal(&rated.object.file))
     }
 }
 

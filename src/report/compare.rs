@@ -121,13 +121,13 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
     let velocity = if is_same { "" } else { " PGV/PGA is not shared, as the hazards differ." };
     let cancels = format!("The limits of a ratio leave out uncertainty that both rates share.{velocity}");
     let rated: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
-    let [file_before, file_after, hazards] = [&before.file, &after.file, &hazards].map(|name| literal(name));
+    let [file_before, file_after] = [before, after].map(Evaluation::file);
     Page {
         title: match &pairs[..] {
             [pair] => format!("{}, before and after", pair.before.object.name().unwrap_or("One object")),
             _ => format!("{}, before and after", number::counted(pairs.len(), "object")),
         },
-        place: format!("Before: {file_before}; after: {file_after}; {hazards}"),
+        place: format!("Before: {file_before}; after: {file_after}; {}", literal(&hazards)),
         sentence: sentence(&pairs, when, target),
         tiles: tiles(before, after, when, target),
         facts: [Some(cancels), limits_in_words(&rated)].into_iter().flatten().collect(),
@@ -204,11 +204,11 @@ fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String
         ("as before", same),
         ("not assessed before or after", silent.collect()),
         (
-            &format!("only in {}", literal(&before.file)),
+            &format!("only in {}", before.file()),
             before.rows.iter().filter(|rated| is_only_of(rated, after)).collect(),
         ),
         (
-            &format!("only in {}", literal(&after.file)),
+            &format!("only in {}", after.file()),
             after.rows.iter().filter(|rated| is_only_of(rated, before)).collect(),
         ),
     ] {

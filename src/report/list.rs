@@ -59,12 +59,13 @@ pub fn page(evaluation: &Evaluation) -> Page {
         _ if upstairs == answered.len() => "on floors".to_string(),
         _ => format!("{} on the ground, {} on floors", answered.len() - upstairs, upstairs),
     };
-    let file = Some(literal(&worst.object.file)).filter(|file| !file.is_empty());
+    let several = rows.iter().any(|rated| rated.object.file != worst.object.file);
+    let file = if several { format!(" ({})", literal(&worst.object.file)) } else { String::new() };
     let sentences = [
         format!(
             "{}{}, {}, is the most likely to overturn: {}.",
             worst.object.marked_name(),
-            file.map_or(String::new(), |file| format!(" ({file})")),
+            file,
             literal(&worst.object.place()),
             worst.sentence(when).trim_start_matches("overturns with a probability of ")
         ),
@@ -106,8 +107,8 @@ fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
     let files = by(rows, |rated| &rated.object.file);
     for rows in files.iter().take(FILES) {
         let expected = Expected::new(rows.iter().copied());
-        let file = Some(literal(&rows[0].object.file)).filter(|file| !file.is_empty());
-        let file = file.map_or(String::new(), |file| format!(" ({file})"));
+        let file = literal(&rows[0].object.file);
+        let file = if files.len() > 1 { format!(" ({file})") } else { String::new() };
         let words = format!("of {} objects expected to overturn {when}{file}", number::plain(expected.all));
         tiles.push(Tile::new(expected.number(), words));
     }

@@ -319,16 +319,13 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
 
 /// What the answer rests on.
 pub fn facts(all: &[&Rated]) -> Vec<String> {
-    let mut upstairs = all.iter().filter(|rated| rated.object.is_upstairs()).peekable();
-    let is_upstairs = upstairs.peek().is_some();
-    let level = if upstairs.any(|rated| rated.object.floor.is_none()) {
-        " 60 % up is at 60 % of its height."
-    } else {
-        ""
-    };
-    let building = format!("The building is taken as linear.{level}");
+    let mut upstairs = all.iter().map(|rated| &rated.object).filter(|object| object.is_upstairs());
+    let building = upstairs.clone().next().map(|_| match upstairs.any(|object| object.floor.is_none()) {
+        true => "The building is taken as linear; 60 % up is at 60 % of its height.".to_string(),
+        false => "The building is taken as linear.".to_string(),
+    });
     let model = all.first().and_then(|worst| model_in_words(&worst.object));
-    let facts = [Some(ANGLES.to_string()), is_upstairs.then_some(building), model, limits_in_words(all)];
+    let facts = [Some(ANGLES.to_string()), building, model, limits_in_words(all)];
     facts.into_iter().flatten().collect()
 }
 

@@ -47,7 +47,7 @@ pub struct ObjectRow {
     /// Block, body or frame; empty if read from a file.
     #[serde(skip)]
     pub kind: &'static str,
-    /// Name of its file, where there are several.
+    /// Name of its file; empty if not read from one.
     #[serde(skip)]
     pub file: String,
     /// Whether friction was given, and is enough.

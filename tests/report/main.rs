@@ -417,7 +417,11 @@ fn what_is_changed_comes_first_and_is_named() {
 /// The same object may stand in both files.
 #[test]
 fn the_expected_number_is_that_of_each_file() {
-    let [one, other] = ["a", "b"].map(|file| Evaluation { file: file.to_string(), ..evaluation(4, 1e-3) });
+    let [one, other] = ["a", "b"].map(|file| {
+        let mut evaluation = evaluation(4, 1e-3);
+        evaluation.rows.iter_mut().for_each(|rated| rated.object.file = file.to_string());
+        evaluation
+    });
     let expected = |page: Page| page.tiles[..2].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
     let alone = expected(list::page(&one)).remove(0);
     assert_eq!(expected(list::page(&Evaluation::joined(&[one, other]))), [alone.clone(), alone]);

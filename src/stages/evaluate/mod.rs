@@ -170,13 +170,7 @@ impl Stage for Evaluate {
         let models = self.model.read()?;
         if let Some(path) = &self.input {
             let mut renames = Renames::new(&self.columns);
-            let call = table::Call {
-                structures: &self.structures,
-                place: &self.place.place(),
-                models: &models,
-                magnitude: self.magnitude,
-            };
-            let (rows, text) = table::evaluate(path, &mut renames, &call, context)?;
+            let (rows, text) = table::evaluate(self, path, &mut renames, &models, context)?;
             renames.expect_used()?;
             let printed = self.printed(&rows, text)?;
             self.write(&rows, printed, context, || {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use rayon::prelude::*;
 
+use super::Evaluate;
 use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
@@ -16,12 +17,11 @@ use crate::inputs::Renames;
 use crate::inputs::intensities::{self, Cells};
 use crate::motion::{Peaks, judge_medians};
 use crate::number::counted;
-use crate::object::{Object, Place, Restitution, Subject};
+use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
-use crate::stages::shared::objects::StructureArgs;
 use crate::table::TableError;
 use crate::table::answers::DoubtsRow;
 use crate::table::columns::Batch;
@@ -29,30 +29,21 @@ use crate::table::file::Table;
 use crate::table::rows;
 use crate::warning::Warning;
 
-/// What a call says of all rows.
-#[derive(Clone, Copy)]
-pub struct Call<'a> {
-    pub structures: &'a StructureArgs,
-    pub place: &'a Place,
-    pub models: &'a Models,
-    /// Magnitude of rows without one.
-    pub magnitude: Option<f64>,
-}
-
 /// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
 /// is given each row has its own.
 pub fn evaluate(
+    call: &Evaluate,
     path: &Path,
     renames: &mut Renames,
-    call: &Call,
+    models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
-    let Call { structures, place, models, magnitude } = *call;
+    let (structures, place) = (&call.structures, call.place.place());
     let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
         true => read_parquet(path, renames)?,
         false => vec![Batch { path: path.into(), first_row: 0, rows: read_grid(path, renames)? }],
     };
-    let given = if structures.is_given() { structures.objects(place, renames)?.0 } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(&place, renames)?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -77,11 +68,11 @@ pub fn evaluate(
         for structure in &structures {
             if let Entry::Vacant(entry) = known.entry(bits(structure)) {
                 let object = Object::with_parameters(structure.clone(), Restitution::Number);
-                entry.insert(models.subject(&object.at(place))?);
+                entry.insert(models.subject(&object.at(&place))?);
             }
         }
         let subject = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
-        evaluated.push(with_probabilities(batch, subject, magnitude, context)?);
+        evaluated.push(with_probabilities(batch, subject, call.magnitude, context)?);
         bar.advance(batch.rows.num_rows())?;
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {

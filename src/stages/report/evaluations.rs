@@ -22,10 +22,13 @@ const MOST_TRACES: usize = 50;
 /// The evaluation in a file.
 pub fn read(path: &Path, made: Option<&Provenance>) -> Result<Evaluation, TableError> {
     let (objects, doubts) = (rows::read::<ObjectRow>(path)?, rows::read::<DoubtsRow>(path)?);
-    let answers = objects.into_iter().zip(rows::read::<RatesRow>(path)?).zip(doubts);
-    let answers = answers.map(|((object, row), doubts)| Answer { object, row, doubts, ..Answer::default() });
     let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(Evaluation { file, ..pages::over_hazard(answers.collect(), &made.cloned().unwrap_or_default()) })
+    let mut answers = Vec::new();
+    for ((object, row), doubts) in objects.into_iter().zip(rows::read::<RatesRow>(path)?).zip(doubts) {
+        let object = ObjectRow { file: file.clone(), ..object };
+        answers.push(Answer { object, row, doubts, ..Answer::default() });
+    }
+    Ok(pages::over_hazard(answers, &made.cloned().unwrap_or_default()))
 }
 
 /// The fragility curves of a file, those that need least first.

@@ -190,7 +190,7 @@ impl Tables {
             silent.when.clone_from(&first);
         }
         for other in tables.evaluations.extract_if(.., |evaluation| evaluation.when != first) {
-            let Evaluation { file, when, .. } = other;
+            let (file, when) = (other.file(), other.when);
             tables.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
         }
         Ok(tables)
