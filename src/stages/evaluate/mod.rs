@@ -241,7 +241,7 @@ impl Evaluate {
         let text = fragility::text(&all, self.out.as_deref());
         let printed = self.printed(&[answer_rows(&all, context)?], text)?;
         let page = || {
-            let outline = pages::outline(&objects, models)?;
+            let outline = pages::portrait(&objects, models, None, self.years)?.outline;
             let hazard = site.as_ref().and_then(|_| context.made().names("hazard"));
             Ok(fragilities::page(&all, outline, hazard.as_deref()))
         };
@@ -264,7 +264,7 @@ impl Evaluate {
             context.warn(expect_counted(&all, &site, path)?);
         }
         let page = || {
-            let portrait = pages::portrait(&objects, models, &site, self.years)?;
+            let portrait = pages::portrait(&objects, models, Some(&site), self.years)?;
             Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), context.made()) }))
         };
         let text = rates::text(&all, &site, self.target, self.out.as_deref());

@@ -52,17 +52,20 @@ pub fn page(evaluation: &Evaluation) -> Page {
     }
 }
 
-/// The only object of a call, if it has an answer.
-fn alone<'a>(objects: &'a [Object], models: &Models) -> anyhow::Result<Option<(&'a Object, Subject)>> {
-    Ok(match objects {
-        [object] if object.sides().is_ok() => Some((object, models.subject(object)?.0)),
-        _ => None,
-    })
-}
-
-/// What the page shows besides the row of an object that is alone.
-pub fn portrait(objects: &[Object], models: &Models, site: &Site, years: f64) -> anyhow::Result<Portrait> {
-    let Some((object, subject)) = alone(objects, models)? else { return Ok(Portrait::default()) };
+/// What the page shows besides the row of an object that is alone; without a site its outline.
+pub fn portrait(
+    objects: &[Object],
+    models: &Models,
+    site: Option<&Site>,
+    years: f64,
+) -> anyhow::Result<Portrait> {
+    let [object] = objects else { return Ok(Portrait::default()) };
+    if object.sides().is_err() {
+        return Ok(Portrait::default());
+    }
+    let subject = models.subject(object)?.0;
+    let outline = outline(object, &subject);
+    let Some(site) = site else { return Ok(Portrait { outline, ..Portrait::default() }) };
     let p = vec![overturning(&subject, site, years)];
     let mut changes = vec![Change { words: "as it is".to_string(), is_moved: false, p }];
     for changed in object.changes() {
@@ -83,16 +86,11 @@ pub fn portrait(objects: &[Object], models: &Models, site: &Site, years: f64) ->
     };
     let parts = site.rate_by_intensity(&subject, BINS);
     let hazard = curve.ok().map(|curve| SiteHazard { peak, curve, parts });
-    Ok(Portrait { outline: outlined(object, &subject), fragility: site.fragility(&subject), hazard, changes })
-}
-
-/// The outline of an object that is alone.
-pub fn outline(objects: &[Object], models: &Models) -> anyhow::Result<Option<Outline>> {
-    Ok(alone(objects, models)?.and_then(|(object, subject)| outlined(object, &subject)))
+    Ok(Portrait { outline, fragility: site.fragility(&subject), hazard, changes })
 }
 
 /// The object over the side to which it falls first.
-fn outlined(object: &Object, subject: &Subject) -> Option<Outline> {
+fn outline(object: &Object, subject: &Subject) -> Option<Outline> {
     let shape = &object.shape;
     let (width, height) = shape.width.zip(shape.height)?;
     let centre_height = shape.centre_height.unwrap_or(0.5 * height);
