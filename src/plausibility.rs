@@ -77,8 +77,8 @@ pub fn range_of_column(name: &str) -> (RangeInclusive<f64>, &'static str) {
 /// Annual rate at which no place on earth has 1 g or 1 m/s, and by which power of the peak it falls.
 const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 
-/// PGA or spectral acceleration, g, and PGV, m/s, that the hazard of any site reaches.
-const REACHED: f64 = 0.03;
+/// PGA, g, that the hazard of any site reaches; PGV, m/s, and SA(1.0 s), g, reach a third of it.
+const REACHED_PGA_G: f64 = 0.03;
 
 /// Strong motion more frequent than anywhere on earth.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -92,8 +92,9 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), Implausi
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
     let (unit, strongest) = if is_velocity { ("m/s", STRONGEST_PGV_M_S) } else { ("g", STRONGEST_PGA_G) };
     let most = points.iter().map(|(value, _)| *value).fold(0.0, f64::max);
-    if most < REACHED && !points.is_empty() {
-        let (most, expected) = (significant(most, 3), format!("expected {REACHED} {unit} or more"));
+    let reached = if measure == "PGA" { REACHED_PGA_G } else { REACHED_PGA_G / 3.0 };
+    if most < reached && !points.is_empty() {
+        let (most, expected) = (significant(most, 3), format!("expected {reached} {unit} or more"));
         return Err(ImplausibleHazard(format!(
             "{measure} of {most} {unit} at most; {expected}: a wrong unit?"
         )));

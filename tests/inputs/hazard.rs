@@ -187,7 +187,7 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         ("PGA (g),AFE\n(m/s2),\n0.1,0.01\n0.2,0.001\n".to_string(), "", "Units"),
         ("pga_g,AFE\n0.4,0.01\n0.1,0.02\n0.2,0.03\n".to_string(), "", "Cell { line: 4, heading: \"AFE\""),
         ("pga_g,PoE in 50 years\n0.1,60%\n0.2,0.3\n0.4,1\n".to_string(), "", "Cell { line: 4"),
-        (table("PGV (cm/s),AFE", |a| format!("{},{}", 0.5 * a, rate(a))), "", "wrong unit"),
+        (table("PGV (cm/s),AFE", |a| format!("{},{}", 0.2 * a, rate(a))), "", "wrong unit"),
         ("TR,pga_g\n50,0.1\n475,0.4\n475,0.4\n".to_string(), "", "Cell { line: 4, heading: \"TR\""),
     ] {
         let found = kind(&text, columns);
