@@ -120,7 +120,7 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), Implausi
 }
 
 /// Spectral acceleration at 1 s over PGA, each exceeded as often, of any site.
-const SPECTRAL_OVER_PGA: RangeInclusive<f64> = 0.1..=4.0;
+const SPECTRAL_OVER_PGA: RangeInclusive<f64> = 0.1..=3.0;
 
 /// Judges spectral accelerations at 1 s over PGA, each exceeded as often, by their median.
 pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), ImplausibleHazard> {
@@ -129,7 +129,7 @@ pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), Implausib
         Some(ratio) if ratio < *SPECTRAL_OVER_PGA.start() => "is it in g, beside PGA in m/s2 or cm/s2?",
         _ => return Ok(()),
     };
-    Err(ImplausibleHazard(format!("SA(1.0 s) is not 0.1 to 4 times PGA at the same rates: {unit}")))
+    Err(ImplausibleHazard(format!("SA(1.0 s) is not 0.1 to 3 times PGA at the same rates: {unit}")))
 }
 
 /// Least m of the longest of the sides, and of the heights, of a list of objects.

@@ -210,7 +210,7 @@ fn curves_given_together_are_of_one_site_and_in_their_units() {
         (&pga, with("# lon=13.9\n", "SA(1.0) (g),AFE", 0.5), "lon 13.4 and 13.9"),
         (&pga, at("Vs30 (m/s)", "SA(1.0) (g)", "400"), "vs30 760 and 400"),
         (&in_rows, at("lon,lat", "PGV (m/s)", "13.4,42.9"), "lat 42.3 and 42.9"),
-        (&pga, with("", "SA(1.0) (g),AFE", 9.81), "1.csv: SA(1.0 s) is not 0.1 to 4 times PGA"),
+        (&pga, with("", "SA(1.0) (g),AFE", 9.81), "1.csv: SA(1.0 s) is not 0.1 to 3 times PGA"),
         (&pga, with("", "SA(1.0) (m/s2),AFE", 0.5), "in g, beside PGA in m/s2"),
         (&pga, with("", "SA(1.0) (g),AFE", 50.0), "SA(1.0 s) of"),
         (&pga, with("", "SA(1.0) (g),AFE", 1.0), "SA(1.0 s) as PGA"),
