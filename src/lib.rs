@@ -23,10 +23,9 @@
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
 //! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
-//! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded. With PGA alone
-//! // (Hazard::over), PGV / PGA is that of generic sites, and the limits are wider.
-//! let curve = |values: [f64; 4]| HazardCurve::new(values.into_iter().zip([2e-2, 5e-4, 8e-6, 4e-7]).collect());
-//! let (pga, sa_1s) = (curve([0.5, 5.0, 20.0, 45.0])?, curve([0.5, 4.0, 15.0, 32.0])?);
+//! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded.
+//! let pga = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
+//! let sa_1s = HazardCurve::new(vec![(0.5, 2e-2), (4.0, 5e-4), (15.0, 8e-6), (32.0, 4e-7)])?;
 //! let rates = Site::new(Hazard::with_spectrum(pga, &sa_1s)?).rates(&subject);
 //! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };
 //! let p = rate.map(|rate| 100.0 * probability_in_years(rate, 50.0));
@@ -36,23 +35,8 @@
 //! ```
 //!
 //! The limits account for the uncertainty of the model, magnitude, PGV, restitution, object and floor. An
-//! [`Object`](object::Object) can carry more detail:
-//!
-//! ```
-//! # use rockfrag::fragility::Kind;
-//! # use rockfrag::hazard::Motion;
-//! # use rockfrag::object::{Object, Subject};
-//! // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
-//! let mut cabinet = Object::block("cabinet", 0.5, 1.9);
-//! cabinet.shape.depth = Some(0.8);
-//! (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
-//! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
-//! // Under one motion of the ground, of 0.3 g; its PGV is that of such motions.
-//! let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
-//! let p = motion.probabilities(&subject).states.overturning;
-//! assert!(p.low < p.value && p.value < p.high);
-//! # Ok::<(), rockfrag::object::Reason>(())
-//! ```
+//! [`Object`](object::Object) can carry more detail: depth, floor, what was measured. A
+//! [`Motion`](hazard::Motion) in place of a site gives probabilities.
 //!
 //! # The response to a record
 //!
@@ -81,9 +65,9 @@
 //! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
-//! | [`object`] | what is known of an object, and what is not | not in the paper |
-//! | [`hazard`] | hazard curves, annual rates, probabilities under one motion | not in the paper |
-//! | [`records`] | recorded motions: formats, processing, pulses | not in the paper |
+//! | [`object`] | what is known of an object, and what is not | |
+//! | [`hazard`] | hazard curves, annual rates, probabilities under one motion | |
+//! | [`records`] | recorded motions: formats, processing, pulses | |
 //! | [`studies`] | ranking of measures, validation, comparison with the paper | tables, worked example |
 //! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
 //! | [`paper`] | what the paper publishes | sections 2 and 3 |

@@ -16,7 +16,7 @@ use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::{Estimate, independent_errors, variance};
+use crate::statistics::{Bounds, Estimate, independent_errors, variance};
 use crate::warning::Warning;
 
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
@@ -45,12 +45,9 @@ pub struct Calibration {
     pub expected: f64,
     pub n_clusters: i64,
     /// Least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motions that it was fitted to.
-    pub pga_low: Option<f64>,
-    pub pga_high: Option<f64>,
-    pub pgv_low: Option<f64>,
-    pub pgv_high: Option<f64>,
-    pub ratio_low: Option<f64>,
-    pub ratio_high: Option<f64>,
+    pub pga: Bounds,
+    pub pgv: Bounds,
+    pub ratio: Bounds,
     /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: the fields of RatioGiven.
     pub ratio_given_pga: Vec<f64>,
     pub ratio_given_pgv: Vec<f64>,
@@ -157,9 +154,6 @@ impl Calibration {
     fn fitted(&self, cases: &[Observed]) -> Calibration {
         let (at, covariance, n_clusters) = maximum(cases, &surface::prior(self.kind, self.limit_state));
         let peaks = cases.iter().map(|case| case.peaks);
-        let (pga_low, pga_high) = ends(peaks.clone().map(|peaks| peaks.pga_m_s2));
-        let (pgv_low, pgv_high) = ends(peaks.clone().map(|peaks| peaks.pgv_m_s));
-        let (ratio_low, ratio_high) = ends(peaks.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
         Calibration {
             c: at[0],
             ln_s: at[1],
@@ -169,12 +163,9 @@ impl Calibration {
             n_events: cases.iter().filter(|case| case.happened).count() as i64,
             expected: cases.iter().map(|case| case.expected).sum(),
             n_clusters: n_clusters as i64,
-            pga_low,
-            pga_high,
-            pgv_low,
-            pgv_high,
-            ratio_low,
-            ratio_high,
+            pga: peaks.clone().map(|peaks| peaks.pga_m_s2).collect(),
+            pgv: peaks.clone().map(|peaks| peaks.pgv_m_s).collect(),
+            ratio: peaks.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2).collect(),
             ..self.clone()
         }
     }
@@ -271,14 +262,8 @@ impl Calibration {
     /// motion is fitted to all that the surface covers.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
-        let ranges = [
-            (pga_m_s2, self.pga_low, self.pga_high),
-            (pgv_m_s, self.pgv_low, self.pgv_high),
-            (pgv_m_s / pga_m_s2, self.ratio_low, self.ratio_high),
-        ];
-        ranges.iter().all(|(value, low, high)| {
-            low.is_none_or(|low| *value >= low / LIKE) && high.is_none_or(|high| *value <= high * LIKE)
-        })
+        let fitted = [(self.pga, pga_m_s2), (self.pgv, pgv_m_s), (self.ratio, pgv_m_s / pga_m_s2)];
+        fitted.iter().all(|(bounds, value)| bounds.has(*value, LIKE))
     }
 }
 
@@ -365,11 +350,6 @@ fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64
 
 fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
-}
-
-/// Least and largest value; none without values.
-fn ends(values: impl Iterator<Item = f64> + Clone) -> (Option<f64>, Option<f64>) {
-    (values.clone().reduce(f64::min), values.reduce(f64::max))
 }
 
 /// A response that counts.

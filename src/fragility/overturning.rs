@@ -1,6 +1,5 @@
 //! P_ro: the probability of overturning given rocking, as a lognormal curve of one measure or of a hybrid of
-//! two (section 2.3.3, Eqs. 19 to 24). From top to bottom: the curve, the hybrid measure, the likelihood and
-//! its maximum, the parameters of the curve.
+//! two (section 2.3.3, Eqs. 19 to 24). The likelihood and its maximum are in `statistics::binary`.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -9,6 +9,23 @@ use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Estimate;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
+///
+/// ```
+/// use rockfrag::fragility::Kind;
+/// use rockfrag::hazard::Motion;
+/// use rockfrag::object::{Object, Subject};
+///
+/// // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
+/// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
+/// cabinet.shape.depth = Some(0.8);
+/// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
+/// let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+/// // A motion of the ground of 0.3 g; its PGV is that of such motions.
+/// let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
+/// let p = motion.probabilities(&subject).states.overturning;
+/// assert!(p.low < p.value && p.value < p.high);
+/// # Ok::<(), rockfrag::object::Reason>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
     /// PGA, m/s2.

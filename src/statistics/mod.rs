@@ -38,4 +38,4 @@ pub use clusters::Folds;
 pub use estimate::{Estimate, Limited};
 pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};
-pub use range::Range;
+pub use range::{Bounds, Range};

@@ -1,5 +1,7 @@
 //! The values between two bounds.
 
+use serde::{Deserialize, Serialize};
+
 /// The values from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
@@ -30,5 +32,30 @@ impl Range {
     /// Returns the range of the logarithms.
     pub fn ln(&self) -> Range {
         Range { low: self.low.ln(), high: self.high.ln() }
+    }
+}
+
+/// The bounds of values, if there are any.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Bounds {
+    pub low: Option<f64>,
+    pub high: Option<f64>,
+}
+
+impl FromIterator<f64> for Bounds {
+    fn from_iter<I: IntoIterator<Item = f64>>(values: I) -> Bounds {
+        values.into_iter().fold(Bounds::default(), |Bounds { low, high }, value| Bounds {
+            low: Some(low.map_or(value, |low| low.min(value))),
+            high: Some(high.map_or(value, |high| high.max(value))),
+        })
+    }
+}
+
+impl Bounds {
+    /// Returns whether a value is within this factor of values between them; any is where a bound is missing.
+    pub fn has(&self, value: f64, factor: f64) -> bool {
+        self.low.is_none_or(|low| value >= low / factor)
+            && self.high.is_none_or(|high| value <= high * factor)
     }
 }

@@ -17,8 +17,8 @@ pub fn explained(model: &Model, structure: &Structure, motion: Peaks, budget: &B
         Model::Calibrated { overturning, exceeding, .. } => {
             lines.push(("overturning:", calibration(overturning)));
             lines.push(("too far:", calibration(exceeding)));
-            let Calibration { pga_low, pga_high, ratio_low, ratio_high, .. } = *overturning;
-            if let Some(((low, high), (least, most))) = pga_low.zip(pga_high).zip(ratio_low.zip(ratio_high)) {
+            let Calibration { pga, ratio, .. } = overturning;
+            if let Some(((low, high), (least, most))) = pga.low.zip(pga.high).zip(ratio.low.zip(ratio.high)) {
                 let [low, high, least, most] =
                     [low / G_M_S2, high / G_M_S2, least, most].map(|value| significant(value, 3));
                 let words = format!("PGA of {low} to {high} g, PGV/PGA of {least} to {most} s");
