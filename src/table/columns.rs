@@ -93,6 +93,10 @@ impl Batch {
                     format!("null, or with a null; expected {expected}"),
                 ));
             };
+            // Our own, without a detour by options.
+            if let Some(own) = list.as_primitive_opt::<Float32Type>() {
+                return Ok(own.values().iter().map(|value| f64::from(*value)).collect());
+            }
             let numbers = numbers(&list).ok_or_else(|| self.other_type(name, column, expected))?;
             // The record tells of NaN.
             Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
