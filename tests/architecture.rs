@@ -195,7 +195,11 @@ fn columns_of_rows() -> BTreeSet<String> {
         let lines =
             bodies.flat_map(|body| body.lines().map(str::trim).filter(|line| !line.starts_with("//")));
         let columns = |(name, kind): (&str, &str)| {
-            let ends: &[&str] = if kind == "Limited," { &["", "_low", "_high"] } else { &[""] };
+            let ends: &[&str] = match kind {
+                "Limited," => &["", "_low", "_high"],
+                "Bounds," => &["_low", "_high"],
+                _ => &[""],
+            };
             ends.iter().map(|end| format!("{name}{end}")).collect::<Vec<_>>()
         };
         let fields = lines.filter_map(|line| line.trim_start_matches("pub ").split_once(": "));
