@@ -148,6 +148,12 @@ impl ObjectRow {
         self.name().map_or_else(|| format!("{} of {}", self.kind(), self.size()), literal)
     }
 
+    /// The name, and the floor if it stands on one: marked text.
+    pub fn name_and_floor(&self) -> String {
+        let floor = self.is_upstairs().then(|| format!(", {}", self.short_place()));
+        self.marked_name() + &floor.unwrap_or_default()
+    }
+
     /// The name and the size, for the title of a page.
     pub fn marked_title(&self) -> String {
         let size = self.name().map_or(String::new(), |_| format!(", {}", self.size()));

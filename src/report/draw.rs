@@ -255,24 +255,25 @@ impl Pen {
         if panel.frame == Frame::ToScale {
             let longest = (x.length() / width).max(y.length() / height);
             (x, y) = (x.over_length(longest * width), y.over_length(longest * height));
-        } else {
-            self.guides(&y, area);
+        }
+        let place = Place { x, y, area };
+        if panel.frame == Frame::Axes {
+            self.axes(panel, &place);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
-        let [x_at, y_at, wide, high] = [left, top, width, height].map(round);
-        let _ = writeln!(self.text, "<svg x=\"{x_at}\" y=\"{y_at}\" width=\"{wide}\" height=\"{high}\">");
-        let inside = Place { x: &x, y: &y, area: Area { left: 0.0, top: 0.0, ..area } };
+        let [x, y, wide, high] = [left, top, width, height].map(round);
+        let _ = writeln!(
+            self.text,
+            "<svg x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{high}\" viewBox=\"{x} {y} {wide} {high}\">"
+        );
         for layer in &panel.layers {
-            self.marks(layer, !panel.names().is_empty(), &inside);
+            self.marks(layer, !panel.names().is_empty(), &place);
         }
         self.text.push_str("</svg>\n");
         for words in &panel.words {
-            let at = Place { area, ..inside }.at(words.x, words.y);
+            let at = place.at(words.x, words.y);
             let x = if words.side == Side::Margin { left + width } else { at.x };
             self.beside(Point { x, ..at }, words);
-        }
-        if panel.frame == Frame::Axes {
-            self.axes(panel, &x, &y, area);
         }
         // Titles stand over the ticks, not over the names of rows.
         let room = if panel.names().is_empty() { LEFT } else { NAMES };
@@ -282,41 +283,34 @@ impl Pen {
         self.label(Point::new(edge, top - GAP), SMALL, "", Ink::Muted, &panel.y.label);
     }
 
-    /// Faint lines behind the data: at labelled ticks of y, or along rows.
-    fn guides(&mut self, y: &Ruler, area: Area) {
-        let mut d = String::new();
-        for tick in y.ticks(y_ticks(area.height)).iter().filter(|tick| tick.label.is_some()) {
-            let at = area.y_at(y, tick.value);
-            d += &course(&[Point::new(area.left, at), Point::new(area.left + area.width, at)]);
-        }
-        self.stroke(&d, Ink::Rule.colour(), 0.45, "");
-    }
-
-    fn axes(&mut self, panel: &Panel, x: &Ruler, y: &Ruler, area: Area) {
-        let Area { left, top, width, height } = area;
-        let (bottom, middle) = (top + height, " text-anchor=\"middle\"");
-        let mut d = course(&[Point::new(left, bottom), Point::new(left + width, bottom)]);
-        for tick in x.ticks((width / 28.0) as usize) {
-            let at = left + width * x.fraction(tick.value);
-            let length = if tick.label.is_some() { 3.0 } else { 1.6 };
-            d += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
-            if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
-                self.label(Point::new(at, bottom + 10.5), SMALL, middle, Ink::Muted, &words);
-            }
-        }
-        let room = left - 4.0;
-        for tick in y.ticks(y_ticks(height)) {
-            let place = Point::new(room, area.y_at(y, tick.value) + 0.35 * SMALL);
+    /// The axes; faint lines stand at labelled ticks of y, or along rows.
+    fn axes(&mut self, panel: &Panel, place: &Place) {
+        let Area { left, top, width, height } = place.area;
+        let (bottom, right, middle) = (top + height, left + width, " text-anchor=\"middle\"");
+        let (room, mut lines) = (left - 4.0, String::new());
+        for tick in place.y.ticks(((height / 18.0) as usize).max(5)) {
             let Some(words) = tick.label else { continue };
+            let at = place.down(tick.value);
+            lines += &course(&[Point::new(left, at), Point::new(right, at)]);
             let (ink, words) = match panel.names() {
                 [] => (Ink::Muted, words),
                 _ => (Ink::Text, literal(&shortened(&words, room, SMALL))),
             };
-            self.label(place, SMALL, " text-anchor=\"end\"", ink, &words);
+            self.label(Point::new(room, at + 0.35 * SMALL), SMALL, " text-anchor=\"end\"", ink, &words);
         }
-        self.stroke(&d, Ink::Muted.colour(), 0.6, "");
-        let place = Point::new(left + 0.5 * width, bottom + 21.0);
-        self.label(place, SMALL, middle, Ink::Muted, &panel.x.label);
+        self.stroke(&lines, Ink::Rule.colour(), 0.45, "");
+        let mut axis = course(&[Point::new(left, bottom), Point::new(right, bottom)]);
+        for tick in place.x.ticks((width / 28.0) as usize) {
+            let at = place.across(tick.value);
+            let length = if tick.label.is_some() { 3.0 } else { 1.6 };
+            axis += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
+            if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
+                self.label(Point::new(at, bottom + 10.5), SMALL, middle, Ink::Muted, &words);
+            }
+        }
+        self.stroke(&axis, Ink::Muted.colour(), 0.6, "");
+        let label = Point::new(left + 0.5 * width, bottom + 21.0);
+        self.label(label, SMALL, middle, Ink::Muted, &panel.x.label);
     }
 
     /// Draws the marks of a layer, each value at its place.
@@ -362,26 +356,23 @@ impl Pen {
     }
 }
 
-fn y_ticks(height: f64) -> usize {
-    ((height / 18.0) as usize).max(5)
-}
-
-impl Area {
-    fn y_at(&self, y: &Ruler, value: f64) -> f64 {
-        self.top + self.height * (1.0 - y.fraction(value))
-    }
-}
-
 /// Where values stand in a picture.
-#[derive(Clone, Copy)]
 struct Place<'a> {
-    x: &'a Ruler<'a>,
-    y: &'a Ruler<'a>,
+    x: Ruler<'a>,
+    y: Ruler<'a>,
     area: Area,
 }
 
 impl Place<'_> {
+    fn across(&self, x: f64) -> f64 {
+        self.area.left + self.area.width * self.x.fraction(x)
+    }
+
+    fn down(&self, y: f64) -> f64 {
+        self.area.top + self.area.height * (1.0 - self.y.fraction(y))
+    }
+
     fn at(&self, x: f64, y: f64) -> Point {
-        Point::new(self.area.left + self.area.width * self.x.fraction(x), self.area.y_at(self.y, y))
+        Point::new(self.across(x), self.down(y))
     }
 }

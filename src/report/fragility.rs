@@ -27,11 +27,11 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
     let mut layers = Vec::new();
     for (number, (object, fragility)) in known.iter().take(DRAWN).enumerate() {
         let marks = curve(fragility, LimitState::Overturning, known.len() < 3);
-        layers.push(Layer::line(&object.marked_name(), Ink::Data(number), marks));
+        layers.push(Layer::line(&object.name_and_floor(), Ink::Data(number), marks));
     }
     let rest = match known.len().saturating_sub(DRAWN) {
         0 => String::new(),
-        rest => format!(" Not drawn: {} that need more.", number::counted(rest, "object")),
+        rest => format!(" Not drawn: {} that take a stronger motion.", number::counted(rest, "object")),
     };
     let (what, averaged) = (first.over.words().0, averaged(first.over));
     let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
@@ -92,9 +92,9 @@ fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
     let heads = ["object", &half, "95 % limits", "16 %", "84 %", "beta", "half rock too far, or overturn at"];
     let mut rows = Vec::new();
     for one in all {
-        let mut row = vec![one.object.marked_name()];
+        let mut row = vec![one.object.name_and_floor()];
         match &one.row.curve {
-            None => row.push("not assessed".to_string()),
+            None => row.extend(["", "not assessed"].map(str::to_string)),
             Some(Fragility { over, overturning, failure, .. }) => {
                 row.extend(cells(*over, overturning, "").iter().map(|cell| cell.replace(['(', ')'], "")));
                 row.push(overturning.beta.map_or(String::new(), |beta| significant(beta, 2)));

@@ -29,9 +29,7 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
     let mut rows = Vec::new();
     for rated in drawn {
         let Rated { object, row, .. } = rated;
-        let floor = object.is_upstairs().then(|| format!(", {}", object.short_place()));
-        let name = object.marked_name() + &floor.unwrap_or_default();
-        rows.push(Row::new(&name, Ink::Band(rated.band()), &[row.p_overturning]));
+        rows.push(Row::new(&object.name_and_floor(), Ink::Band(rated.band()), &[row.p_overturning]));
     }
     let rest = match answered.len() - drawn.len() {
         0 => String::new(),

@@ -286,7 +286,7 @@ fn tiles_of_changes(changes: &[Change]) -> Vec<Tile> {
     let probability = |change: &Change| change.p[0].value.unwrap_or(1.0);
     let tile = |Change { words, p, .. }: &Change, sign: &str| {
         let limits = PERCENT.limits(p[0], "95 % limits ");
-        Tile::new(PERCENT.value(p[0]), format!("{words}{sign} {limits}"))
+        Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{sign} {limits}"))
     };
     let objects = others.iter().filter(|change| change.p.len() == 1);
     let best = objects.min_by(|a, b| probability(a).total_cmp(&probability(b)));

@@ -252,7 +252,10 @@ fn values_stand_where_the_axes_say() {
         ..Default::default()
     };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(svg(&figure, "").contains("M234.1 50h0"), "half of 510.2 - 30 - 12 points, and of 100");
+    assert!(
+        svg(&figure, "").contains("M264.1 66h0"),
+        "30 and half of 510.2 - 30 - 12 points, 16 and half of 100"
+    );
 }
 
 #[test]
