@@ -77,7 +77,7 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
     let are_far = (pga / other_pga).ln().abs() > FAR_PEAKS.ln();
     (pga - other_pga).abs() < SAME_PEAK * pga
         || motion.azimuth_deg.is_some() && motion.azimuth_deg == other.azimuth_deg
-        || motion.unit != other.unit && are_far
+        || motion.unit != other.unit && are_far && !motion.is_vertical() && !other.is_vertical()
 }
 
 impl Samples<'_> {
