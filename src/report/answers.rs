@@ -122,8 +122,8 @@ impl ObjectRow {
     /// The same in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
     pub fn short_place(&self) -> String {
         let place = self.place().replace(" the building", "");
-        let bare = place.strip_prefix("on the ").or(place.strip_prefix("on "));
-        literal(bare.unwrap_or(&place)).replace(' ', "\u{a0}")
+        let bare = place.trim_start_matches("on ").trim_start_matches("the ");
+        literal(bare).replace(' ', "\u{a0}")
     }
 
     /// The floor and the period of the building after a sign: `, 60 % up the building (period 0.5 s)`;
@@ -202,19 +202,15 @@ impl Answer<RatesRow> {
     /// The limit states, each beyond those before; and overturning as counted in responses.
     pub fn states(&self) -> Vec<State> {
         let row = &self.row;
-        let mut states = vec![
-            State {
-                name: "rocks".to_string(),
-                p: Limited::value(row.p_rocking),
-                per_year: Limited::value(row.rocking_per_year),
-            },
-            State {
-                name: format!("{}, or overturns", self.object.too_far()),
-                p: row.p_failure,
-                per_year: row.failure_per_year,
-            },
-            State { name: "overturns".to_string(), p: row.p_overturning, per_year: row.overturning_per_year },
-        ];
+        let too_far = format!("{}, or overturns", self.object.too_far());
+        let [rocks, rocking_per_year] = [row.p_rocking, row.rocking_per_year].map(Limited::value);
+        let mut states: Vec<State> = [
+            ("rocks", rocks, rocking_per_year),
+            (&too_far, row.p_failure, row.failure_per_year),
+            ("overturns", row.p_overturning, row.overturning_per_year),
+        ]
+        .map(|(name, p, per_year)| State { name: name.to_string(), p, per_year })
+        .into();
         states.extend(row.counted_motions.zip(row.years).map(|(motions, years)| {
             let (per_year, motions) = (row.counted_per_year, number::counted(motions as usize, "motion"));
             let p = per_year.map(|rate| probability_in_years(rate, years));
@@ -231,10 +227,6 @@ impl Answer<RatesRow> {
 
     pub fn is_answered(&self) -> bool {
         self.severity() >= 0.0
-    }
-
-    pub fn band(&self) -> usize {
-        BANDS.iter().filter(|end| self.severity() > **end).count()
     }
 
     /// Whether it meets a target, or what base would.

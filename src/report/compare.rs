@@ -49,10 +49,6 @@ fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Limited {
 }
 
 impl Pair<'_> {
-    fn name(&self) -> String {
-        self.before.object.marked_name()
-    }
-
     fn is_changed(&self) -> bool {
         self.before.row.p_overturning != self.after.row.p_overturning || !self.changes().is_empty()
     }
@@ -94,7 +90,7 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
     for pair in told(pairs) {
         let values = vec![(before, pair.before.row.p_overturning), (after, pair.after.row.p_overturning)];
         let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
-        rows.push(Row { name: pair.name(), values, words });
+        rows.push(Row { name: pair.before.object.marked_name(), values, words });
     }
     let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p).chain([Limited::value(target)]);
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
@@ -187,7 +183,12 @@ fn table(pairs: &[Pair], when: &str) -> Table {
     for pair in pairs {
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
         let times = pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio));
-        let mut row = vec![pair.name(), pair.changes().join("; "), OF_HUNDRED.value(p), OF_HUNDRED.value(q)];
+        let mut row = vec![
+            pair.before.object.marked_name(),
+            pair.changes().join("; "),
+            OF_HUNDRED.value(p),
+            OF_HUNDRED.value(q),
+        ];
         row.extend([OF_HUNDRED.span(q), times, TWO_DIGITS.span(pair.ratio)]);
         rows.push(row);
     }
@@ -197,20 +198,18 @@ fn table(pairs: &[Pair], when: &str) -> Table {
 /// Objects that are as before, those of one file alone, and those without an answer in both.
 fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
     let same: Vec<&Rated> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
-    let in_both = before.rows.iter().filter(|rated| !is_only_of(rated, after));
-    let silent = in_both.filter(|rated| pairs.iter().all(|pair| !std::ptr::eq(pair.before, *rated)));
+    let [left, added] = [(before, after), (after, before)].map(|(one, other)| only_in(one, other));
+    let is_named = |rated: &&Rated| {
+        let mut told = pairs.iter().map(|pair| pair.before).chain(left.iter().copied());
+        told.any(|other| other.object.structure == rated.object.structure)
+    };
+    let silent = before.rows.iter().filter(|rated| !is_named(rated));
     let mut lines = Vec::new();
     for (heading, all) in [
         ("as before", same),
         ("not assessed before or after", silent.collect()),
-        (
-            &format!("only in {}", before.file()),
-            before.rows.iter().filter(|rated| is_only_of(rated, after)).collect(),
-        ),
-        (
-            &format!("only in {}", after.file()),
-            after.rows.iter().filter(|rated| is_only_of(rated, before)).collect(),
-        ),
+        (&format!("only in {}", before.file()), left.clone()),
+        (&format!("only in {}", after.file()), added),
     ] {
         let names: Vec<String> = all.iter().map(|rated| rated.object.marked_name()).collect();
         let (count, names) = (number::counted(all.len(), "object"), number::listed(&names, MANY));
@@ -219,6 +218,8 @@ fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String
     lines
 }
 
-fn is_only_of(rated: &Rated, other: &Evaluation) -> bool {
-    other.rows.iter().all(|one| one.object.structure != rated.object.structure)
+fn only_in<'a>(one: &'a Evaluation, other: &Evaluation) -> Vec<&'a Rated> {
+    let is_there =
+        |rated: &&Rated| other.rows.iter().any(|its| its.object.structure == rated.object.structure);
+    one.rows.iter().filter(|rated| !is_there(rated)).collect()
 }

@@ -27,9 +27,10 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let bands = [(Ink::Band(2), "above 10 %"), (Ink::Band(1), "2 to 10 %"), (Ink::Band(0), "below 2 %")];
     let mut rows = Vec::new();
-    for rated in drawn {
-        let Rated { object, row, .. } = rated;
-        rows.push(Row::new(&object.name_and_floor(), Ink::Band(rated.band()), &[row.p_overturning]));
+    for Rated { object, row, .. } in drawn.iter().copied() {
+        let p = row.p_overturning;
+        let band = BANDS.iter().filter(|end| p.value.or(p.high).is_some_and(|p| p > **end)).count();
+        rows.push(Row::new(&object.name_and_floor(), Ink::Band(band), &[p]));
     }
     let rest = match answered.len() - drawn.len() {
         0 => String::new(),

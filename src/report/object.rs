@@ -24,9 +24,7 @@ pub fn figure(evaluation: &Evaluation, rated: &Rated) -> Figure {
     let Portrait { outline, fragility, hazard, changes } = &evaluation.portrait;
     let mut panels = Vec::new();
     panels.extend(outline.as_ref().map(|outline| sketch(outline, &rated.object)));
-    if let Some(curve) = fragility {
-        panels.push(fragility_panel(curve, &rated.object, hazard.as_ref()));
-    }
+    panels.extend(fragility.as_ref().map(|curve| fragility_panel(curve, &rated.object, hazard.as_ref())));
     if changes.len() > 1 {
         panels.push(changes_panel(evaluation));
     }

@@ -33,14 +33,12 @@ const PICTURES_A_SECOND: f64 = 25.0;
 const MOST_PICTURES: f64 = 1200.0;
 
 impl Trace {
-    /// The structure, or the block that rocks like it.
-    fn structure(&self) -> String {
-        let TraceRow { structure, p_rad_s, alpha_rad, eta, .. } = &self.0[0];
-        called(&Structure { name: structure.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta })
-    }
-
+    /// The motion, and the structure or the block that rocks like it.
     fn title(&self) -> String {
-        format!("Motion {}: {}", literal(&self.0[0].motion_id), self.structure())
+        let TraceRow { motion_id, structure, p_rad_s, alpha_rad, eta, .. } = &self.0[0];
+        let structure =
+            Structure { name: structure.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta };
+        format!("Motion {}: {}", literal(motion_id), called(&structure))
     }
 
     fn times(&self, event: SolverEvent) -> Vec<f64> {
@@ -88,7 +86,7 @@ impl Trace {
         let close =
             if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
         format!(
-            "A block that rocks like it, in real time from {start} to {end} s. Dots: uplift and impacts{close}. \
+            "The block that rocks like it, in real time from {start} to {end} s. Dots: uplift and impacts{close}. \
              Dashed: the tipping angle, its slenderness *α*."
         )
     }

@@ -30,8 +30,8 @@ impl Fits {
 
     /// The curve of overturning of some cases over these measures.
     pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
-        let fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
-        fits.into_iter().find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
+        let mut fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
+        fits.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
     }
 }
 

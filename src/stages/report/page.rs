@@ -101,13 +101,12 @@ pub fn page(tables: &Tables, head: Page, figures: Vec<Figure>, notes: Vec<String
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
     let more = if is_client { Vec::new() } else { more };
-    let mut sections = head.sections.clone();
-    sections.extend([
+    let mut sections = vec![
         Section { figures: more, ..Section::new("More figures") },
         Section { paragraphs: method.collect(), ..Section::new("Method") },
         Section { paragraphs: others, tables: tests(tables)?, ..Section::new("Tests and fits") },
         Section { tables: vec![files(tables)], ..Section::new("Files") },
-    ]);
+    ];
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     let facts = [head.facts.clone(), facts(tables)].concat();
     let figures = [head.figures.clone(), seen].concat();
