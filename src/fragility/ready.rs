@@ -71,6 +71,7 @@ struct ReadyDirection<'a> {
 
 /// What predicts: P_ro and P_ex of the calibrated surface, or the paper's fits, with each error of these at
 /// its quantiles.
+#[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
 enum By<'a> {
     Ground([Branch<'a>; 2]),
     Floor([Branch<'a>; 2], OnFloor),

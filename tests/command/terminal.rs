@@ -169,7 +169,7 @@ fn a_long_list_is_printed_by_its_worst() {
     let objects = |call: &str| {
         let printed = succeed(folder.path(), &format!("evaluate --pga 0.6 --pgv 0.8 {call}")).0;
         let is_row =
-            |line: &&str| line.starts_with("object ") && (line.contains(" x ") || line.contains(','));
+            |line: &&str| line.starts_with("object ") && (line.contains(" × ") || line.contains(','));
         (printed.lines().filter(is_row).count(), printed.clone())
     };
     assert_eq!(objects("--structures short.csv").0, 25);
