@@ -140,6 +140,7 @@ fn tables(evaluation: &Evaluation) -> (Vec<Table>, Option<String>) {
     let (mut others, mut same) = (vec![("object", names)], Vec::new());
     for (is_answer, head, cells) in [
         (true, "floor", column(&|rated| rated.object.short_place())),
+        (true, "file", column(&|rated| literal(&rated.object.file))),
         (true, "base for the target", column(&|rated| base(rated, *target))),
         (
             false,
@@ -150,7 +151,6 @@ fn tables(evaluation: &Evaluation) -> (Vec<Table>, Option<String>) {
         (false, "friction needed", column(&friction)),
         (false, "size", column(&|rated| rated.object.size().replace(' ', "\u{a0}"))),
         (false, "number", column(&|rated| rated.object.count.map_or(String::new(), number::plain))),
-        (false, "file", column(&|rated| literal(&rated.object.file))),
     ] {
         let answered = rows.iter().zip(&cells).filter(|(rated, _)| rated.is_answered());
         let differ: BTreeSet<&String> = answered.map(|(_, cell)| cell).collect();
