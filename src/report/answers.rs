@@ -47,6 +47,12 @@ pub struct Change {
     pub p: Vec<Limited>,
 }
 
+impl Change {
+    pub fn probability(&self) -> f64 {
+        self.p[0].value.unwrap_or(1.0)
+    }
+}
+
 /// An object in the plane in which it rocks, m.
 #[derive(Debug, Clone, Copy)]
 pub struct Outline {

@@ -28,7 +28,7 @@ pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>>
     let same_hazard = before.hazard_key == after.hazard_key;
     let mut pairs = Vec::new();
     for one in &before.rows {
-        let other = after.rows.iter().find(|other| one.object.structure == other.object.structure);
+        let other = namesake(one, after);
         let Some(other) = other.filter(|other| one.is_answered() || other.is_answered()) else { continue };
         pairs.push(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) });
     }
@@ -198,18 +198,12 @@ fn table(pairs: &[Pair], when: &str) -> Table {
 /// Objects that are as before, those of one file alone, and those without an answer in both.
 fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
     let same: Vec<&Rated> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
-    let [left, added] = [(before, after), (after, before)].map(|(one, other)| only_in(one, other));
-    let is_named = |rated: &&Rated| {
-        let mut told = pairs.iter().map(|pair| pair.before).chain(left.iter().copied());
-        told.any(|other| other.object.structure == rated.object.structure)
-    };
-    let silent = before.rows.iter().filter(|rated| !is_named(rated));
     let mut lines = Vec::new();
     for (heading, all) in [
         ("as before", same),
-        ("not assessed before or after", silent.collect()),
-        (&format!("only in {}", before.file()), left.clone()),
-        (&format!("only in {}", after.file()), added),
+        ("not assessed before or after", silent(before, after)),
+        (&format!("only in {}", before.file()), only_in(before, after)),
+        (&format!("only in {}", after.file()), only_in(after, before)),
     ] {
         let names: Vec<String> = all.iter().map(|rated| rated.object.marked_name()).collect();
         let (count, names) = (number::counted(all.len(), "object"), number::listed(&names, MANY));
@@ -219,7 +213,14 @@ fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String
 }
 
 fn only_in<'a>(one: &'a Evaluation, other: &Evaluation) -> Vec<&'a Rated> {
-    let is_there =
-        |rated: &&Rated| other.rows.iter().any(|its| its.object.structure == rated.object.structure);
-    one.rows.iter().filter(|rated| !is_there(rated)).collect()
+    one.rows.iter().filter(|rated| namesake(rated, other).is_none()).collect()
+}
+
+fn silent<'a>(before: &'a Evaluation, after: &Evaluation) -> Vec<&'a Rated> {
+    let rows = before.rows.iter().filter(|rated| !rated.is_answered());
+    rows.filter(|rated| namesake(rated, after).is_some_and(|other| !other.is_answered())).collect()
+}
+
+fn namesake<'a>(rated: &Rated, other: &'a Evaluation) -> Option<&'a Rated> {
+    other.rows.iter().find(|one| one.object.structure == rated.object.structure)
 }

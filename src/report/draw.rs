@@ -71,8 +71,8 @@ pub fn html_of_panels(figure: &Figure) -> String {
         let alone = Figure { columns: 1, height, panels: vec![panel.clone()], ..Figure::default() };
         let (body, height) = drawn(&alone, PAGE_WIDTH);
         panels += &format!(
-            "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n{body}</svg>\n\
-             <figcaption>{caption}</figcaption></figure>\n"
+            "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n\
+             {body}</svg>\n<figcaption>{caption}</figcaption></figure>\n"
         );
     }
     let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };

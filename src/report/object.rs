@@ -146,9 +146,9 @@ fn changes_panel(evaluation: &Evaluation) -> Panel {
     let all = all.chain([Limited::value(evaluation.target)]);
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let caption = format!(
-        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a test \
-         may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see ASCE 7, \
-         chapter 13, or EN 1998-1, 4.3.5."
+        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
+         test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see \
+         ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
     );
     let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
     probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
@@ -240,8 +240,8 @@ fn unknown(rated: &Rated) -> Option<Panel> {
     }
     let layers = vec![Layer::new("", Ink::Data(0), Shape::Estimates, marks)];
     let caption = format!(
-        "What is not known, and what would narrow it: how far each may raise or lower the {what} of overturning \
-         (95 % limits)."
+        "What is not known, and what would narrow it: how far each may raise or lower the {what} of \
+         overturning (95 % limits)."
     );
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
@@ -281,19 +281,17 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
 /// The change of the object that helps most, nothing that is only measured; and another floor.
 fn tiles_of_changes(changes: &[Change]) -> Vec<Tile> {
     let [as_it_is, others @ ..] = changes else { return Vec::new() };
-    let probability = |change: &Change| change.p[0].value.unwrap_or(1.0);
-    let tile = |Change { words, p, .. }: &Change, sign: &str| {
-        let limits = PERCENT.limits(p[0], "95 % limits ");
-        Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{sign} {limits}"))
-    };
     let objects = others.iter().filter(|change| change.p.len() == 1);
-    let best = objects.min_by(|a, b| probability(a).total_cmp(&probability(b)));
-    let best = best.filter(|best| probability(best) < probability(as_it_is));
+    let best = objects.min_by(|a, b| a.probability().total_cmp(&b.probability()));
+    let best = best.filter(|best| best.probability() < as_it_is.probability());
     let moved = others.iter().find(|change| change.is_moved && best.is_none_or(|best| !best.is_moved));
-    best.map(|best| tile(best, ", which helps most"))
-        .into_iter()
-        .chain(moved.map(|moved| tile(moved, "")))
-        .collect()
+    let both =
+        best.map(|best| (best, ", which helps most")).into_iter().chain(moved.map(|moved| (moved, "")));
+    both.map(|(Change { words, p, .. }, helps)| {
+        let limits = PERCENT.limits(p[0], "95 % limits ");
+        Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{helps} {limits}"))
+    })
+    .collect()
 }
 
 fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {

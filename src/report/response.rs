@@ -86,8 +86,8 @@ impl Trace {
         let close =
             if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
         format!(
-            "The block that rocks like it, in real time from {start} to {end} s. Dots: uplift and impacts{close}. \
-             Dashed: the tipping angle, its slenderness *α*."
+            "The block that rocks like it, in real time from {start} to {end} s. Dots: uplift and \
+             impacts{close}. Dashed: the tipping angle, its slenderness *α*."
         )
     }
 
@@ -169,8 +169,8 @@ pub fn page(all: &[Trace]) -> Page {
     Page { title, sentence, figures, ..Page::default() }
 }
 
-/// The block as it moves in real time, from a click on its button: a picture without any code. The diagonal of
-/// the drawn block is always the same.
+/// The block as it moves in real time, from a click on its button: a picture without any code. All blocks are
+/// drawn with the same diagonal.
 fn moving(response: &Trace, id: usize) -> String {
     let span = response.span();
     let seconds = span.high - span.low;

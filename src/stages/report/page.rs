@@ -38,10 +38,10 @@ impact (Eqs. 4 to 6). Its demand is the largest rotation over *α* (Eq. 7).
 fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions and \
 one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
 Dynamics 44, 2015\u{2013}2033).
-fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to 24), \
-or the universal surface over peak acceleration and velocity, calibrated to the responses.
-ida: Each motion is scaled until it overturns the structure; a lognormal distribution of these intensities has \
-the median.
+fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to \
+24), or the universal surface over peak acceleration and velocity, calibrated to the responses.
+ida: Each motion is scaled until it overturns the structure; a lognormal distribution of these intensities \
+has the median.
 validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
 evaluate: Annual rates integrate the probabilities of the universal surface over the hazard of the site.";
 
