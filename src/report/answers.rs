@@ -125,7 +125,7 @@ impl ObjectRow {
         }
     }
 
-    /// The same in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
+    /// Returns the place in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
     pub fn short_place(&self) -> String {
         let place = self.place().replace(" the building", "");
         let bare = place.trim_start_matches("on ").trim_start_matches("the ");
