@@ -136,8 +136,11 @@ impl ObjectRow {
     /// nothing on the ground.
     pub fn floor_after(&self, sign: &str) -> String {
         let period = self.floor_period_s.filter(|_| self.is_upstairs());
-        let period = period.map(|period| number::plain((100.0 * period).round() / 100.0));
-        period.map_or(String::new(), |period| format!("{sign}{} (period {period} s)", self.place()))
+        let Some((period, level)) = period.zip(self.floor_level) else { return String::new() };
+        let period = number::plain((100.0 * period).round() / 100.0);
+        // Floors are numbered in many ways.
+        let height = self.floor.as_ref().map_or(String::new(), |_| format!("{:.0} % up, ", 100.0 * level));
+        format!("{sign}{} ({height}period {period} s)", self.place())
     }
 
     /// What it is called in a text: `Block of 0.50 × 1.90 m, on the roof (period 0.5 s)`.
@@ -244,7 +247,7 @@ impl Answer<RatesRow> {
             Some(base) => {
                 format!("A base of {} would meet the target of {words}.", base)
             }
-            None => format!("No wider base meets the target of {words}."),
+            None => format!("No wider base meets the target of {words}; anchored, it would not rock."),
         }
     }
 

@@ -56,12 +56,14 @@ impl Pair<'_> {
     /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle and eta where nothing else does.
     fn changes(&self) -> Vec<String> {
         let both = [self.before, self.after].map(|rated| &rated.object);
-        let mut words: Vec<String> =
-            [both.map(|object| literal(&object.place())), both.map(|object| object.size())]
-                .into_iter()
-                .filter(|[old, new]| old != new)
-                .map(|[old, new]| format!("{old} → {new}"))
-                .collect();
+        let mut words: Vec<String> = [
+            both.map(|object| literal(&object.place())),
+            both.map(|object| object.size().replace(' ', "\u{a0}")),
+        ]
+        .into_iter()
+        .filter(|[old, new]| old != new)
+        .map(|[old, new]| format!("{old} → {new}"))
+        .collect();
         let reason = self.after.doubts.warnings.as_deref().filter(|_| !self.after.is_answered());
         words.extend(reason.map(literal));
         let written =
@@ -146,7 +148,8 @@ fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
         );
     }
     let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
-    let changed = format!("{} of {} change.", number::count(changed), number::counted(pairs.len(), "object"));
+    let changed =
+        format!("{} of {} changed.", number::count(changed), number::counted(pairs.len(), "object"));
     let mut after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
     after.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
     after.retain(|rated| target.is_none_or(|target| rated.severity() > target));
@@ -195,17 +198,21 @@ fn table(pairs: &[Pair], when: &str) -> Table {
     Table::new(&heads, rows)
 }
 
-/// Objects that are as before, those of one file alone, and those without an answer in both.
+/// Objects that are unchanged, those of one file alone, and those without an answer in both.
 fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
     let same: Vec<&Rated> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
     let mut lines = Vec::new();
     for (heading, all) in [
-        ("as before", same),
+        ("unchanged", same),
         ("not assessed before or after", silent(before, after)),
         (&format!("only in {}", before.file()), only_in(before, after)),
         (&format!("only in {}", after.file()), only_in(after, before)),
     ] {
-        let names: Vec<String> = all.iter().map(|rated| rated.object.marked_name()).collect();
+        let names = all.iter().map(|rated| match rated.is_answered() {
+            true => format!("{} ({})", rated.object.marked_name(), PERCENT.value(rated.row.p_overturning)),
+            false => rated.object.marked_name(),
+        });
+        let names: Vec<String> = names.collect();
         let (count, names) = (number::counted(all.len(), "object"), number::listed(&names, MANY));
         lines.extend((!all.is_empty()).then(|| format!("{count} {heading}: {names}.")));
     }

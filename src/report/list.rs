@@ -115,7 +115,7 @@ fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
         let Expected { together, independent, .. } = Expected::new(rows);
         tiles.push(Tile::new(
             format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),
-            "probability that at least one overturns: lower if all fall together, higher if each by itself",
+            "probability that at least one overturns: lower if they fall together, higher if independently",
         ));
         let most = target.unwrap_or(BANDS[0]);
         let above = rows.iter().filter(|rated| rated.severity() > most).count();
@@ -134,17 +134,17 @@ fn tables(evaluation: &Evaluation) -> (Vec<Table>, Option<String>) {
     let names = column(&|rated| rated.object.name().map_or("unnamed".to_string(), literal));
     let mut answers = vec![
         ("object", names.clone()),
-        (&overturns, column(&|rated| answered(rated, OF_HUNDRED.value(rated.row.p_overturning)))),
+        (&overturns, column(&overturns_in_words)),
         ("95 % limits", column(&limits)),
     ];
     let (mut others, mut same) = (vec![("object", names)], Vec::new());
     for (is_answer, head, cells) in [
-        (true, "floor", column(&|rated| rated.object.short_place())),
+        (true, "place", column(&|rated| rated.object.short_place())),
         (true, "file", column(&|rated| literal(&rated.object.file))),
         (true, "base for the target", column(&|rated| base(rated, *target))),
         (
             false,
-            "once in years",
+            "return period, years",
             column(&|rated| rated.row.return_period_years.map_or(String::new(), number::period)),
         ),
         (false, &too_far, column(&|rated| answered(rated, OF_HUNDRED.value(rated.row.p_failure)))),
@@ -156,7 +156,7 @@ fn tables(evaluation: &Evaluation) -> (Vec<Table>, Option<String>) {
         let differ: BTreeSet<&String> = answered.map(|(_, cell)| cell).collect();
         if differ.len() > 1 {
             if is_answer { &mut answers } else { &mut others }.push((head, cells));
-        } else if !["floor", "file"].contains(&head) {
+        } else if !["place", "file"].contains(&head) {
             let value = differ.first().filter(|value| !value.is_empty());
             same.extend(value.map(|value| format!("{head} {value}")));
         }
@@ -176,12 +176,16 @@ fn answered(rated: &Rated, cell: String) -> String {
     if rated.is_answered() { cell } else { String::new() }
 }
 
-/// The limits, or why there is no answer.
+/// The probability of overturning, or why there is no answer.
+fn overturns_in_words(rated: &Rated) -> String {
+    let p = Limited::value(rated.row.p_overturning.value);
+    if rated.is_answered() { p.value.map_or(String::new(), |_| OF_HUNDRED.value(p)) } else { reason(rated) }
+}
+
+/// The limits, or the range without a value.
 fn limits(rated: &Rated) -> String {
-    match rated.is_answered() {
-        true => OF_HUNDRED.span(rated.row.p_overturning),
-        false => reason(rated),
-    }
+    let p = rated.row.p_overturning;
+    answered(rated, if p.value.is_some() { OF_HUNDRED.span(p) } else { OF_HUNDRED.value(p) })
 }
 
 /// The base with which an object meets the target, if there is one.
@@ -189,6 +193,7 @@ fn base(rated: &Rated, target: Option<f64>) -> String {
     let bases = &rated.row.bases;
     match base_in_words(&rated.object, bases.target_width_m, bases.target_sides_m) {
         _ if target.is_some_and(|target| rated.meets(target)) => "meets it".to_string(),
+        None if target.is_some() && rated.is_answered() => "none".to_string(),
         base => base.unwrap_or_default().replace(' ', "\u{a0}"),
     }
 }

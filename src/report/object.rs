@@ -147,8 +147,8 @@ fn changes_panel(evaluation: &Evaluation) -> Panel {
     let x = probabilities::axis(&format!("probability of overturning {when}"), all);
     let caption = format!(
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
-         test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces on anchors see \
-         ASCE 7, chapter 13, or EN 1998-1, 4.3.5."
+         test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces see ASCE 7, \
+         chapter 13, or EN 1998-1, 4.3.5."
     );
     let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
     probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
@@ -269,8 +269,8 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
         title: words(&object.marked_title()),
         place: format!("Stands {}; {hazard}", literal(&place)),
         sentence: [Some(answer), target].into_iter().flatten().collect::<Vec<_>>().join(" "),
-        tiles: tiles(evaluation, rated),
-        facts: facts(&[rated]),
+        tiles: tiles(evaluation),
+        facts: sliding(object).into_iter().chain(facts(&[rated])).collect(),
         notes: rated.doubts.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: vec![numbers(evaluation, rated)],
         figures: vec![figure(evaluation, rated)],
@@ -278,25 +278,29 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     }
 }
 
-/// The change of the object that helps most, nothing that is only measured; and another floor.
-fn tiles_of_changes(changes: &[Change]) -> Vec<Tile> {
+/// The object as it is; the change that helps most, nothing that is only measured; and another floor.
+fn tiles_of_changes(changes: &[Change], when: &str) -> Vec<Tile> {
     let [as_it_is, others @ ..] = changes else { return Vec::new() };
     let objects = others.iter().filter(|change| change.p.len() == 1);
     let best = objects.min_by(|a, b| a.probability().total_cmp(&b.probability()));
     let best = best.filter(|best| best.probability() < as_it_is.probability());
     let moved = others.iter().find(|change| change.is_moved && best.is_none_or(|best| !best.is_moved));
-    let both =
-        best.map(|best| (best, ", which helps most")).into_iter().chain(moved.map(|moved| (moved, "")));
-    both.map(|(Change { words, p, .. }, helps)| {
-        let limits = PERCENT.limits(p[0], "95 % limits ");
-        Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{helps} {limits}"))
-    })
-    .collect()
+    let both = best
+        .map(|best| (best, ", which helps most".to_string()))
+        .into_iter()
+        .chain(moved.map(|moved| (moved, String::new())));
+    let own = [(as_it_is, format!(", {when}"))].into_iter();
+    own.chain(both)
+        .map(|(Change { words, p, .. }, more)| {
+            let limits = PERCENT.limits(p[0], "95 % limits ");
+            Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{more} {limits}"))
+        })
+        .collect()
 }
 
-fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
-    let (Portrait { fragility, hazard, changes, .. }, object) = (&evaluation.portrait, &rated.object);
-    let mut tiles = tiles_of_changes(changes);
+fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
+    let Portrait { fragility, hazard, changes, .. } = &evaluation.portrait;
+    let mut tiles = tiles_of_changes(changes, &evaluation.when);
     if let Some(fragility) = fragility {
         let usual = hazard.as_ref().and_then(|hazard| Some((hazard.peak, hazard.usual().next()?)));
         let site = usual.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
@@ -306,11 +310,13 @@ fn tiles(evaluation: &Evaluation, rated: &Rated) -> Vec<Tile> {
         let words = format!("{} at which half of the motions overturn it{site}", fragility.over.words().0);
         tiles.push(Tile::new(intensity_in_words(fragility.over, fragility.overturning.theta.value), words));
     }
-    tiles.extend(object.friction.filter(|_| !object.is_friction_known).map(|friction| {
-        let words = "friction that it needs: with less, it slides instead of rocking";
-        Tile::new(number::fixed(friction, 2), words)
-    }));
     tiles
+}
+
+/// What is so if it slides.
+fn sliding(object: &ObjectRow) -> Option<String> {
+    let friction = object.friction.filter(|_| !object.is_friction_known)?;
+    Some(format!("Below a friction of {} it slides instead of rocking.", number::fixed(friction, 2)))
 }
 
 /// What the answer rests on.

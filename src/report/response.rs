@@ -20,8 +20,6 @@ const VALUES: usize = 900;
 const HEIGHT: f64 = 58.0;
 /// Rotations over alpha are drawn up to this.
 const MOST: f64 = 1.5;
-/// Time between dots that are seen as two, of all time.
-const APART: f64 = 0.005;
 /// Time that is shown before the first event and after the last, s.
 const AROUND_S: f64 = 1.5;
 /// The picture of what moves: the diagonal of the block, the least width and the margin beside the block.
@@ -81,13 +79,9 @@ impl Trace {
     fn caption(&self) -> String {
         let Span { low, high } = self.span();
         let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
-        let times = self.times(SolverEvent::Impact);
-        let close = times.windows(2).filter(|pair| pair[1] - pair[0] < APART * (high - low)).count();
-        let close =
-            if close > 0 { format!(", {close} of them too close to be told apart") } else { String::new() };
         format!(
-            "The block that rocks like it, in real time from {start} to {end} s. Dots: uplift and \
-             impacts{close}. Dashed: the tipping angle, its slenderness *α*."
+            "A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
+             tipping angle, its slenderness *α*."
         )
     }
 
@@ -114,7 +108,8 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
         let marks = envelope(&values, dt_s, VALUES);
         Layer::line("", ink, marks.into_iter().filter(|mark| (low..=high).contains(&mark.x)))
     };
-    let rotation = line(Ink::Data(1), |point| point.theta_over_alpha.clamp(-MOST, MOST));
+    let mut rotation = line(Ink::Data(1), |point| point.theta_over_alpha);
+    rotation.marks.retain(|mark| mark.y.abs() < MOST);
     let most = rotation.marks.iter().map(|mark| mark.y.abs()).fold(1.1, f64::max) * 1.08;
     let mut layers = Vec::new();
     for limit in [-1.0, 1.0] {
@@ -192,7 +187,7 @@ fn moving(response: &Trace, id: usize) -> String {
     let turns = turns.collect::<Vec<_>>().join(";");
     let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", short(seconds, 2));
     let name = escape(&format!("{}, moving", words(&response.title())));
-    let (end, time, below) = (width - 60.0, number::fixed(seconds, 1), ground + 15.0);
+    let (end, below) = (width - 20.0, ground + 15.0);
     let [edge, top, wide, tall, centre] =
         [-half, -high, 2.0 * half, high, -0.5 * high].map(|at| short(at, 1));
     format!(
@@ -206,14 +201,11 @@ fn moving(response: &Trace, id: usize) -> String {
          <path d=\"M20 {below:.1}H{end:.0}\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
          <circle cx=\"20\" cy=\"{below:.1}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" {clock} \
          from=\"20\" to=\"{end:.0}\"/></circle>\n\
-         <text x=\"{:.0}\" y=\"{:.1}\" font-size=\"10\" fill=\"var(--muted)\">{time} s</text>\n\
          <g id=\"play{id}\" class=\"play\" role=\"button\" tabindex=\"0\" aria-label=\"play\">\
          <rect x=\"20\" y=\"8\" width=\"62\" height=\"24\" rx=\"12\" fill=\"var(--data1)\"/>\
          <path d=\"M34 14v12l10-6z\" fill=\"var(--paper)\"/>\
          <text x=\"50\" y=\"24\" font-size=\"11.5\" fill=\"var(--paper)\">play</text></g>\n</svg>\n",
-        width - 20.0,
-        end + 8.0,
-        below + 3.5,
+        end,
     )
 }
 

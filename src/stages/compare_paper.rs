@@ -74,7 +74,7 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
     let others = compared.iter().filter(|row| row.published.is_some()).count() - z.len();
     let count = format!(
         "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run, {} are not; \
-         {others} more have no value in it, or no known spread.\n",
+         {others} more cannot be compared.\n",
         counted(z.len(), "published number"),
         z.len() - agree
     );

@@ -63,7 +63,7 @@ pub fn head(tables: &Tables) -> anyhow::Result<Page> {
         },
         ([], [], traces) => return Ok(response::page(traces)),
         ([], compared, _) => Page {
-            title: "The paper's fragilities, made again".to_string(),
+            title: "The paper's fragility curves, reproduced".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
             sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
             tables: vec![planes(compared)],
