@@ -7,7 +7,7 @@
 //! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
-//! level        the estimate of a probability, or a limit
+//! level        a probability at its estimate, at a limit, or with one error of the model
 //! model        the model that predicts: the calibrated surface, or the paper's fits
 //! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
 //! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone

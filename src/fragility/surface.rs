@@ -48,7 +48,7 @@ impl Kind {
     }
 }
 
-/// The surface for one structure, limit state, calibration and magnitude: a function of IM4 and of
+/// The surface for one structure, limit state and magnitude: a function of IM4 and of
 /// PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Section {

@@ -120,7 +120,9 @@ pub fn read(
     Ok(batches.map(|batch| {
         let mut batch = batch?;
         let samples = batch.lists(ACCELERATION)?;
-        batch.rows.remove_column(batch.rows.schema().index_of(ACCELERATION).unwrap_or_default());
+        if let Ok(place) = batch.rows.schema().index_of(ACCELERATION) {
+            batch.rows.remove_column(place);
+        }
         Ok((batch, samples))
     }))
 }
