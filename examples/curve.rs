@@ -2,8 +2,7 @@
 
 use rockfrag::fragility::{Case, Cases, Cluster, Event, Measure, fit_curve};
 use rockfrag::motion::{
-    Design, Grid, IntensityMeasures, MeasureScratch, MotionMeasures, MotionModel, Peaks, Synthesizer,
-    SyntheticSuite,
+    Design, Grid, IntensityMeasures, MeasurePlan, MotionModel, Peaks, Suite, Synthesizer, Transforms,
 };
 use rockfrag::rocking::{Record, Structure, simulate};
 
@@ -11,11 +10,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cabinet = Structure::new("electrical-equipment", 2.5, 0.20, 0.92)?;
     let (mw, re_km) = (vec![5.5, 6.0, 6.5, 7.0, 7.5], vec![5.0, 10.0, 15.0, 20.0]);
     let grid = Grid { mw, re_km, samples: 20, design: Design::Lhs, seed: 42 };
-    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[SyntheticSuite::Csgm]);
+    let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
     let mut cases = Cases::new(Some("csgm"), cabinet.clone());
     for scenario in (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)) {
         let motion = synthesizer.synthesize(&scenario);
-        let of = MotionMeasures::of(&motion.combined, motion.dt_s, &mut MeasureScratch::default());
+        let of = MeasurePlan::default().measure(&motion.combined, motion.dt_s, &mut Transforms::default());
         let peaks = Peaks { pga_m_s2: of.pga_m_s2, pgv_m_s: of.pgv_m_s };
         let measures = IntensityMeasures::new(&cabinet, peaks, Some(scenario.tp_s), of.tm_s);
         let outcome = simulate(&cabinet, &Record::new(&motion.combined, motion.dt_s)?).outcome;

@@ -1,41 +1,53 @@
 //! Fourier transforms of real series of even length.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Fourier transforms of real series of one even length.
-#[derive(Clone)]
-pub struct Transform {
+/// Fourier transforms of real series of even lengths, each planned once.
+#[derive(Default)]
+pub struct Transforms {
+    planned: HashMap<usize, Planned>,
+    scratch: Vec<Complex64>,
+}
+
+struct Planned {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
-impl Transform {
-    /// Plans the transforms of series of `samples` samples. Each length has its own planner: a shared planner
-    /// reuses earlier plans, and the last digits would depend on the history of the thread.
-    pub fn new(samples: usize) -> Transform {
-        let mut planner = RealFftPlanner::new();
-        Transform { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
+impl Transforms {
+    /// Plans the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and
+    /// the last digits would depend on the history of the thread.
+    fn planned(&mut self, samples: usize) -> (&Planned, &mut Vec<Complex64>) {
+        let planned = self.planned.entry(samples).or_insert_with(|| {
+            let mut planner = RealFftPlanner::new();
+            Planned { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
+        });
+        let needed = planned.forward.get_scratch_len().max(planned.inverse.get_scratch_len());
+        self.scratch.resize(self.scratch.len().max(needed), Complex64::ZERO);
+        (planned, &mut self.scratch)
     }
 
     /// Computes the `n / 2 + 1` Fourier coefficients of `n` samples; overwrites `samples`.
-    pub fn forward(&self, samples: &mut [f64], spectrum: &mut Vec<Complex64>, scratch: &mut Vec<Complex64>) {
-        spectrum.resize(samples.len() / 2 + 1, Complex64::ZERO);
-        scratch.resize(self.forward.get_scratch_len(), Complex64::ZERO);
-        let done = self.forward.process_with_scratch(samples, spectrum, scratch);
+    pub fn forward(&mut self, samples: &mut [f64]) -> Vec<Complex64> {
+        let (planned, scratch) = self.planned(samples.len());
+        let mut spectrum = vec![Complex64::ZERO; samples.len() / 2 + 1];
+        let done = planned.forward.process_with_scratch(samples, &mut spectrum, scratch);
         debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+        spectrum
     }
 
     /// Computes the samples of Fourier coefficients; overwrites `spectrum`.
-    pub fn inverse(&self, spectrum: &mut [Complex64], samples: &mut [f64], scratch: &mut Vec<Complex64>) {
+    pub fn inverse(&mut self, spectrum: &mut [Complex64], samples: &mut [f64]) {
         // The mean and the Nyquist coefficient of a real series are real.
         if let [first, .., last] = spectrum {
             (first.im, last.im) = (0.0, 0.0);
         }
-        scratch.resize(self.inverse.get_scratch_len(), Complex64::ZERO);
-        let done = self.inverse.process_with_scratch(spectrum, samples, scratch);
+        let (planned, scratch) = self.planned(samples.len());
+        let done = planned.inverse.process_with_scratch(spectrum, samples, scratch);
         debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
         let scale = 1.0 / samples.len() as f64;
         samples.iter_mut().for_each(|sample| *sample *= scale);

@@ -1,9 +1,8 @@
 //! Intensity measures of a ground acceleration (m/s2).
 
-use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use super::fourier::{Complex64, Transform, even_smooth_at_least};
+use super::fourier::{Transforms, even_smooth_at_least};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
@@ -16,8 +15,8 @@ const DAMPING: f64 = 0.05;
 /// First and last period (s) of the Housner intensity, and number of periods.
 const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
 
-/// The measures of every motion.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+/// The measures of a motion.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MotionMeasures {
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
@@ -37,15 +36,18 @@ pub struct MotionMeasures {
     pub d5_95_s: f64,
     /// Housner intensity, m, if it is requested.
     pub housner_m: Option<f64>,
+    /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
+    #[serde(skip)]
+    pub sa_m_s2: Vec<f64>,
 }
 
 /// The measures to compute besides those of every motion.
 ///
 /// ```
-/// use rockfrag::motion::{MeasurePlan, MeasureScratch};
+/// use rockfrag::motion::{MeasurePlan, Transforms};
 /// let plan = MeasurePlan { housner: true, sa_periods_s: vec![0.5] };
-/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01, &mut MeasureScratch::default());
-/// assert_eq!((measured.measures.pga_m_s2, measured.sa_m_s2.len()), (2.0, 1));
+/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01, &mut Transforms::default());
+/// assert_eq!((measured.pga_m_s2, measured.sa_m_s2.len()), (2.0, 1));
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
@@ -55,45 +57,10 @@ pub struct MeasurePlan {
     pub sa_periods_s: Vec<f64>,
 }
 
-/// The measures of one motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
-    /// Those without a period.
-    pub measures: MotionMeasures,
-    /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
-    pub sa_m_s2: Vec<f64>,
-}
-
-/// Transforms and buffers, reused for each motion.
-#[derive(Default)]
-pub struct MeasureScratch {
-    /// By length of series.
-    transforms: HashMap<usize, Transform>,
-    spectrum: Vec<Complex64>,
-    scratch: Vec<Complex64>,
-}
-
 impl MeasurePlan {
-    /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`.
-    pub fn measure(&self, acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Measured {
-        Measured {
-            measures: MotionMeasures {
-                housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
-                ..MotionMeasures::of(acceleration, dt_s, scratch)
-            },
-            sa_m_s2: self
-                .sa_periods_s
-                .iter()
-                .map(|period_s| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING))
-                .collect(),
-        }
-    }
-}
-
-impl MotionMeasures {
-    /// Computes the measures of every motion from an acceleration (m/s2) at steps of `dt_s`. The squared
-    /// acceleration is integrated exactly for lines between samples, everything else by trapezoids.
-    pub fn of(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> MotionMeasures {
+    /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`. The squared acceleration is
+    /// integrated exactly for lines between samples, everything else by trapezoids.
+    pub fn measure(&self, acceleration: &[f64], dt_s: f64, transforms: &mut Transforms) -> MotionMeasures {
         let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
         let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
         // Running integral of the squared acceleration, m2/s3.
@@ -111,16 +78,18 @@ impl MotionMeasures {
         }
         let [d5, d75, d95] =
             [0.05, 0.75, 0.95].map(|share| time_of_share(acceleration, &energy, dt_s, share));
+        let spectral = |period_s: &f64| spectral_acceleration(acceleration, dt_s, *period_s, DAMPING);
         MotionMeasures {
             pga_m_s2: peak(acceleration),
             pgv_m_s,
             pgd_m,
-            tm_s: mean_period(acceleration, dt_s, scratch),
+            tm_s: mean_period(acceleration, dt_s, transforms),
             arias_m_s: 0.5 * PI / G_M_S2 * squares,
             cav_m_s,
             d5_75_s: d75 - d5,
             d5_95_s: d95 - d5,
-            housner_m: None,
+            housner_m: self.housner.then(|| housner_intensity(acceleration, dt_s)),
+            sa_m_s2: self.sa_periods_s.iter().map(spectral).collect(),
         }
     }
 }
@@ -168,19 +137,18 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
 /// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of
 /// the acceleration from 0.25 to 20 Hz, without smoothing, padded with zeros to a frequency step of at most
 /// 0.05 Hz. None without amplitude in this band.
-pub fn mean_period(acceleration: &[f64], dt_s: f64, scratch: &mut MeasureScratch) -> Option<f64> {
+pub fn mean_period(acceleration: &[f64], dt_s: f64, transforms: &mut Transforms) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
-    let transform = scratch.transforms.entry(length).or_insert_with(|| Transform::new(length));
     let mut samples = acceleration.to_vec();
     samples.resize(length, 0.0);
-    transform.forward(&mut samples, &mut scratch.spectrum, &mut scratch.scratch);
+    let spectrum = transforms.forward(&mut samples);
 
     let step_hz = 1.0 / (length as f64 * dt_s);
     let first = (BAND_HZ.0 / step_hz).ceil() as usize;
     let last = (BAND_HZ.1 / step_hz).floor() as usize;
     let (mut weighted, mut total) = (0.0, 0.0);
-    for (k, coefficient) in scratch.spectrum.iter().enumerate().take(last + 1).skip(first) {
+    for (k, coefficient) in spectrum.iter().enumerate().take(last + 1).skip(first) {
         let power = coefficient.norm_sqr();
         weighted += power / (k as f64 * step_hz);
         total += power;

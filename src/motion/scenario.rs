@@ -89,6 +89,9 @@ keywords! {
 }
 
 impl Suite {
+    /// Motion numbers reserved for each scenario.
+    const IDS_OF_SCENARIO: i64 = 4;
+
     /// End of the suite of motions of a floor: `record floor`.
     pub const ON_FLOOR: &str = " floor";
 
@@ -96,26 +99,10 @@ impl Suite {
     pub fn is_floor(suite: Option<&str>) -> bool {
         suite.is_some_and(|suite| suite.ends_with(Suite::ON_FLOOR))
     }
-}
-
-keywords! {
-    /// A kind of ground motion that is synthesized from a scenario.
-    #[expect(missing_docs, reason = "those of Suite say it")]
-    #[derive(Hash)]
-    pub enum SyntheticSuite {
-        Pulse = "pulse",
-        Csgm = "csgm",
-        Hfc = "hfc",
-    }
-}
-
-impl SyntheticSuite {
-    /// Motion numbers reserved for each scenario.
-    const IDS_OF_SCENARIO: i64 = 4;
 
     /// Returns the number of the motion of a scenario in this suite: unique, and independent of the suites
     /// synthesized.
     pub fn motion_id(self, scenario_id: i64) -> i64 {
-        scenario_id * SyntheticSuite::IDS_OF_SCENARIO + self as i64
+        scenario_id * Suite::IDS_OF_SCENARIO + self as i64
     }
 }

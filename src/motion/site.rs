@@ -1,6 +1,6 @@
 //! Site amplification V(f) of the stochastic method (section 2.1.2).
 
-/// Amplification from the source to the surface, as a function of frequency.
+/// Amplification from the source to the surface: rising frequencies, Hz, and factors.
 ///
 /// ```
 /// use rockfrag::motion::SiteAmplification;
@@ -9,28 +9,14 @@
 /// # Ok::<(), rockfrag::motion::site::SiteTableError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub enum SiteAmplification {
-    /// Generic rock (Boore & Joyner 1997).
-    Rock,
-    /// Generic soil (Boore & Joyner 1997).
-    Soil,
-    /// No amplification, V = 1.
-    None,
-    /// Frequencies, Hz, and factors of the user.
-    Table(Vec<(f64, f64)>),
-}
+pub struct SiteAmplification(Vec<(f64, f64)>);
 
 /// An invalid table of amplification. `row` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("site table, row {row}: expected rising frequencies in Hz and factors above 0, in 2 rows or more")]
 #[expect(missing_docs, reason = "the message says it")]
-pub enum SiteTableError {
-    #[error("site table: {0} row(s); expected 2 or more of frequency in Hz and amplification")]
-    TooShort(usize),
-    #[error(
-        "site table, row {row}: frequency {frequency_hz} Hz, amplification {amplification}; expected \
-             rising frequencies and factors above 0"
-    )]
-    Row { row: usize, frequency_hz: f64, amplification: f64 },
+pub struct SiteTableError {
+    pub row: usize,
 }
 
 /// Frequency (Hz), amplification of generic rock and of generic soil.
@@ -49,43 +35,46 @@ const GENERIC: [(f64, f64, f64); 11] = [
 ];
 
 impl SiteAmplification {
+    /// No amplification.
+    pub fn none() -> SiteAmplification {
+        SiteAmplification(vec![(0.0, 1.0)])
+    }
+
+    /// Generic rock (Boore & Joyner 1997).
+    pub fn rock() -> SiteAmplification {
+        SiteAmplification(GENERIC.map(|(f, rock, _)| (f, rock)).to_vec())
+    }
+
+    /// Generic soil (Boore & Joyner 1997).
+    pub fn soil() -> SiteAmplification {
+        SiteAmplification(GENERIC.map(|(f, _, soil)| (f, soil)).to_vec())
+    }
+
     /// Makes a table of frequencies (Hz) and factors.
     ///
     /// # Errors
     /// If there are fewer than two rows, frequencies do not rise, or a number is not positive.
     pub fn table(rows: Vec<(f64, f64)>) -> Result<SiteAmplification, SiteTableError> {
-        if rows.len() < 2 {
-            return Err(SiteTableError::TooShort(rows.len()));
-        }
         let mut last_hz = 0.0;
-        for (row, &(frequency_hz, amplification)) in rows.iter().enumerate() {
-            let fine = frequency_hz > last_hz && amplification > 0.0;
-            if !(fine && frequency_hz.is_finite() && amplification.is_finite()) {
-                return Err(SiteTableError::Row { row, frequency_hz, amplification });
+        for (row, &(frequency_hz, factor)) in rows.iter().enumerate() {
+            let is_fine = frequency_hz > last_hz && frequency_hz.is_finite() && factor > 0.0;
+            if !(is_fine && factor.is_finite()) {
+                return Err(SiteTableError { row });
             }
             last_hz = frequency_hz;
         }
-        Ok(SiteAmplification::Table(rows))
+        if rows.len() < 2 { Err(SiteTableError { row: rows.len() }) } else { Ok(SiteAmplification(rows)) }
     }
 
     /// Interpolates V(f) at a frequency (Hz): ln V is linear in the frequency, constant beyond the ends.
     pub fn amplification(&self, frequency_hz: f64) -> f64 {
-        match self {
-            SiteAmplification::None => 1.0,
-            SiteAmplification::Rock => interpolate(&GENERIC.map(|(f, rock, _)| (f, rock)), frequency_hz),
-            SiteAmplification::Soil => interpolate(&GENERIC.map(|(f, _, soil)| (f, soil)), frequency_hz),
-            SiteAmplification::Table(rows) => interpolate(rows, frequency_hz),
+        let above = self.0.partition_point(|&(f, _)| f <= frequency_hz);
+        if above == 0 {
+            return self.0[0].1;
         }
+        let (f0, v0) = self.0[above - 1];
+        let Some(&(f1, v1)) = self.0.get(above) else { return v0 };
+        let share = (frequency_hz - f0) / (f1 - f0);
+        v0 * (v1 / v0).powf(share)
     }
-}
-
-fn interpolate(rows: &[(f64, f64)], frequency_hz: f64) -> f64 {
-    let above = rows.partition_point(|&(f, _)| f <= frequency_hz);
-    if above == 0 {
-        return rows[0].1;
-    }
-    let (f0, v0) = rows[above - 1];
-    let Some(&(f1, v1)) = rows.get(above) else { return v0 };
-    let share = (frequency_hz - f0) / (f1 - f0);
-    v0 * (v1 / v0).powf(share)
 }

@@ -45,7 +45,7 @@ pub struct StochasticModel {
 
 impl Default for StochasticModel {
     fn default() -> StochasticModel {
-        StochasticModel { site: SiteAmplification::Rock, kappa_s: 0.030, fmax_hz: None, low_cut_hz: None }
+        StochasticModel { site: SiteAmplification::rock(), kappa_s: 0.030, fmax_hz: None, low_cut_hz: None }
     }
 }
 

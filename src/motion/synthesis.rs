@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::combine::{Difference, Epoch, combine};
-use super::fourier::{Complex64, Transform, even_smooth_at_least};
+use super::fourier::{Complex64, Transforms, even_smooth_at_least};
 use super::measures::velocity;
 use super::pulse::Pulse;
-use super::scenario::{Scenario, SyntheticSuite};
+use super::scenario::{Scenario, Suite};
 use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
@@ -82,11 +82,12 @@ pub struct Synthetic {
 
 impl Synthetic {
     /// Returns the samples of the motion in a suite, m/s2.
-    pub fn samples(&self, suite: SyntheticSuite) -> &[f64] {
+    pub fn samples(&self, suite: Suite) -> &[f64] {
         match suite {
-            SyntheticSuite::Pulse => &self.pulse,
-            SyntheticSuite::Hfc => &self.high_frequency,
-            SyntheticSuite::Csgm => &self.combined,
+            Suite::Pulse => &self.pulse,
+            Suite::Hfc => &self.high_frequency,
+            Suite::Csgm => &self.combined,
+            Suite::Record => &[],
         }
     }
 }
@@ -95,20 +96,18 @@ impl Synthetic {
 /// and the values that scenarios of one magnitude and distance share.
 ///
 /// ```
-/// use rockfrag::motion::{MotionModel, Scenario, SyntheticSuite, Synthesizer};
-/// let mut synthesizer = Synthesizer::new(MotionModel::default(), &[SyntheticSuite::Csgm]);
+/// use rockfrag::motion::{MotionModel, Scenario, Suite, Synthesizer};
+/// let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
 /// let motion = synthesizer.synthesize(&Scenario::at_quantiles(6.5, 10.0, [0.5; 4]));
-/// assert_eq!((motion.dt_s, motion.samples(SyntheticSuite::Csgm)), (0.005, &motion.combined[..]));
+/// assert_eq!((motion.dt_s, motion.samples(Suite::Csgm)), (0.005, &motion.combined[..]));
 /// ```
 pub struct Synthesizer {
     model: MotionModel,
     /// Whether to compute the high frequencies, and the combined motion.
     high_frequency: bool,
     combined: bool,
-    /// By length of motion.
-    transforms: HashMap<usize, Transform>,
+    transforms: Transforms,
     earthquake: Option<Earthquake>,
-    scratch: Vec<Complex64>,
 }
 
 /// Values that the scenarios of one magnitude and distance share.
@@ -144,14 +143,13 @@ impl Earthquake {
 
 impl Synthesizer {
     /// Makes a synthesizer of some suites.
-    pub fn new(model: MotionModel, suites: &[SyntheticSuite]) -> Synthesizer {
+    pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
         Synthesizer {
-            high_frequency: suites.contains(&SyntheticSuite::Hfc) || model.epoch != Epoch::EnvelopePeak,
-            combined: suites.contains(&SyntheticSuite::Csgm),
+            high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
+            combined: suites.contains(&Suite::Csgm),
             model,
-            transforms: HashMap::new(),
+            transforms: Transforms::default(),
             earthquake: None,
-            scratch: Vec::new(),
         }
     }
 
@@ -164,27 +162,24 @@ impl Synthesizer {
         };
         let pulse = Pulse::of(scenario);
         let (onset, samples) = self.model.time_axis(&earthquake.window, &pulse);
-        let transform = self.transforms.entry(samples);
-        let transform = transform.or_insert_with(|| Transform::new(samples)).clone();
         let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
             let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, samples);
-            transform.forward(&mut noise, &mut spectrum, &mut self.scratch);
+            spectrum = self.transforms.forward(&mut noise);
             shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, samples), made.dt_s);
             if self.high_frequency {
-                transform.inverse(&mut spectrum.clone(), &mut noise, &mut self.scratch);
+                self.transforms.inverse(&mut spectrum.clone(), &mut noise);
                 made.high_frequency = noise;
             }
         }
         made.epoch_s = self.epoch_s(&earthquake.window, onset, &made.high_frequency);
         made.pulse = pulse.sample(made.dt_s, made.epoch_s, samples);
         if self.combined {
-            let mut pulse_spectrum = Vec::new();
             made.combined = made.pulse.clone();
-            transform.forward(&mut made.combined, &mut pulse_spectrum, &mut self.scratch);
+            let pulse_spectrum = self.transforms.forward(&mut made.combined);
             combine(&mut spectrum, &pulse_spectrum, self.model.difference);
-            transform.inverse(&mut spectrum, &mut made.combined, &mut self.scratch);
+            self.transforms.inverse(&mut spectrum, &mut made.combined);
         }
         self.earthquake = Some(earthquake);
         made

@@ -7,7 +7,7 @@ use super::rotation::{Direction, HorizontalPair, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionMeasures, measures};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Transforms, measures};
 use crate::number::significant;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
@@ -67,7 +67,7 @@ pub struct ImportedMotion {
     /// Samples as written, m/s2.
     pub acceleration_m_s2: Vec<f32>,
     /// Intensity measures of these samples.
-    pub measured: Measured,
+    pub measured: MotionMeasures,
     /// Peaks over all directions of the pair, before it is scaled.
     pub rotd: Option<RotD>,
     /// Pulse indicator; none if pulses were not searched.
@@ -211,13 +211,13 @@ impl Processing {
             let scaled = ImportedMotion {
                 record: record.clone(),
                 scale,
-                measured: self.plan.measure(&written, dt_s, &mut MeasureScratch::default()),
+                measured: self.plan.measure(&written, dt_s, &mut Transforms::default()),
                 acceleration_m_s2,
                 rotd,
                 indicator,
                 pulse,
             };
-            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured.measures;
+            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured;
             let pga_g = pga_m_s2 / G_M_S2;
             let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
             if scale != 1.0 && is_too_strong && !self.accept_implausible {

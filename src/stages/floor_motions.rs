@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::objects::field;
-use crate::motion::{Floor, MeasurePlan, MeasureScratch, MotionMeasures, Suite};
+use crate::motion::{Floor, MeasurePlan, MotionMeasures, Suite, Transforms};
 use crate::object::Field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -80,9 +80,9 @@ impl Stage for FloorMotions {
         }
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
-        let schema = self.filter(&none, &[], &mut MeasureScratch::default())?.schema();
+        let schema = self.filter(&none, &[], &mut Transforms::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
-        let pool = Pool::new(MeasureScratch::default);
+        let pool = Pool::new(Transforms::default);
         let bar = context.bar(table.rows());
         let parts = table.row_groups().into_iter();
         let parts = parts.flat_map(|group| or_error(read(&table, &group, &|_| true, AT_ONCE)));
@@ -110,7 +110,7 @@ impl FloorMotions {
         &self,
         ground: &Batch,
         samples: &[Vec<f64>],
-        scratch: &mut MeasureScratch,
+        scratch: &mut Transforms,
     ) -> anyhow::Result<RecordBatch> {
         let floor = Floor { period_s: self.period, level: self.level };
         let schema = ground.rows.schema();
@@ -133,7 +133,7 @@ impl FloorMotions {
             floor_level: self.level,
         });
         let floors: Vec<FloorRow> = floors.collect();
-        let measures = rows::batch(measured.iter().map(|measured| &measured.measures))?;
+        let measures = rows::batch(&measured)?;
         let known = [others(&ground.rows)?, rows::batch(&floors)?, measures];
         let sa: Vec<&[f64]> = measured.iter().map(|measured| measured.sa_m_s2.as_slice()).collect();
         batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
 use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
-use crate::motion::MeasureScratch;
+use crate::motion::Transforms;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
@@ -165,7 +165,7 @@ impl Ida {
         structures: &[&Structure],
         path: &Path,
         motions: &[Motion],
-        scratch: &mut MeasureScratch,
+        scratch: &mut Transforms,
     ) -> anyhow::Result<Analysed> {
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in motions {

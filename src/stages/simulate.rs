@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
-use crate::motion::MeasureScratch;
+use crate::motion::Transforms;
 use crate::number;
 use crate::number::listed;
 use crate::pipeline::Stage;
@@ -185,7 +185,7 @@ impl Simulate {
         path: &Path,
         motions: &[Motion],
         plan: &Plan,
-        scratch: &mut MeasureScratch,
+        scratch: &mut Transforms,
     ) -> anyhow::Result<Responded> {
         let records = motions.iter().map(|motion| motion.record(path)).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);

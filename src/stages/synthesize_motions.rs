@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::inputs::Grid;
 use crate::motion::{
-    Difference, Epoch, LONGEST_MOTION, MeasurePlan, MeasureScratch, Measured, MotionModel, Scenario,
-    SiteAmplification, StochasticModel, Synthesizer, SyntheticSuite,
+    Difference, Epoch, LONGEST_MOTION, MeasurePlan, MotionMeasures, MotionModel, Scenario, SiteAmplification,
+    StochasticModel, Suite, Synthesizer, Transforms,
 };
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
@@ -44,7 +44,7 @@ pub struct SynthesizeMotions {
     seed: u64,
     /// Suites: pulse (alone), hfc (high frequencies alone), csgm (both)
     #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
-    suite: Vec<SyntheticSuite>,
+    suite: Vec<Suite>,
     /// Time between samples, s
     #[arg(long, default_value = "0.005", value_name = "S",
           value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
@@ -83,7 +83,7 @@ pub struct SynthesizeMotions {
 #[derive(Serialize, Deserialize)]
 struct MotionName {
     motion_id: String,
-    suite: SyntheticSuite,
+    suite: Suite,
     dt_s: f64,
 }
 
@@ -92,7 +92,7 @@ struct SyntheticMotion {
     name: MotionName,
     scenario: Scenario,
     acceleration_m_s2: Vec<f32>,
-    measured: Measured,
+    measured: MotionMeasures,
 }
 
 impl Stage for SynthesizeMotions {
@@ -108,7 +108,8 @@ impl Stage for SynthesizeMotions {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        match (1..self.suite.len()).all(|k| !self.suite[..k].contains(&self.suite[k])) {
+        let is_once = |k: usize| self.suite[k] != Suite::Record && !self.suite[..k].contains(&self.suite[k]);
+        match (0..self.suite.len()).all(is_once) {
             true => Ok(()),
             false => Err(UsageError::because("suite: expected some of pulse, csgm and hfc, each once")),
         }
@@ -132,7 +133,7 @@ impl Stage for SynthesizeMotions {
             },
             seed: self.seed,
         };
-        let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), MeasureScratch::default()));
+        let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), Transforms::default()));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(table.rows());
         pipelined(
@@ -198,9 +199,9 @@ fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
 /// The site amplification of this name, or in this file.
 fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
     match name.to_str() {
-        Some("rock") => Ok(SiteAmplification::Rock),
-        Some("soil") => Ok(SiteAmplification::Soil),
-        Some("none") => Ok(SiteAmplification::None),
+        Some("rock") => Ok(SiteAmplification::rock()),
+        Some("soil") => Ok(SiteAmplification::soil()),
+        Some("none") => Ok(SiteAmplification::none()),
         _ => site_factors(name).with_context(|| {
             let name = name.display();
             format!("{name}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors")
@@ -217,9 +218,9 @@ fn site_factors(path: &Path) -> anyhow::Result<SiteAmplification> {
 /// The motions of a scenario, each measured as it will be read.
 fn synthesize(
     scenario: &Scenario,
-    suites: &[SyntheticSuite],
+    suites: &[Suite],
     plan: &MeasurePlan,
-    (synthesizer, scratch): &mut (Synthesizer, MeasureScratch),
+    (synthesizer, scratch): &mut (Synthesizer, Transforms),
 ) -> Vec<SyntheticMotion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
@@ -239,7 +240,7 @@ fn batch(some: &[SyntheticMotion], periods_s: &[f64]) -> anyhow::Result<arrow_ar
     let known = [
         rows::batch(some.iter().map(|motion| &motion.name))?,
         rows::batch(some.iter().map(|motion| &motion.scenario))?,
-        rows::batch(some.iter().map(|motion| &motion.measured.measures))?,
+        rows::batch(some.iter().map(|motion| &motion.measured))?,
     ];
     motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
 }

@@ -11,8 +11,8 @@ use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
-    Design, Difference, Epoch, Grid, MeasureScratch, MotionMeasures, MotionModel, Pulse, Scenario,
-    SiteAmplification, Synthesizer, Synthetic, SyntheticSuite, measures,
+    Design, Difference, Epoch, Grid, MeasurePlan, MotionModel, Pulse, Scenario, SiteAmplification, Suite,
+    Synthesizer, Synthetic, Transforms, measures,
 };
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -52,7 +52,7 @@ fn varied_scenarios() -> Vec<Scenario> {
 }
 
 fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
-    let mut synthesizer = Synthesizer::new(model.clone(), SyntheticSuite::ALL);
+    let mut synthesizer = Synthesizer::new(model.clone(), Suite::ALL);
     scenarios.iter().map(|scenario| synthesizer.synthesize(scenario)).collect()
 }
 
@@ -76,11 +76,11 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
     let mut mean = [0.0; 3];
     for seed in 0..SEEDS {
         let model = MotionModel { seed, ..with_difference(difference) };
-        let mut scratch = MeasureScratch::default();
-        let mut synthesizer = Synthesizer::new(model, SyntheticSuite::ALL);
+        let mut scratch = Transforms::default();
+        let mut synthesizer = Synthesizer::new(model, Suite::ALL);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            MotionMeasures::of(samples(&motion), motion.dt_s, &mut scratch)
+            MeasurePlan::default().measure(samples(&motion), motion.dt_s, &mut scratch)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [
@@ -171,7 +171,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
     assert!((ratio(&low_cut, 0.05) - 1.0 / 257.0).abs() < 1e-14);
     let kappa = StochasticModel { kappa_s: 0.040, ..near.clone() };
     assert!((ratio(&kappa, 10.0) - (-0.1 * PI).exp()).abs() < 1e-14);
-    let soil = StochasticModel { site: SiteAmplification::Soil, ..near.clone() };
+    let soil = StochasticModel { site: SiteAmplification::soil(), ..near.clone() };
     assert!((ratio(&soil, 1.25) - 2.76 / 1.74).abs() < 1e-14);
 }
 
@@ -349,12 +349,12 @@ fn a_motion_is_the_same_whatever_else_is_made_and_on_any_number_of_threads() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let apart: Vec<Synthetic> = pool
                 .install(|| scenarios.par_chunks(5).flat_map_iter(|some| synthesize(&model, some)).collect());
-            for suite in SyntheticSuite::ALL.iter().copied() {
+            for suite in Suite::ALL.iter().copied() {
                 let is_same = |(a, b)| bits(a, suite) == bits(b, suite);
                 assert!(together.iter().zip(&apart).all(is_same), "{epoch:?} {suite:?} {threads} threads");
             }
         }
-        for suite in SyntheticSuite::ALL.iter().copied() {
+        for suite in Suite::ALL.iter().copied() {
             let mut one = Synthesizer::new(model.clone(), &[suite]);
             for (scenario, motion) in scenarios.iter().zip(&together).rev().step_by(11) {
                 let alone = bits(&one.synthesize(scenario), suite);
@@ -383,12 +383,12 @@ fn sites_amplify_as_published() {
     for (f, rock, soil) in
         [(0.0, 1.0, 1.0), (0.51, 1.42, 2.24), (6.05, 2.58, 3.05), (61.2, 4.0, 3.21), (100.0, 4.0, 3.21)]
     {
-        let both = [SiteAmplification::Rock, SiteAmplification::Soil].map(|site| site.amplification(f));
+        let both = [SiteAmplification::rock(), SiteAmplification::soil()].map(|site| site.amplification(f));
         assert_eq!(both, [rock, soil], "{f} Hz");
     }
-    let middle = SiteAmplification::Rock.amplification(0.5 * (2.26 + 3.17));
+    let middle = SiteAmplification::rock().amplification(0.5 * (2.26 + 3.17));
     assert!((middle - (2.06_f64 * 2.25).sqrt()).abs() < 1e-12, "linear in f, logarithmic in the factor");
-    assert_eq!(SiteAmplification::None.amplification(3.0), 1.0);
+    assert_eq!(SiteAmplification::none().amplification(3.0), 1.0);
 }
 
 #[test]
@@ -397,7 +397,7 @@ fn a_site_table_interpolates_between_its_rows_or_says_which_cannot_be_used() {
     for (f, expected) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 8.0), (50.0, 8.0)] {
         assert!((site.amplification(f) - expected).abs() < 1e-14, "{f} Hz");
     }
-    assert_eq!(SiteAmplification::table(vec![(1.0, 2.0)]), Err(SiteTableError::TooShort(1)));
+    assert_eq!(SiteAmplification::table(vec![(1.0, 2.0)]), Err(SiteTableError { row: 1 }));
     for (rows, bad) in [
         (vec![(1.0, 2.0), (1.0, 3.0)], 1),
         (vec![(0.0, 2.0), (1.0, 3.0)], 0),
@@ -406,7 +406,7 @@ fn a_site_table_interpolates_between_its_rows_or_says_which_cannot_be_used() {
         (vec![(1.0, f64::INFINITY), (2.0, 1.0)], 0),
     ] {
         let error = SiteAmplification::table(rows.clone()).unwrap_err();
-        assert!(matches!(error, SiteTableError::Row { row, .. } if row == bad), "{rows:?}: {error}");
+        assert!(matches!(error, SiteTableError { row } if row == bad), "{rows:?}: {error}");
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use rockfrag::motion::measures::velocity;
-use rockfrag::motion::{MeasurePlan, MeasureScratch, Measured};
+use rockfrag::motion::{MeasurePlan, MotionMeasures, Transforms};
 use rockfrag::records::pulses::{FittedPulse, PulseIndicator};
 use rockfrag::table::motions::Motion;
 
@@ -17,8 +17,7 @@ fn by_name() -> HashMap<String, Motion> {
 }
 
 /// Our value, with its relative and absolute tolerance.
-fn ours(measured: &Measured, measure: &str, dt_s: f64) -> (f64, f64, f64) {
-    let Measured { measures: m, sa_m_s2 } = measured;
+fn ours(m: &MotionMeasures, measure: &str, dt_s: f64) -> (f64, f64, f64) {
     match measure {
         "pga_m_s2" => (m.pga_m_s2, 1e-8, 0.0),
         "pgv_m_s" => (m.pgv_m_s, 1e-8, 0.0),
@@ -33,7 +32,7 @@ fn ours(measured: &Measured, measure: &str, dt_s: f64) -> (f64, f64, f64) {
         "housner_m" => (m.housner_m.unwrap(), 1e-6, 0.0),
         _ => {
             let period: f64 = measure.strip_prefix("sa_").unwrap().parse().unwrap();
-            (sa_m_s2[SA_PERIODS_S.iter().position(|&known| known == period).unwrap()], 1e-6, 0.0)
+            (m.sa_m_s2[SA_PERIODS_S.iter().position(|&known| known == period).unwrap()], 1e-6, 0.0)
         }
     }
 }
@@ -46,7 +45,7 @@ fn measures_are_those_of_eqsig_and_numpy() {
     assert_eq!(answers.len(), 24 * 15);
     for (motion_id, measure, value) in answers {
         let Motion { acceleration_m_s2, dt_s, .. } = &motions[&motion_id];
-        let measured = plan.measure(acceleration_m_s2, *dt_s, &mut MeasureScratch::default());
+        let measured = plan.measure(acceleration_m_s2, *dt_s, &mut Transforms::default());
         let (ours, share, amount) = ours(&measured, &measure, *dt_s);
         assert!(
             (ours - value).abs() <= share * value + amount,

@@ -50,10 +50,10 @@ struct PulseRow {
 /// Motions as rows; `periods_s` are those of the spectral accelerations.
 pub fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
     let sources: Vec<SourceRow> = some.iter().map(source).collect();
-    let measures: Vec<MotionMeasures> = some.iter().map(|motion| motion.measured.measures).collect();
+    let measures: Vec<&MotionMeasures> = some.iter().map(|motion| &motion.measured).collect();
     let pulses: Vec<PulseRow> = some.iter().map(pulse).collect();
     let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
-    let known = [rows::batch(&sources)?, rows::batch(&measures)?, rows::batch(&pulses)?];
+    let known = [rows::batch(&sources)?, rows::batch(measures)?, rows::batch(&pulses)?];
     motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
 }
 

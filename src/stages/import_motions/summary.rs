@@ -54,7 +54,7 @@ impl Summary {
             self.magnitudes += usize::from(record.mw.is_some());
             let kind = format!("{} in {}", record.format, record.unit.name);
             *self.kinds.entry(kind).or_default() += 1;
-            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured.measures;
+            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured;
             self.pga_g.push(pga_m_s2 / G_M_S2);
             self.pgv_m_s.push(pgv_m_s);
         }

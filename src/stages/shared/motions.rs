@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::keyword;
-use crate::motion::{IntensityMeasures, MeasureScratch, Peaks, Suite, SyntheticSuite, measures};
+use crate::motion::{IntensityMeasures, Peaks, Suite, Transforms, measures};
 use crate::pipeline::context::Context;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::records::implausibility::implausibility;
@@ -27,10 +26,10 @@ pub fn each<T: Send>(
     context: &Context,
     table: &Table,
     at_once: usize,
-    work: impl Fn(&Path, &[Motion], &mut MeasureScratch) -> anyhow::Result<T> + Sync,
+    work: impl Fn(&Path, &[Motion], &mut Transforms) -> anyhow::Result<T> + Sync,
     mut sink: impl FnMut(T) -> anyhow::Result<()> + Send,
 ) -> anyhow::Result<()> {
-    let (mut known, pool) = (HashSet::new(), Pool::new(MeasureScratch::default));
+    let (mut known, pool) = (HashSet::new(), Pool::new(Transforms::default));
     let bar = context.bar(table.rows());
     let work_on_part = |part: Part| -> anyhow::Result<Vec<_>> {
         let chunks = motions::read_part(table, part, at_once)?.collect::<Result<Vec<_>, TableError>>()?;
@@ -66,7 +65,7 @@ pub struct Measures {
 }
 
 impl Measures {
-    pub fn new(motion: &Motion, record: &Record, scratch: &mut MeasureScratch) -> Measures {
+    pub fn new(motion: &Motion, record: &Record, scratch: &mut Transforms) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let peaks = Peaks {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
@@ -120,7 +119,8 @@ const PEAK_TOLERANCE: f64 = 0.1;
 pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
     let mut warnings = Warnings::default();
     let suite = motion.suite.as_deref();
-    let is_synthetic = suite.is_some_and(|suite| keyword::parse::<SyntheticSuite>(suite).is_ok());
+    let is_synthetic =
+        suite.is_some_and(|suite| suite.parse().is_ok_and(|suite: Suite| suite != Suite::Record));
     if is_synthetic || Suite::is_floor(suite) {
         return warnings;
     }
