@@ -19,4 +19,4 @@ pub mod rotation;
 pub mod signal;
 
 pub use formats::{RecordFileError, read_records};
-pub use recorded_motion::{Format, HeaderPga, ReadOptions, RecordedMotion};
+pub use recorded_motion::{Format, HeaderPga, Origin, ReadOptions, RecordedMotion};

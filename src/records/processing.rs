@@ -1,13 +1,16 @@
 //! From records to imported motions: baseline, filter, time step, rotation, scale, measures, pulses.
 
-use super::RecordedMotion;
+use serde::{Deserialize, Serialize};
+
 use super::implausibility::{Implausibility, implausibility, incompleteness};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
+use super::{Origin, RecordedMotion};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Transforms, measures};
+use crate::motion::pulse::largest_velocity;
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Suite, Transforms, measures};
 use crate::number::significant;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
@@ -16,22 +19,16 @@ use crate::warning::Warning;
 /// Share of the PGA whose loss by resampling is told.
 const NOTICEABLE_LOSS: f64 = 0.01;
 
-/// A file and the hash of its content.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SourceFile {
-    /// Path as given.
-    pub path: String,
-    /// BLAKE3, in hexadecimal digits.
-    pub blake3: String,
-}
-
 /// A record with its name and its file.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct NamedRecord {
     /// Unique among the imported records.
     pub motion_id: String,
-    pub source: SourceFile,
+    /// Path as given.
+    pub source_file: String,
+    /// BLAKE3 of its content, in hexadecimal digits.
+    pub source_blake3: String,
+    /// The record.
     pub motion: RecordedMotion,
     /// What speaks against it, though it is imported.
     pub doubts: Vec<(Warning, String)>,
@@ -57,23 +54,79 @@ pub enum ProcessingError {
     Scaled { scale: f64, pga_g: f64, pgv_m_s: f64 },
 }
 
-/// An imported motion.
-#[derive(Debug, Clone, PartialEq)]
+/// An imported motion: a row of a table of motions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct ImportedMotion {
-    /// The record under the name of the motion, without its samples.
-    pub record: NamedRecord,
+    pub motion_id: String,
+    pub suite: Suite,
+    /// Earthquake, station and component.
+    pub name: Option<String>,
+    pub origin: Origin,
+    pub source_file: String,
+    pub source_blake3: String,
     pub scale: f64,
+    pub dt_s: f64,
+    /// Of the samples as written.
+    pub measures: MotionMeasures,
+    pub pulse: PulseColumns,
     /// Samples as written, m/s2.
+    #[serde(skip)]
     pub acceleration_m_s2: Vec<f32>,
-    /// Intensity measures of these samples.
-    pub measured: MotionMeasures,
-    /// Peaks over all directions of the pair, before it is scaled.
-    pub rotd: Option<RotD>,
-    /// Pulse indicator; none if pulses were not searched.
-    pub indicator: Option<PulseIndicator>,
-    /// Pulse fitted to the record before it is scaled; none without a pulse.
-    pub pulse: Option<FittedPulse>,
+    /// Format and unit of the file.
+    #[serde(skip)]
+    pub kind: String,
+    #[serde(skip)]
+    pub doubts: Vec<(Warning, String)>,
+}
+
+/// What is known of the pair and the pulse of a motion: peaks over all directions, the indicator if pulses
+/// were searched, and the fitted pulse.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct PulseColumns {
+    pub rotd50_pga_m_s2: Option<f64>,
+    pub rotd100_pga_m_s2: Option<f64>,
+    pub rotd50_pgv_m_s: Option<f64>,
+    pub rotd100_pgv_m_s: Option<f64>,
+    pub pulse_indicator: Option<f64>,
+    pub pulse_verdict: Option<Verdict>,
+    pub pulse_wavelet_s: Option<f64>,
+    pub pulse_amplitude_m_s: Option<f64>,
+    pub vp_m_s: Option<f64>,
+    pub tp_s: Option<f64>,
+    pub gamma: Option<f64>,
+    pub nu_rad: Option<f64>,
+    pub t0_s: Option<f64>,
+    pub pulse_r2: Option<f64>,
+}
+
+impl PulseColumns {
+    fn new(
+        scale: f64,
+        rotd: Option<RotD>,
+        found: Option<PulseIndicator>,
+        fitted: Option<FittedPulse>,
+    ) -> PulseColumns {
+        let pulse = fitted.map(|fitted| fitted.pulse);
+        PulseColumns {
+            rotd50_pga_m_s2: rotd.map(|rotd| scale * rotd.pga50_m_s2),
+            rotd100_pga_m_s2: rotd.map(|rotd| scale * rotd.pga100_m_s2),
+            rotd50_pgv_m_s: rotd.map(|rotd| scale * rotd.pgv50_m_s),
+            rotd100_pgv_m_s: rotd.map(|rotd| scale * rotd.pgv100_m_s),
+            pulse_indicator: found.map(|found| found.indicator),
+            pulse_verdict: found.map(|found| found.verdict),
+            pulse_wavelet_s: found.map(|found| found.period_s),
+            pulse_amplitude_m_s: pulse.map(|pulse| scale * pulse.amplitude_m_s),
+            vp_m_s: pulse
+                .map(|pulse| scale * pulse.amplitude_m_s * largest_velocity(pulse.gamma, pulse.nu_rad)),
+            tp_s: pulse.map(|pulse| pulse.tp_s),
+            gamma: pulse.map(|pulse| pulse.gamma),
+            nu_rad: pulse.map(|pulse| pulse.nu_rad),
+            t0_s: fitted.map(|fitted| fitted.t0_s),
+            pulse_r2: fitted.map(|fitted| fitted.r2),
+        }
+    }
 }
 
 keywords! {
@@ -170,15 +223,16 @@ impl Processing {
         let both = |a: String, b: String| if a == b { a } else { format!("{a}; {b}") };
         let record = NamedRecord {
             motion_id: format!("{}+{}", first.motion_id, second.motion_id),
-            source: SourceFile {
-                path: both(first.source.path, second.source.path),
-                blake3: both(first.source.blake3, second.source.blake3),
-            },
+            source_file: both(first.source_file, second.source_file),
+            source_blake3: both(first.source_blake3, second.source_blake3),
             doubts: [first.doubts, second.doubts].concat(),
             motion: RecordedMotion {
                 acceleration_m_s2,
-                component: Some(format!("{azimuth_deg:.1} deg of a pair")),
-                azimuth_deg: Some(azimuth_deg),
+                origin: Origin {
+                    component: Some(format!("{azimuth_deg:.1} deg of a pair")),
+                    azimuth_deg: Some(azimuth_deg),
+                    ..pair.first.origin
+                },
                 header_pga: None,
                 ..pair.first
             },
@@ -189,41 +243,48 @@ impl Processing {
     /// Scales and measures a record: one motion for each factor.
     fn scaled(
         &self,
-        mut record: NamedRecord,
+        record: NamedRecord,
         rotd: Option<RotD>,
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
-        let NamedRecord { motion_id, motion, .. } = &record;
+        let NamedRecord { motion_id, source_file, source_blake3, motion, doubts } = record;
         let dt_s = motion.dt_s;
         let factors = self.scaling.factors(&motion.acceleration_m_s2, dt_s);
         if factors.is_empty() {
             return Err(ProcessingError::Zero);
         }
-        let (indicator, pulse) = self.pulse_of(motion);
-        let (motion_id, several) = (motion_id.clone(), factors.len() > 1);
-        let samples = std::mem::take(&mut record.motion.acceleration_m_s2);
+        let (found, fitted) = self.pulse_of(&motion);
+        let Origin { earthquake, station, component, .. } = &motion.origin;
+        let names: Vec<&str> =
+            [earthquake, station, component].into_iter().flatten().map(String::as_str).collect();
         let mut motions = Vec::new();
-        for scale in factors {
-            let acceleration_m_s2: Vec<f32> = samples.iter().map(|&a| (scale * a) as f32).collect();
+        for &scale in &factors {
+            let acceleration_m_s2: Vec<f32> =
+                motion.acceleration_m_s2.iter().map(|&a| (scale * a) as f32).collect();
             let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-            if several {
-                record.motion_id = format!("{motion_id} x{scale}");
-            }
-            let scaled = ImportedMotion {
-                record: record.clone(),
-                scale,
-                measured: self.plan.measure(&written, dt_s, &mut Transforms::default()),
-                acceleration_m_s2,
-                rotd,
-                indicator,
-                pulse,
-            };
-            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = scaled.measured;
-            let pga_g = pga_m_s2 / G_M_S2;
+            let measures = self.plan.measure(&written, dt_s, &mut Transforms::default());
+            let (pga_g, pgv_m_s) = (measures.pga_m_s2 / G_M_S2, measures.pgv_m_s);
             let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
             if scale != 1.0 && is_too_strong && !self.accept_implausible {
                 return Err(ProcessingError::Scaled { scale, pga_g, pgv_m_s });
             }
-            motions.push(scaled);
+            motions.push(ImportedMotion {
+                motion_id: match factors.len() {
+                    1 => motion_id.clone(),
+                    _ => format!("{motion_id} x{scale}"),
+                },
+                suite: Suite::Record,
+                name: (!names.is_empty()).then(|| names.join(", ")),
+                origin: motion.origin.clone(),
+                source_file: source_file.clone(),
+                source_blake3: source_blake3.clone(),
+                scale,
+                dt_s,
+                measures,
+                pulse: PulseColumns::new(scale, rotd, found, fitted),
+                acceleration_m_s2,
+                kind: format!("{} in {}", motion.format, motion.unit.name),
+                doubts: doubts.clone(),
+            });
         }
         Ok(motions)
     }

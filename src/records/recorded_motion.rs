@@ -4,23 +4,34 @@ use crate::inputs::words::is_vertical;
 use crate::keyword::keywords;
 use crate::units::Unit;
 
+/// Where a record is from, as named in its file.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Origin {
+    pub earthquake: Option<String>,
+    pub mw: Option<f64>,
+    /// Distance from the rupture, km.
+    pub re_km: Option<f64>,
+    pub station: Option<String>,
+    pub component: Option<String>,
+    /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
+    pub azimuth_deg: Option<f64>,
+}
+
+impl Origin {
+    /// Whether the component is vertical.
+    pub fn is_vertical(&self) -> bool {
+        self.azimuth_deg.is_none() && self.component.as_deref().is_some_and(is_vertical)
+    }
+}
+
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct RecordedMotion {
     pub dt_s: f64,
     pub acceleration_m_s2: Vec<f64>,
-    /// Earthquake, as named in the file.
-    pub event: Option<String>,
-    pub mw: Option<f64>,
-    /// Distance from the rupture, km.
-    pub re_km: Option<f64>,
-    /// Station, as named in the file.
-    pub station: Option<String>,
-    /// Component, as named in the file.
-    pub component: Option<String>,
-    /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
-    pub azimuth_deg: Option<f64>,
+    pub origin: Origin,
     /// Whether the instrument is in a borehole, where rocks do not rock.
     pub is_in_borehole: bool,
     pub header_pga: Option<HeaderPga>,
@@ -31,27 +42,17 @@ pub struct RecordedMotion {
 }
 
 impl RecordedMotion {
-    /// Makes a record of samples in a unit of acceleration, `dt_s` apart, without labels.
-    pub fn new(dt_s: f64, samples: Vec<f64>, unit: Unit) -> RecordedMotion {
+    /// Makes a record of samples in a unit of acceleration, `dt_s` apart.
+    pub fn new(dt_s: f64, samples: Vec<f64>, unit: Unit, origin: Origin) -> RecordedMotion {
         RecordedMotion {
             dt_s,
             acceleration_m_s2: samples.into_iter().map(|value| value * unit.si).collect(),
-            event: None,
-            mw: None,
-            re_km: None,
-            station: None,
-            component: None,
-            azimuth_deg: None,
+            origin,
             is_in_borehole: false,
             header_pga: None,
             format: "",
             unit,
         }
-    }
-
-    /// Whether the component is vertical.
-    pub fn is_vertical(&self) -> bool {
-        self.azimuth_deg.is_none() && self.component.as_deref().is_some_and(is_vertical)
     }
 }
 

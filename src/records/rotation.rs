@@ -3,52 +3,29 @@
 use std::collections::HashMap;
 use std::str::FromStr;
 
-use super::RecordedMotion;
+use super::{Origin, RecordedMotion};
 use crate::motion::measures::{peak, velocity};
 
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;
 
-/// What tells which components are of one instrument.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
-pub struct Component {
-    #[serde(rename = "earthquake")]
-    pub event: Option<String>,
-    pub station: Option<String>,
-    pub dt_s: f64,
-    /// None of a vertical component.
-    pub azimuth_deg: Option<f64>,
-}
-
-impl Component {
-    /// Describes a record.
-    pub fn new(motion: &RecordedMotion) -> Component {
-        let RecordedMotion { event, station, dt_s, azimuth_deg, .. } = motion;
-        Component { event: event.clone(), station: station.clone(), dt_s: *dt_s, azimuth_deg: *azimuth_deg }
-    }
-}
-
-/// Pairs each component with the first free earlier one of its event, station and time step at right angles;
-/// `T` identifies a component. Returns the pairs in the order of their first
-/// components, and the components left out: vertical, of unknown origin, or without a partner.
-pub fn pairs<T>(components: Vec<(Component, T)>) -> (Vec<[T; 2]>, Vec<T>) {
+/// Pairs each component, by its origin and time step (s), with the first free earlier one of its earthquake,
+/// station and time step at right angles, by their places in the order of the first. Those that are vertical,
+/// of unknown origin or without a partner are in no pair.
+pub fn pairs(components: &[(&Origin, f64)]) -> Vec<[usize; 2]> {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();
-    for (place, (motion, _)) in components.iter().enumerate() {
-        let is_known = motion.event.is_some() || motion.station.is_some();
-        let Some(azimuth_deg) = motion.azimuth_deg.filter(|_| is_known) else { continue };
-        let others = waiting.entry((&motion.event, &motion.station, motion.dt_s.to_bits())).or_default();
+    for (place, (Origin { earthquake, station, azimuth_deg, .. }, dt_s)) in components.iter().enumerate() {
+        let is_known = earthquake.is_some() || station.is_some();
+        let Some(azimuth_deg) = azimuth_deg.filter(|_| is_known) else { continue };
+        let others = waiting.entry((earthquake, station, dt_s.to_bits())).or_default();
         match others.iter().position(|(_, other)| is_right_angle(*other, azimuth_deg)) {
             Some(at) => found.push([others.remove(at).0, place]),
             None => others.push((place, azimuth_deg)),
         }
     }
     found.sort_unstable();
-    let mut left: Vec<Option<T>> = components.into_iter().map(|(_, component)| Some(component)).collect();
-    let pairs =
-        found.into_iter().filter_map(|[first, second]| Some([left[first].take()?, left[second].take()?]));
-    (pairs.collect(), left.into_iter().flatten().collect())
+    found
 }
 
 /// Returns whether two azimuths (degrees) are at right angles to a degree; either may be reversed.
@@ -126,7 +103,7 @@ impl HorizontalPair {
 }
 
 fn azimuth_of(component: &RecordedMotion) -> f64 {
-    component.azimuth_deg.unwrap_or_default()
+    component.origin.azimuth_deg.unwrap_or_default()
 }
 
 /// Computes the peak in each direction, ascending.

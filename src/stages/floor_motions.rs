@@ -135,8 +135,7 @@ impl FloorMotions {
         let floors: Vec<FloorRow> = floors.collect();
         let measures = rows::batch(&measured)?;
         let known = [others(&ground.rows)?, rows::batch(&floors)?, measures];
-        let sa: Vec<&[f64]> = measured.iter().map(|measured| measured.sa_m_s2.as_slice()).collect();
-        batch(&known, &plan.sa_periods_s, &sa, filtered.iter().map(Vec::as_slice))
+        batch(&known, &plan.sa_periods_s, measured.iter().zip(filtered.iter().map(Vec::as_slice)))
     }
 }
 

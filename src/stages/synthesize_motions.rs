@@ -79,20 +79,16 @@ pub struct SynthesizeMotions {
     partition: Option<Partition>,
 }
 
-/// What names a motion in the file.
+/// A synthetic motion, its scenario, and the measures of its samples as they are written.
 #[derive(Serialize, Deserialize)]
-struct MotionName {
+struct SyntheticMotion {
     motion_id: String,
     suite: Suite,
     dt_s: f64,
-}
-
-/// A synthetic motion: what names it, its scenario, its samples as they are written and what they measure.
-struct SyntheticMotion {
-    name: MotionName,
     scenario: Scenario,
+    measures: MotionMeasures,
+    #[serde(skip)]
     acceleration_m_s2: Vec<f32>,
-    measured: MotionMeasures,
 }
 
 impl Stage for SynthesizeMotions {
@@ -227,20 +223,19 @@ fn synthesize(
     let motions = suites.iter().map(|&suite| {
         let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
         let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-        let measured = plan.measure(&written, dt_s, scratch);
-        let motion_id = suite.motion_id(scenario.scenario_id).to_string();
-        let name = MotionName { motion_id, suite, dt_s };
-        SyntheticMotion { name, scenario: *scenario, acceleration_m_s2, measured }
+        SyntheticMotion {
+            motion_id: suite.motion_id(scenario.scenario_id).to_string(),
+            suite,
+            dt_s,
+            scenario: *scenario,
+            measures: plan.measure(&written, dt_s, scratch),
+            acceleration_m_s2,
+        }
     });
     motions.collect()
 }
 
 fn batch(some: &[SyntheticMotion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
-    let sa: Vec<&[f64]> = some.iter().map(|motion| motion.measured.sa_m_s2.as_slice()).collect();
-    let known = [
-        rows::batch(some.iter().map(|motion| &motion.name))?,
-        rows::batch(some.iter().map(|motion| &motion.scenario))?,
-        rows::batch(some.iter().map(|motion| &motion.measured))?,
-    ];
-    motions::batch(&known, periods_s, &sa, some.iter().map(|motion| motion.acceleration_m_s2.as_slice()))
+    let sampled = some.iter().map(|motion| (&motion.measures, motion.acceleration_m_s2.as_slice()));
+    motions::batch(&[rows::batch(some)?], periods_s, sampled)
 }

@@ -15,7 +15,9 @@ use super::columns::Batch;
 use super::dictionary;
 use super::file::{Partition, RowGroup, Table, or_error};
 use super::rows::{self, side_by_side};
-use crate::records::rotation::{Component, pairs};
+use crate::motion::MotionMeasures;
+use crate::records::Origin;
+use crate::records::rotation::pairs;
 use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
@@ -151,32 +153,40 @@ pub fn record<'a>(
 /// The names of motions that are the second of two horizontal components of an instrument.
 pub fn second_of_pairs(path: &Path) -> Result<HashSet<String>, TableError> {
     #[derive(Serialize, Deserialize)]
-    struct Named {
+    struct Component {
         motion_id: String,
-        component: Component,
+        earthquake: Option<String>,
+        station: Option<String>,
+        dt_s: f64,
+        azimuth_deg: Option<f64>,
     }
-    let named = rows::read::<Named>(path)?.into_iter().map(|named| (named.component, named.motion_id));
-    Ok(pairs(named.collect()).0.into_iter().map(|[_, second]| second).collect())
+    let (mut names, mut origins) = (Vec::new(), Vec::new());
+    for Component { motion_id, earthquake, station, dt_s, azimuth_deg } in rows::read(path)? {
+        names.push(motion_id);
+        origins.push((Origin { earthquake, station, azimuth_deg, ..Origin::default() }, dt_s));
+    }
+    let origins: Vec<_> = origins.iter().map(|(origin, dt_s)| (origin, *dt_s)).collect();
+    Ok(pairs(&origins).into_iter().map(|[_, second]| std::mem::take(&mut names[second])).collect())
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.
 pub fn batch<'a>(
     known: &[RecordBatch],
     periods_s: &[f64],
-    sa_m_s2: &[&[f64]],
-    samples: impl Iterator<Item = &'a [f32]>,
+    motions: impl Iterator<Item = (&'a MotionMeasures, &'a [f32])> + Clone,
 ) -> anyhow::Result<RecordBatch> {
     let mut fields: Vec<Field> = Vec::new();
     let mut columns: Vec<ArrayRef> = Vec::new();
     for (place, period) in periods_s.iter().enumerate() {
         let field = Field::new(spectral_column(*period), DataType::Float64, true);
         fields.push(dictionary::with_meaning(field));
-        columns.push(Arc::new(Float64Array::from_iter(sa_m_s2.iter().map(|sa| sa[place]))));
+        let sa = motions.clone().map(|(measures, _)| measures.sa_m_s2[place]);
+        columns.push(Arc::new(Float64Array::from_iter(sa)));
     }
     let item = Arc::new(Field::new("item", DataType::Float32, false));
     let mut lists = ListBuilder::new(Float32Builder::new()).with_field(item.clone());
-    for motion in samples {
-        lists.values().append_slice(motion);
+    for (_, samples) in motions {
+        lists.values().append_slice(samples);
         lists.append(true);
     }
     fields.push(dictionary::with_meaning(Field::new(ACCELERATION, DataType::List(item), false)));

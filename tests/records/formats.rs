@@ -51,16 +51,17 @@ fn what_is_written_is_read() {
     let mean = motion(1000).iter().sum::<f64>() / 1000.0;
     for Written { format, text, half_digit, labels, azimuth_deg } in each_format() {
         let [read_motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
-        let RecordedMotion { event, station, component, acceleration_m_s2, .. } = read_motion;
-        assert_eq!((read_motion.format, read_motion.azimuth_deg), (format.as_str(), Some(azimuth_deg)));
+        let RecordedMotion { origin, acceleration_m_s2, .. } = read_motion;
+        assert_eq!((read_motion.format, origin.azimuth_deg), (format.as_str(), Some(azimuth_deg)));
         let mw = [(Format::Esm, 6.0), (Format::Knet, 9.0)].into_iter().find(|(of, _)| *of == format);
-        assert_eq!(read_motion.mw, mw.map(|(_, mw)| mw));
+        assert_eq!(origin.mw, mw.map(|(_, mw)| mw));
         assert!((read_motion.dt_s - DT).abs() < 1e-12 && acceleration_m_s2.len() == 1000);
         let offset = if format == Format::Knet { mean } else { 0.0 };
         for (a, b) in acceleration_m_s2.iter().zip(motion(1000)) {
             assert!((a - b + offset).abs() <= half_digit * 1.001, "{format:?}: {a} {b}");
         }
-        assert_eq!([event, station, component].map(|text| text.as_deref()), labels.map(Some));
+        let found = [&origin.earthquake, &origin.station, &origin.component].map(|text| text.as_deref());
+        assert_eq!(found, labels.map(Some));
         // Line ends, blanks, an end-of-file mark, Latin-1.
         for other in [text.replace('\n', "\r\n"), text.replace('\n', "   \n"), text.clone() + "\n \n\x1a"] {
             assert_eq!(read(&other).unwrap(), read(&text).unwrap(), "{format:?}");
@@ -77,7 +78,7 @@ fn cosmos_holds_channels_whose_numbers_may_touch() {
     let text = cosmos(&motion(1003), 360) + &cosmos(&loud, 90);
     assert!(text.lines().any(|line| line.matches('.').count() == 8 && !line.contains(' ')));
     let [first, second] = &read(&text).unwrap()[..] else { panic!("velocities are left out") };
-    assert_eq!([first.azimuth_deg, second.azimuth_deg], [Some(360.0), Some(90.0)]);
+    assert_eq!([first, second].map(|motion| motion.origin.azimuth_deg), [Some(360.0), Some(90.0)]);
     assert!(second.acceleration_m_s2.iter().zip(&loud).all(|(a, b)| (a - b).abs() < 1e-6));
 }
 
@@ -149,7 +150,7 @@ proptest! {
 fn headers_must_agree_with_options() {
     for Written { format, text, .. } in each_format() {
         let [motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
-        assert!(!motion.is_vertical(), "{format:?}");
+        assert!(!motion.origin.is_vertical(), "{format:?}");
         for options in [
             ReadOptions { dt_s: Some(2.0 * DT), ..ReadOptions::default() },
             ReadOptions { unit: Unit::parse("ft/s2"), ..ReadOptions::default() },

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::records::RecordedMotion;
-use rockfrag::records::rotation::{Component, HorizontalPair, Parts, pairs};
+use rockfrag::records::rotation::{HorizontalPair, Parts, pairs};
 use rockfrag::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
+use rockfrag::records::{Origin, RecordedMotion};
 
 use rockfrag::units::Unit;
 
@@ -65,8 +65,8 @@ fn resampling_keeps_what_both_steps_can_hold() {
 }
 
 fn component(azimuth_deg: f64, samples: Vec<f64>) -> RecordedMotion {
-    let motion = RecordedMotion::new(DT, samples, Unit::parse("m/s2").unwrap());
-    RecordedMotion { azimuth_deg: Some(azimuth_deg), ..motion }
+    let origin = Origin { azimuth_deg: Some(azimuth_deg), ..Origin::default() };
+    RecordedMotion::new(DT, samples, Unit::parse("m/s2").unwrap(), origin)
 }
 
 #[test]
@@ -103,11 +103,14 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
         ("b", Some(190.0)),
         ("b", Some(275.5)),
     ];
-    let component = |((station, azimuth), place): ((&str, Option<f64>), usize)| {
-        (Component { event: None, station: Some(station.to_string()), dt_s: DT, azimuth_deg: azimuth }, place)
+    let origin = |(station, azimuth_deg): (&str, Option<f64>)| Origin {
+        station: Some(station.to_string()),
+        azimuth_deg,
+        ..Origin::default()
     };
-    let found = pairs(components.into_iter().zip(0..).map(component).collect());
-    assert_eq!(found, (vec![[0, 3], [1, 5]], vec![2, 4]));
+    let origins = components.map(origin);
+    let found = pairs(&origins.each_ref().map(|origin| (origin, DT)));
+    assert_eq!(found, [[0, 3], [1, 5]]);
 }
 
 #[test]

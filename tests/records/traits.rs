@@ -93,21 +93,21 @@ fn vertical_components_have_many_names() {
     ];
     for (index, text) in verticals.iter().enumerate() {
         assert_ne!(*text, plain, "{index}");
-        assert!(read(text)[0].is_vertical(), "{index}");
+        assert!(read(text)[0].origin.is_vertical(), "{index}");
     }
     let horizontals =
         [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
-    assert!(horizontals.iter().all(|text| read(text)[0].azimuth_deg == Some(360.0)));
+    assert!(horizontals.iter().all(|text| read(text)[0].origin.azimuth_deg == Some(360.0)));
     for name in [
         "DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "V1", "90V", "Up", "U-D", "vertical", "V", "HNZ",
         "CHY101-V", "Vert.", "UP1", "U-D2",
     ] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(read(&text)[0].is_vertical(), "{name}");
+        assert!(read(&text)[0].origin.is_vertical(), "{name}");
     }
     for name in ["N", "090", "N90E", "H1", "TR", "LN", "E-W", "H-Z14000", "U1"] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(!read(&text)[0].is_vertical(), "{name}");
+        assert!(!read(&text)[0].origin.is_vertical(), "{name}");
     }
 }
 
@@ -180,9 +180,10 @@ fn columns_of_directions_are_motions_of_their_own() {
         ("t,R (m/s2),T (m/s2),Z (m/s2)", 1.0, [None, None]),
     ] {
         let read = read_csv(&table(heading, unit, 3, seconds), "").unwrap();
-        let (vertical, horizontal): (Vec<_>, Vec<_>) = read.iter().partition(|motion| motion.is_vertical());
+        let (vertical, horizontal): (Vec<_>, Vec<_>) =
+            read.iter().partition(|motion| motion.origin.is_vertical());
         assert_eq!((vertical.len(), horizontal.len()), (1, 2), "{heading}");
-        assert_eq!([0, 1].map(|index: usize| horizontal[index].azimuth_deg), azimuths, "{heading}");
+        assert_eq!([0, 1].map(|index: usize| horizontal[index].origin.azimuth_deg), azimuths, "{heading}");
         expect_samples(horizontal[0], &motion(400), 2e-6 * G);
         let half: Vec<f64> = motion(400).iter().map(|a| 0.5 * a).collect();
         expect_samples(horizontal[1], &half, 2e-6 * G);
@@ -216,7 +217,7 @@ fn clocks_are_times_and_no_samples() {
     ] {
         let read = read_csv(&text, "").unwrap_or_else(|why| panic!("{why}: {}", &text[..80]));
         assert!(read.iter().all(|motion| (motion.dt_s - DT).abs() < 1e-9));
-        assert_eq!(read.iter().filter(|motion| !motion.is_vertical()).count(), 2);
+        assert_eq!(read.iter().filter(|motion| !motion.origin.is_vertical()).count(), 2);
         expect_samples(&read[0], &motion(400), 1e-6);
     }
     let gap = |k: usize| format!("00:00:{}", second(k + usize::from(k > 100)));

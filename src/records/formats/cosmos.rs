@@ -5,7 +5,7 @@
 use super::error::RecordFileError;
 use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit_of, words};
 use crate::inputs::words::is_vertical;
-use crate::records::{HeaderPga, ReadOptions, RecordedMotion};
+use crate::records::{HeaderPga, Origin, ReadOptions, RecordedMotion};
 
 /// Index of the azimuth among the integers.
 const AZIMUTH: usize = 53;
@@ -105,8 +105,7 @@ impl Channel<'_> {
     ) -> Result<RecordedMotion, RecordFileError> {
         let unit = unit_of(after(announcement, "units=").unwrap_or(""), line)?;
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
-        let missing = RecordFileError::missing(line, "time step", "it in ms as 62nd real of the header");
-        let dt_s = step.or(options.dt_s).ok_or(missing)?;
+        let dt_s = time_step(step.or(options.dt_s), line)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let peak = peak.map(|peak| peak.abs() * unit.si);
@@ -121,13 +120,16 @@ impl Channel<'_> {
         let azimuth = Some(code).filter(|azimuth| (1.0..=360.0).contains(azimuth));
         let degrees = label.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
         let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
-        Ok(RecordedMotion {
-            event: find("Record of ").and_then(words),
+        let origin = Origin {
+            earthquake: find("Record of ").and_then(words),
             station: find("Code:").and_then(words),
             azimuth_deg: azimuth.filter(|_| !is_vertical),
             component: if is_vertical { Some("vertical".to_string()) } else { label },
+            ..Origin::default()
+        };
+        Ok(RecordedMotion {
             header_pga: peak.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }),
-            ..RecordedMotion::new(time_step(dt_s, line)?, values, unit)
+            ..RecordedMotion::new(dt_s, values, unit, origin)
         })
     }
 }

@@ -6,7 +6,7 @@ use super::header::{azimuth_of, expect_step, expect_unit, first_number, given_un
 use crate::inputs::words::is_vertical;
 use crate::inputs::{Grid, Heading};
 use crate::motion::measures::peak;
-use crate::records::{ReadOptions, RecordedMotion};
+use crate::records::{Origin, ReadOptions, RecordedMotion};
 use crate::units::{Quantity, Unit};
 
 const DAY_S: f64 = 86400.0;
@@ -76,8 +76,8 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
     let [pga, other_pga] = [motion, other].map(|motion| peak(&motion.acceleration_m_s2));
     let are_far = (pga / other_pga).ln().abs() > FAR_PEAKS.ln();
     (pga - other_pga).abs() < SAME_PEAK * pga
-        || motion.azimuth_deg.is_some() && motion.azimuth_deg == other.azimuth_deg
-        || motion.unit != other.unit && are_far && !motion.is_vertical() && !other.is_vertical()
+        || motion.origin.azimuth_deg.is_some() && motion.origin.azimuth_deg == other.origin.azimuth_deg
+        || motion.unit != other.unit && are_far && ![motion, other].iter().any(|of| of.origin.is_vertical())
 }
 
 impl Samples<'_> {
@@ -153,15 +153,12 @@ impl Samples<'_> {
             return Err(RecordFileError::Count { announced: 2, found: samples.len() });
         }
         let unit = self.unit(heading)?;
-        let expected = "a column of times, or a comment such as dt = 0.005 s";
-        let dt_s = options.dt_s.or(found).ok_or(RecordFileError::missing(line, "time step", expected))?;
+        let dt_s = time_step(options.dt_s.or(found), line)?;
         expect_step(options.dt_s, found.unwrap_or(dt_s), line)?;
         let (name, direction) = (Some(&*heading.text).filter(|text| !text.is_empty()), direction(heading));
-        Ok(RecordedMotion {
-            component: direction.or(name).map(str::to_string),
-            azimuth_deg: direction.and_then(azimuth_of),
-            ..RecordedMotion::new(time_step(dt_s, line)?, samples, unit)
-        })
+        let component = direction.or(name).map(str::to_string);
+        let origin = Origin { component, azimuth_deg: direction.and_then(azimuth_of), ..Origin::default() };
+        Ok(RecordedMotion::new(dt_s, samples, unit, origin))
     }
 
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.

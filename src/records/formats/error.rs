@@ -26,10 +26,11 @@ pub enum RecordFileError {
     )]
     ShortLine { line: usize, found: usize, expected: usize },
     #[error(
-        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap, or exchanged headings?"
+        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap, or exchanged \
+         headings? Rounded times? Give --dt"
     )]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
-    #[error("{columns}; expected one of acceleration")]
+    #[error("{columns}; expected one of acceleration: choose with --column, or --column all if lines wrap")]
     Column { columns: String },
 }
 

@@ -5,7 +5,7 @@ use super::header::{
     after, azimuth_of, field, given_unit, header_pga, number_field, numbers, samples, time_step, unit_of,
     words,
 };
-use crate::records::{ReadOptions, RecordedMotion};
+use crate::records::{Origin, ReadOptions, RecordedMotion};
 use crate::units::Unit;
 
 /// Largest number of header lines.
@@ -29,9 +29,9 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         Some((line, text)) => unit_of(text, line)?,
         None => given_unit(options, end)?,
     };
-    let step = number_field(header, "SAMPLING_INTERVAL_S:").or(options.dt_s.map(|dt_s| (end, dt_s)));
-    let expected = "SAMPLING_INTERVAL_S";
-    let (line, dt_s) = step.ok_or(RecordFileError::missing(end, "time step", expected))?;
+    let step = number_field(header, "SAMPLING_INTERVAL_S:");
+    let (line, step) = step.map_or((end, options.dt_s), |(line, dt_s)| (line, Some(dt_s)));
+    let dt_s = time_step(step, line)?;
     let expected = "the number of samples, such as 'NDATA: 18904'";
     let (_, announced) =
         number_field(header, "NDATA:").ok_or(RecordFileError::missing(end, "NDATA", expected))?;
@@ -40,14 +40,17 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     // The last letter of a channel code is the direction; a digit is not.
     let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
     let peak = field(header, "PGA_CM/S^2:").zip(Unit::parse("cm/s2"));
-    Ok(RecordedMotion {
-        event: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
+    let origin = Origin {
+        earthquake: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
         mw: number_field(header, "MAGNITUDE_W:").map(|(_, mw)| mw),
         station: joined(header, ["NETWORK:", "STATION_CODE:", "STATION_NAME:"]),
         component: words(stream),
         azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),
+        re_km: None,
+    };
+    Ok(RecordedMotion {
         header_pga: peak.and_then(|((_, peak), unit)| header_pga(peak, unit)),
-        ..RecordedMotion::new(time_step(dt_s, line)?, values, unit)
+        ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }
 

@@ -10,13 +10,19 @@ const SAME_STEP: f64 = 0.01;
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
-/// Checks a time step (s) on a line.
-pub fn time_step(dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
-    match dt_s > 0.0 && dt_s <= LONGEST_STEP_S {
-        true => Ok(dt_s),
-        false => {
-            let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
-            Err(RecordFileError::value(line, "time step", &found, expected))
+/// Checks the time step (s) that a file says on a line, or the user.
+pub fn time_step(dt_s: Option<f64>, line: usize) -> Result<f64, RecordFileError> {
+    let field = "time step";
+    match dt_s {
+        None => Err(RecordFileError::missing(
+            line,
+            field,
+            "a header, times or a comment with it, or --dt, such as --dt 0.005",
+        )),
+        Some(dt_s) if dt_s > 0.0 && dt_s <= LONGEST_STEP_S => Ok(dt_s),
+        Some(dt_s) => {
+            let found = format!("{dt_s} s");
+            Err(RecordFileError::value(line, field, &found, "one above 0 s and up to 10 s"))
         }
     }
 }
@@ -31,7 +37,7 @@ pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
 
 /// Returns the given unit, for a file without one.
 pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
-    let expected = "one of acceleration, such as g or cm/s2";
+    let expected = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
     options.unit.ok_or(RecordFileError::missing(line, "unit", expected))
 }
 

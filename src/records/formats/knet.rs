@@ -6,7 +6,7 @@ use super::header::{
     after, azimuth_of, field, first_number, header_pga, leading_number, number_field, numbers, samples,
     time_step, unit_of, words,
 };
-use crate::records::{ReadOptions, RecordedMotion};
+use crate::records::{Origin, ReadOptions, RecordedMotion};
 
 /// Largest number of header lines.
 const HEADER: usize = 40;
@@ -23,10 +23,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let end = memo.ok_or(missing(HEADER, "Memo.", "it at the end of the header"))?;
     let header = &lines[..end];
     let hertz = number_field(header, "Sampling Freq(Hz)").map(|(line, hertz)| (line, 1.0 / hertz));
-    let step = hertz.or(options.dt_s.map(|dt_s| (end, dt_s)));
-    let expected = "a line with Sampling Freq(Hz)";
-    let (line, dt_s) = step.ok_or(missing(end, "time step", expected))?;
-    let dt_s = time_step(dt_s, line)?;
+    let (line, step) = hertz.map_or((end, options.dt_s), |(line, dt_s)| (line, Some(dt_s)));
+    let dt_s = time_step(step, line)?;
     let scale = field(header, "Scale Factor");
     let (line, text) = scale.ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;
     let counts = after(text, "/").and_then(first_number).filter(|counts| *counts != 0.0);
@@ -47,14 +45,17 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let component = number.map_or(direction, |number| ["N-S", "E-W", "U-D"][(number - 1) % 3]);
     let is_in_borehole = number.is_some_and(|number| number <= 3);
     let place = number.map_or("", |_| if is_in_borehole { "borehole" } else { "surface" });
-    Ok(RecordedMotion {
-        event: field(header, "Origin Time").and_then(|(_, time)| words(time)),
+    let origin = Origin {
+        earthquake: field(header, "Origin Time").and_then(|(_, time)| words(time)),
         mw: number_field(header, "Mag.").map(|(_, magnitude)| magnitude),
         station: field(header, "Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
         component: words(component),
-        is_in_borehole,
         azimuth_deg: azimuth_of(component),
+        re_km: None,
+    };
+    Ok(RecordedMotion {
+        is_in_borehole,
         header_pga: field(header, "Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit)),
-        ..RecordedMotion::new(dt_s, gal, unit)
+        ..RecordedMotion::new(dt_s, gal, unit, origin)
     })
 }

@@ -6,7 +6,7 @@ use super::header::{
     after, azimuth_of, first_number, given_unit, header_pga, leading_number, numbers, samples, time_step,
     unit_of, words,
 };
-use crate::records::{ReadOptions, RecordedMotion};
+use crate::records::{Origin, ReadOptions, RecordedMotion};
 use crate::units::Unit;
 
 /// Largest number of lines before the one with NPTS.
@@ -41,9 +41,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
     let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
-    let dt_s = named(counts, "DT").or(second).or(options.dt_s);
-    let expected = "one such as 'DT= .0050 SEC'";
-    let dt_s = dt_s.ok_or(missing(at + 1, "time step", expected))?;
+    let dt_s = time_step(named(counts, "DT").or(second).or(options.dt_s), at + 1)?;
     let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
@@ -59,13 +57,16 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let event_parts = date.map_or(1, |date| date + 1).min(before.len());
     let (event, station) = before.split_at(event_parts);
     let pga = header.iter().find_map(|line| after(line, "PGA"));
-    Ok(RecordedMotion {
+    let origin = Origin {
         azimuth_deg: azimuth_of(component),
-        event: words(&event.join(", ")),
+        earthquake: words(&event.join(", ")),
         station: words(&station.join(", ")),
         component: words(component),
+        ..Origin::default()
+    };
+    Ok(RecordedMotion {
         header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), Unit::parse("g")?)),
-        ..RecordedMotion::new(time_step(dt_s, at + 1)?, values, unit)
+        ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }
 

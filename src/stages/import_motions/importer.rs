@@ -14,9 +14,9 @@ use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::records::implausibility::Implausibility;
-use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError, SourceFile};
-use crate::records::rotation::{Component, pairs};
-use crate::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
+use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError};
+use crate::records::rotation::pairs;
+use crate::records::{ReadOptions, RecordedMotion, read_records};
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
@@ -75,27 +75,28 @@ impl Importer {
             let (records, others): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
             others.into_iter().filter_map(Result::err).for_each(|why| summary.leave_out(why));
             // Samples are read again once a pair is found: that takes less memory than keeping all of them.
-            let records = records.into_iter().flatten().enumerate();
-            components.extend(
-                records.map(|(index, record)| (Component::new(&record.motion), (file.clone(), index))),
-            );
+            for (index, NamedRecord { motion, .. }) in records.into_iter().flatten().enumerate() {
+                components.push((motion.origin, motion.dt_s, (file.clone(), index)));
+            }
         }
         let horizontal = counted(components.len(), "horizontal component");
-        let (pairs, left_out) = pairs(components);
+        let origins: Vec<_> = components.iter().map(|(origin, dt_s, _)| (origin, *dt_s)).collect();
+        let pairs = pairs(&origins);
         if pairs.is_empty() && summary.refused.is_empty() {
             bail!(
                 "no pair among {horizontal}; expected two of one event, station and time step at right \
                  angles. Without --rotate each is imported by itself"
             );
         }
-        let alone = left_out.iter().map(|(file, _)| (Warning::NoPartner, text(file.path.file_name())));
+        let alone = (0..components.len()).filter(|at| !pairs.iter().any(|pair| pair.contains(at)));
+        let alone = alone.map(|at| (Warning::NoPartner, text(components[at].2.0.path.file_name())));
         context.warn(alone.collect());
-        Ok(pairs.into_iter().map(Work::Pair).collect())
+        Ok(pairs.into_iter().map(|pair| Work::Pair(pair.map(|at| components[at].2.clone()))).collect())
     }
 
     /// What a component is that is not to be imported. A column that was chosen is.
     fn left_out(&self, motion: &RecordedMotion) -> Option<&'static str> {
-        let is_vertical = motion.is_vertical() && !self.vertical && self.reading.column.is_none();
+        let is_vertical = motion.origin.is_vertical() && !self.vertical && self.reading.column.is_none();
         let vertical = is_vertical.then_some("vertical component");
         motion.is_in_borehole.then_some("borehole component").or(vertical)
     }
@@ -109,7 +110,7 @@ impl Importer {
         let several = records.len() > 1;
         let imported = records.into_iter().map(|record| {
             let record = record?;
-            let column = record.motion.component.clone().filter(|_| several);
+            let column = record.motion.origin.component.clone().filter(|_| several);
             let column = column.map_or(String::new(), |column| format!("column '{column}': "));
             self.processing.import(record).map_err(|error| unprocessed(&file.path, &column, &error))
         });
@@ -142,26 +143,27 @@ impl Importer {
     /// Reads the records in the bytes of a file.
     fn read_one(&self, file: &File, bytes: &[u8]) -> Vec<Result<NamedRecord, NotImported>> {
         let File { path, name, below } = file;
-        let source = SourceFile { path: below.clone(), blake3: blake3::hash(bytes).to_hex().to_string() };
+        let source_blake3 = blake3::hash(bytes).to_hex().to_string();
         let motions = match read_records(bytes, &self.reading) {
             Ok(motions) => motions,
-            Err(error) => return vec![Err(unread(path, &error))],
+            Err(error) => return vec![Err(refusal(path, &error))],
         };
         let several = motions.len() > 1;
         let records = (1..).zip(motions).map(|(number, mut motion)| {
+            let origin = &mut motion.origin;
             if let Some(Known { mw, re_km, earthquake }) = self.about.get(path).cloned() {
-                motion.mw = mw.or(motion.mw);
-                motion.re_km = re_km.or(motion.re_km);
-                motion.event = earthquake.or(motion.event.take());
+                origin.mw = mw.or(origin.mw);
+                origin.re_km = re_km.or(origin.re_km);
+                origin.earthquake = earthquake.or(origin.earthquake.take());
             }
-            if several && motion.event.is_none() && motion.station.is_none() {
+            if several && origin.earthquake.is_none() && origin.station.is_none() {
                 // The columns of a table are of one instrument.
-                motion.station = Some(name.clone());
+                origin.station = Some(name.clone());
             }
             // A file without a direction may have it at the end of its name: ABC-UP.AT2.
             let last = name.rsplit(['-', '_', '.', ' ']).next().unwrap_or_default();
-            if !several && motion.azimuth_deg.is_none() && last != name && is_vertical(last) {
-                motion.component = Some(last.to_string());
+            if !several && origin.azimuth_deg.is_none() && last != name && is_vertical(last) {
+                origin.component = Some(last.to_string());
             }
             if let Some(what) = self.left_out(&motion) {
                 return Err(NotImported::LeftOut(what));
@@ -172,7 +174,8 @@ impl Importer {
             }
             Record::new(&motion.acceleration_m_s2, motion.dt_s).map_err(|problem| refusal(path, &problem))?;
             let motion_id = if several { format!("{name}:{number}") } else { name.clone() };
-            Ok(NamedRecord { motion_id, source: source.clone(), motion, doubts: Vec::new() })
+            let (source_file, source_blake3) = (below.clone(), source_blake3.clone());
+            Ok(NamedRecord { motion_id, source_file, source_blake3, motion, doubts: Vec::new() })
         });
         records.collect()
     }
@@ -198,18 +201,6 @@ fn text(name: Option<&OsStr>) -> String {
 
 fn refusal(file: &Path, reason: &impl ToString) -> NotImported {
     NotImported::Refused(format!("{}: {}", file.display(), reason.to_string()))
-}
-
-/// What is wrong with a file, and the option that helps.
-fn unread(file: &Path, error: &RecordFileError) -> NotImported {
-    let option = match error {
-        RecordFileError::Missing { field: "unit", .. } => ", or --unit, such as --unit g",
-        RecordFileError::Missing { field: "time step", .. } => ", or --dt, such as --dt 0.005",
-        RecordFileError::UnevenTime { .. } => " Rounded times? Give --dt",
-        RecordFileError::Column { .. } => ": choose with --column, or --column all if lines wrap",
-        _ => "",
-    };
-    refusal(file, &format!("{error}{option}"))
 }
 
 /// Why a record cannot be imported, and the option that helps.

@@ -1,17 +1,16 @@
 //! import-motions: recorded ground motions from the files of strong-motion networks and people, as motions
 //! that simulate reads.
 
-mod columns;
 mod importer;
 mod summary;
 
 use std::path::PathBuf;
 
+use arrow_array::RecordBatch;
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use self::columns::batch;
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
@@ -26,6 +25,7 @@ use crate::records::processing::{ImportedMotion, Processing, PulseSearch};
 use crate::records::rotation::Direction;
 use crate::records::signal::{Baseline, Scaling};
 use crate::records::{Format, ReadOptions};
+use crate::table::{motions, rows};
 use crate::units::{G_M_S2, Unit};
 use crate::warning::Warning;
 
@@ -175,8 +175,12 @@ impl Stage for ImportMotions {
 }
 
 fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> {
-    let record = &motion.record;
-    record.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", record.motion_id)))
+    motion.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", motion.motion_id)))
+}
+
+fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
+    let sampled = some.iter().map(|motion| (&motion.measures, motion.acceleration_m_s2.as_slice()));
+    motions::batch(&[rows::batch(some)?], periods_s, sampled)
 }
 
 impl ImportMotions {

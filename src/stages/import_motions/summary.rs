@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use anyhow::bail;
 
-use crate::motion::MotionMeasures;
 use crate::number::listed;
 use crate::number::{count, counted, fixed};
-use crate::records::processing::{ImportedMotion, NamedRecord, SourceFile};
+use crate::records::processing::ImportedMotion;
 use crate::units::G_M_S2;
 
 /// Kinds of files that the summary names.
@@ -41,22 +40,19 @@ impl Summary {
     /// Adds motions, which must differ from those before in their names and files.
     pub fn add(&mut self, imported: &[ImportedMotion]) -> anyhow::Result<()> {
         for motion in imported {
-            let NamedRecord { motion_id: id, source: SourceFile { path, blake3 }, motion: record, .. } =
-                &motion.record;
-            let first = self.files.entry(blake3.clone()).or_insert_with(|| path.clone());
+            let ImportedMotion { motion_id: id, source_file: path, source_blake3, measures, .. } = motion;
+            let first = self.files.entry(source_blake3.clone()).or_insert_with(|| path.clone());
             if first != path {
                 bail!("{path}: the same record as {first}; leave out one");
             }
             if !self.ids.insert(id.clone()) {
                 bail!("{path}: two motions are called '{id}'; rename the file");
             }
-            self.pulses += usize::from(motion.pulse.is_some());
-            self.magnitudes += usize::from(record.mw.is_some());
-            let kind = format!("{} in {}", record.format, record.unit.name);
-            *self.kinds.entry(kind).or_default() += 1;
-            let MotionMeasures { pga_m_s2, pgv_m_s, .. } = motion.measured;
-            self.pga_g.push(pga_m_s2 / G_M_S2);
-            self.pgv_m_s.push(pgv_m_s);
+            self.pulses += usize::from(motion.pulse.tp_s.is_some());
+            self.magnitudes += usize::from(motion.origin.mw.is_some());
+            *self.kinds.entry(motion.kind.clone()).or_default() += 1;
+            self.pga_g.push(measures.pga_m_s2 / G_M_S2);
+            self.pgv_m_s.push(measures.pgv_m_s);
         }
         Ok(())
     }
