@@ -40,7 +40,7 @@ impl About {
         let [magnitude, distance, earthquake, number] =
             ["magnitude", "distance", "earthquake", "record-number"].map(|meaning| grid.about(meaning));
         let files = grid.headings.iter().enumerate().filter(|(_, Heading { name, .. })| {
-            name.replace('_', "").contains("filename") || means(name, "record")
+            name.replace('-', "").contains("filename") || means(name, "record")
         });
         let files: Vec<usize> = files.map(|(at, _)| at).collect();
         let columns = [magnitude, distance, earthquake];

@@ -10,7 +10,7 @@ use super::error::InputError;
 use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
 use super::unpack::{Member, unpack};
-use super::words::{joined, words};
+use super::words::words;
 use super::workbook;
 use crate::source;
 use crate::units::Unit;
@@ -26,9 +26,9 @@ const UNKNOWN: f64 = -99.0;
 pub struct Grid {
     /// Comments, and lines above the heading.
     pub notes: Vec<String>,
-    /// One for each column; empty without a heading line.
+    /// One for each column, without a text where there is no heading line.
     pub headings: Vec<Heading>,
-    pub columns: usize,
+    pub has_headings: bool,
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
     rows: Vec<StringRecord>,
@@ -75,14 +75,16 @@ impl Grid {
         let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
         let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
         let heading = heading_row(above, &is_number_column, separator);
-        let mut headings: Vec<Heading> =
-            heading.map_or(Vec::new(), |at| rows[at].cells.iter().map(to_heading).collect());
+        let mut headings: Vec<Heading> = match heading {
+            Some(at) => rows[at].cells.iter().map(|cell| Heading::new(uncommented(cell))).collect(),
+            None => vec![Heading::new(""); is_number_column.len()],
+        };
         let mut end = heading.map_or(first.unwrap_or(0), |at| at + 1);
-        while let Some(units) = rows.get(end).filter(|row| !headings.is_empty() && is_units(row)) {
+        while let Some(units) = rows.get(end).filter(|row| heading.is_some() && is_units(row)) {
             headings = with_units(&headings, units)?;
             end += 1;
         }
-        let columns = if headings.is_empty() { is_number_column.len() } else { headings.len() };
+        let columns = headings.len();
         // An object may be called #2.
         let are_named = separator != Some(' ') && columns > 1 && is_number_column.first() == Some(&false);
         let mut evidence = vec![Evidence::default(); columns];
@@ -98,24 +100,19 @@ impl Grid {
             if cells.iter().skip(columns).any(|cell| !cell.is_empty()) {
                 return Err(InputError::Cells { line, found: cells.len(), expected: columns });
             }
-            let cells: StringRecord = match headings.is_empty() {
-                true => cells,
-                false => {
-                    cells.iter().zip(&headings).map(|(cell, heading)| heading.without_unit(cell)).collect()
-                }
-            };
+            let cells = cells.iter().zip(&headings).map(|(cell, heading)| heading.without_unit(cell));
+            let cells: StringRecord = cells.collect();
             evidence.iter_mut().zip(&cells).for_each(|(column, cell)| column.add(cell));
             lines.push(line);
             kept.push(cells);
         }
         let styles = numbers::styles(&evidence, separator.is_none());
-        Ok(Grid { notes, headings, columns, lines, rows: kept, styles })
+        Ok(Grid { notes, headings, has_headings: heading.is_some(), lines, rows: kept, styles })
     }
 
     /// Returns the index of the first column about this; see [`words`].
     pub fn about(&self, meaning: &str) -> Option<usize> {
-        let names: Vec<String> = self.headings.iter().map(|heading| joined(&heading.name)).collect();
-        words(meaning).find_map(|word| names.iter().position(|name| name == word))
+        words(meaning).find_map(|word| self.headings.iter().position(|heading| heading.name == word))
     }
 
     /// Returns the text of a cell; empty beyond the end of a short row.
@@ -130,8 +127,7 @@ impl Grid {
 
     /// Whether the numbers of a cell are percent.
     pub fn is_percent(&self, row: usize, column: usize) -> bool {
-        self.headings.get(column).is_some_and(|heading| heading.is_percent)
-            || self.cell(row, column).ends_with('%')
+        self.headings[column].is_percent || self.cell(row, column).ends_with('%')
     }
 
     /// Reads the number in a cell; 10 % is 0.1, also where the heading has the sign.
@@ -146,6 +142,11 @@ impl Grid {
             }
             false => self.refusal(row, column, "a number"),
         })
+    }
+
+    /// Reads the numbers of a column.
+    pub fn numbers(&self, column: usize) -> Result<Vec<f64>, InputError> {
+        (0..self.lines.len()).map(|row| self.number(row, column)).collect()
     }
 
     /// Reads a number that must lie in a range.
@@ -186,11 +187,17 @@ impl Grid {
     /// The headings, for messages.
     pub fn found(&self) -> String {
         let texts: Vec<&str> = self.headings.iter().map(|heading| heading.text.as_str()).collect();
-        if texts.is_empty() { "no headings".to_string() } else { format!("headings {}", texts.join(", ")) }
+        match self.has_headings {
+            true => format!("headings {}", texts.join(", ")),
+            false => format!("{} columns without headings", texts.len()),
+        }
     }
 
     fn name_of(&self, column: usize) -> String {
-        self.headings.get(column).map_or((column + 1).to_string(), |known| known.text.clone())
+        match self.headings[column].text.as_str() {
+            "" => (column + 1).to_string(),
+            text => text.to_string(),
+        }
     }
 }
 
@@ -225,10 +232,6 @@ fn is_comment(line: &str) -> bool {
 /// Removes the sign of a comment.
 fn uncommented(text: &str) -> &str {
     if is_comment(text) { text.trim_start_matches(['#', '%', '/', ' ']) } else { text }
-}
-
-fn to_heading(cell: &str) -> Heading {
-    Heading::new(uncommented(cell))
 }
 
 /// Finds what separates cells: what parts most of the last lines, and parts the most of them into numbers.

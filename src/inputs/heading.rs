@@ -1,12 +1,13 @@
 //! Headings: names and units.
 
+use super::words::joined;
 use crate::units::{Quantity, Unit};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// Text in the file.
     pub text: String,
-    /// Letters and digits in lower case, joined by underscores: `pga` of `PGA [g]` and of `pga_g`.
+    /// Letters and digits in lower case, joined by hyphens: `pga` of `PGA [g]` and of `pga_g`.
     pub name: String,
     /// The text without its unit.
     pub bare: String,
@@ -24,10 +25,8 @@ impl Heading {
             Some((bare, unit)) => (bare, unit, unit.is_none()),
             None => (text.to_string(), None, false),
         };
-        let words = bare.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-        let name = words.collect::<Vec<_>>().join("_").to_lowercase();
         let is_percent = unit.is_none() && text.contains('%');
-        Heading { text: text.to_string(), name, bare, unit, is_scaled, is_percent }
+        Heading { text: text.to_string(), name: joined(&bare), bare, unit, is_scaled, is_percent }
     }
 
     /// A cell without the unit behind its number, which is that of the heading: 40 cm below `Width (cm)`.

@@ -27,7 +27,7 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
                         in --structures";
         return Err(InputError::missing(found, expected));
     }
-    if grid.headings.is_empty() || grid.lines.is_empty() {
+    if !grid.has_headings || grid.lines.is_empty() {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
         return Err(InputError::missing(found, "intensities under pga_g and pgv_m_s"));
     }

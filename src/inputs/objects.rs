@@ -84,7 +84,7 @@ pub fn describes_object(heading: &Heading) -> bool {
         // Of an earthquake or a station.
         _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
         Column::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
-        Column::Unclear => words("of-objects").any(|part| joined(&heading.name).contains(part)),
+        Column::Unclear => words("of-objects").any(|part| heading.name.contains(part)),
         column => matches!(column, Column::Storey | Column::Storeys),
     }
 }
@@ -97,8 +97,8 @@ fn meaning(heading: &Heading) -> Column {
         ("storeys", Column::Storeys),
         ("building", Column::Building),
     ];
-    let (name, quantity) = (joined(&heading.name), heading.unit.map(|unit| unit.quantity));
-    let is_named = |meaning: &str| name == meaning || is_one_of(&name, meaning);
+    let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
+    let is_named = |meaning: &str| name == meaning || is_one_of(name, meaning);
     let field = Field::ALL.iter().find(|field| is_named(field.as_str()));
     let other = || OTHERS.iter().find(|(meaning, _)| is_named(meaning)).map(|(_, column)| *column);
     match field.map(|field| Column::Known(*field)).or_else(other) {
@@ -164,7 +164,7 @@ impl List<'_> {
         if self.column(Column::Known(Field::Height)).or(self.column(Column::Known(Field::P))).is_none() {
             let found = grid.found();
             let mut unknown = self.headings(Column::Unused).chain(self.headings(Column::Unclear));
-            return Err(match unknown.next().map(str::to_string) {
+            return Err(match unknown.find(|text| !text.is_empty()).map(str::to_string) {
                 Some(heading) => InputError::Heading { heading, expected, found },
                 None => InputError::missing(found, expected),
             });

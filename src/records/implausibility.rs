@@ -48,7 +48,7 @@ pub enum Implausibility {
     Pga { pga_g: f64 },
     #[error("no sample below 0; expected both signs: a spectrum, or absolute values?")]
     OneSided,
-    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline?", digits(.velocity_m_s))]
+    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline (--baseline linear)?", digits(.velocity_m_s))]
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", digits(.pgv_m_s))]
     Pgv { pgv_m_s: f64 },

@@ -38,9 +38,11 @@ pub struct NamedRecord {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the message says it")]
 pub enum ProcessingError {
-    #[error("{0}")]
+    #[error("{0} (--accept-implausible imports it anyway)")]
     Implausible(Implausibility),
-    #[error("{samples} samples at a time step of {dt_s} s; expected 2 to {LONGEST_MOTION}")]
+    #[error(
+        "{samples} samples at a time step of {dt_s} s; expected 2 to {LONGEST_MOTION}: another --resample?"
+    )]
     Resampled { samples: f64, dt_s: f64 },
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
     Zero,
@@ -49,7 +51,8 @@ pub enum ProcessingError {
     )]
     Corner { corner_hz: f64, nyquist_hz: f64 },
     #[error(
-        "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded"
+        "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded \
+         (--accept-implausible imports it anyway)"
     )]
     Scaled { scale: f64, pga_g: f64, pgv_m_s: f64 },
 }

@@ -275,7 +275,8 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
          --columns annual_rate_of_exceedance=HEADING"
     };
     let unknown = columns.iter().filter(|column| column.content == Content::Unknown);
-    match unknown.map(|column| &grid.headings[column.at]).find(|heading| !means(&heading.name, "place")) {
+    let mut unknown = unknown.map(|column| &grid.headings[column.at]);
+    match unknown.find(|heading| !heading.text.is_empty() && !means(&heading.name, "place")) {
         Some(heading) => InputError::Heading { heading: heading.text.clone(), expected, found: grid.found() },
         None => InputError::missing(grid.found(), expected),
     }

@@ -10,7 +10,7 @@ use crate::warning::{Warning, Warnings};
 
 /// Refuses a row of totals or means.
 pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
-    let mut cells = (0..grid.lines.len()).flat_map(|row| (0..grid.columns).map(move |at| (row, at)));
+    let mut cells = (0..grid.lines.len()).flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
     let total = cells.find(|(row, at)| {
         let cell = grid.cell(*row, *at);
         cell.starts_with(char::is_alphabetic) && means(cell, "total")

@@ -3,7 +3,7 @@
 
 use super::error::RecordFileError;
 use super::header::{azimuth_of, expect_step, expect_unit, first_number, given_unit, time_step};
-use crate::inputs::words::is_vertical;
+use crate::inputs::words::{is_vertical, joined};
 use crate::inputs::{Grid, Heading};
 use crate::motion::measures::peak;
 use crate::records::{Origin, ReadOptions, RecordedMotion};
@@ -34,10 +34,9 @@ const OTHERS: [(&str, &str); 7] = [
     ("jerk", "jerk"),
 ];
 
-/// A table of samples, with a heading for each column, which may be empty.
+/// A table of samples.
 struct Samples<'a> {
     grid: Grid,
-    headings: Vec<Heading>,
     quantities: Vec<Option<Quantity>>,
     /// The column of times: of numbers, else of a clock.
     times: Option<usize>,
@@ -61,7 +60,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
     let step = table.step()?;
     let mut motions = Vec::<RecordedMotion>::new();
     for column in columns {
-        let motion = table.motion(&table.headings[column], table.samples(column, step)?, step)?;
+        let motion = table.motion(&table.grid.headings[column], table.samples(column, step)?, step)?;
         if motions.iter().any(|other| are_unlike_components(other, &motion)) {
             return Err(table.which_column());
         }
@@ -82,25 +81,23 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
 
 impl Samples<'_> {
     fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>, RecordFileError> {
-        let has_numbers = !grid.lines.is_empty() && (0..grid.columns).any(|at| grid.number(0, at).is_ok());
-        let mut headings = grid.headings.clone();
-        if !has_numbers {
-            let found = grid.notes.first().or(headings.first().map(|heading| &heading.text));
+        let columns = 0..grid.headings.len();
+        if grid.lines.is_empty() || !columns.clone().any(|at| grid.number(0, at).is_ok()) {
+            let found = grid.notes.first().or(grid.headings.first().map(|heading| &heading.text));
             return Err(RecordFileError::Unrecognised { found: found.cloned().unwrap_or_default() });
         }
-        headings.resize(grid.columns, Heading::new(""));
-        let (quantities, line) = (quantities(&grid, &headings), grid.lines[0]);
-        let times = || (0..grid.columns).filter(|at| quantities[*at] == Some(Quantity::Time));
-        let times = times().find(|at| grid.number(0, *at).is_ok()).or(times().next());
-        Ok(Samples { grid, headings, quantities, times, line, options })
+        let (quantities, line) = (quantities(&grid), grid.lines[0]);
+        let mut times = columns.filter(|at| quantities[*at] == Some(Quantity::Time));
+        let times = times.clone().find(|at| grid.number(0, *at).is_ok()).or(times.next());
+        Ok(Samples { grid, quantities, times, line, options })
     }
 
     /// The column that the user names by its number or heading.
     fn chosen(&self, choice: &str) -> Result<usize, RecordFileError> {
-        let mut headings = self.headings.iter();
+        let mut headings = self.grid.headings.iter();
         let column = match choice.parse::<usize>() {
             Ok(number) => number.checked_sub(1),
-            Err(_) => headings.position(|heading| heading.text == choice || heading.name == choice),
+            Err(_) => headings.position(|heading| heading.text == choice || heading.name == joined(choice)),
         };
         match column.and_then(|at| Some((at, *self.quantities.get(at)?))) {
             Some((at, None | Some(Quantity::Acceleration))) => Ok(at),
@@ -112,33 +109,30 @@ impl Samples<'_> {
     /// Finds the columns of acceleration: those with such a heading, those of directions, or the only one
     /// that may be it.
     fn accelerations(&self) -> Result<Vec<usize>, RecordFileError> {
-        let heading = |at: usize| &self.headings[at];
-        if let Some((at, what)) = (0..self.grid.columns).find_map(|at| Some((at, other(heading(at))?))) {
-            return Err(self.not_acceleration(format!("'{}': {what}", heading(at).text)));
+        let headings = &self.grid.headings;
+        if let Some((heading, what)) = headings.iter().find_map(|heading| Some((heading, other(heading)?))) {
+            return Err(self.not_acceleration(format!("'{}': {what}", heading.text)));
         }
-        let (mut named, mut unknown) = (Vec::new(), Vec::new());
-        for at in 0..self.grid.columns {
-            match self.quantities[at] {
-                Some(Quantity::Acceleration) => named.push(at),
-                None if !self.grid.cell(0, at).is_empty() => unknown.push(at),
-                _ => {}
-            }
-        }
-        let mut words = named.iter().flat_map(|at| heading(*at).name.split('_'));
+        let named = self.columns(|at| self.quantities[at] == Some(Quantity::Acceleration));
+        let unknown = self.columns(|at| self.quantities[at].is_none() && !self.grid.cell(0, at).is_empty());
+        let mut words = named.iter().flat_map(|at| headings[*at].name.split('-'));
         if named.len() > 1 && words.any(|word| PROCESSED.contains(&word)) {
             // The same motion before and after.
             return Err(self.which_column());
         }
-        let directions = unknown.iter().filter(|at| direction(heading(**at)).is_some());
-        let directions: Vec<usize> = directions.copied().collect();
+        let directions = self.columns(|at| unknown.contains(&at) && direction(&headings[at]).is_some());
         match (named.is_empty(), directions.len(), unknown.len()) {
             (false, ..) => Ok(named),
             (.., 1) => Ok(unknown),
-            (.., 0) => Err(self.not_acceleration(self.found())),
+            (.., 0) => Err(self.not_acceleration(self.grid.found())),
             // One alone may be a number n, or s for a time.
             (_, 2.., _) => Ok(directions),
             _ => Err(self.which_column()),
         }
+    }
+
+    fn columns(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<usize> {
+        (0..self.quantities.len()).filter(|at| is_wanted(*at)).collect()
     }
 
     /// The motion of samples under a heading, with the time step (s) found in the file.
@@ -194,7 +188,7 @@ impl Samples<'_> {
     /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.
     fn step_between(&self, column: usize) -> Result<f64, RecordFileError> {
         let (grid, given) = (&self.grid, self.options.dt_s);
-        let unit = self.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
+        let unit = grid.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
         let in_s = unit.map_or(1.0, |unit| unit.si);
         let (mut times, mut decimals) = (Vec::<f64>::new(), 0);
         for row in 0..grid.lines.len() {
@@ -228,10 +222,10 @@ impl Samples<'_> {
     /// Reads the samples of a column; without headings and times, a number of samples and the time step that
     /// is given may stand above them.
     fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>, RecordFileError> {
-        let mut samples = numbers(&self.grid, column)?;
+        let mut samples = self.grid.numbers(column)?;
         let decimals = |row: usize| decimals_of(self.grid.cell(row, column));
         let mut above = 0;
-        while above < 2 && above + 1 < samples.len() && self.grid.headings.is_empty() && step.is_none() {
+        while above < 2 && above + 1 < samples.len() && !self.grid.has_headings && step.is_none() {
             let first = samples[above];
             if USUAL_S.contains(&first) && decimals(above) != decimals(above + 1) {
                 expect_step(self.options.dt_s, first, self.grid.lines[above])?;
@@ -250,7 +244,7 @@ impl Samples<'_> {
     fn wrapped(&self) -> Result<Vec<f64>, RecordFileError> {
         self.expect_one_series(true)?;
         let rows = 0..self.grid.lines.len();
-        let cells = rows.flat_map(|row| (0..self.grid.columns).map(move |column| (row, column)));
+        let cells = rows.flat_map(|row| (0..self.quantities.len()).map(move |column| (row, column)));
         let filled = cells.filter(|(row, column)| !self.grid.cell(*row, *column).is_empty());
         filled.map(|(row, column)| Ok(self.grid.number(row, column)?)).collect()
     }
@@ -258,7 +252,7 @@ impl Samples<'_> {
     /// Refuses samples without times among which another line stands, and a short line of wrapped ones before
     /// the last: another series may begin there, or the file is damaged.
     fn expect_one_series(&self, is_wrapped: bool) -> Result<(), RecordFileError> {
-        let expected = self.grid.columns;
+        let expected = self.quantities.len();
         for (row, lines) in self.grid.lines.windows(2).enumerate() {
             let found = (0..expected).take_while(|&at| !self.grid.cell(row, at).is_empty()).count();
             if is_wrapped && found < expected {
@@ -271,23 +265,13 @@ impl Samples<'_> {
         Ok(())
     }
 
-    fn found(&self) -> String {
-        let texts: Vec<&str> = self.grid.headings.iter().map(|heading| heading.text.as_str()).collect();
-        let texts = if texts.is_empty() { "without headings".to_string() } else { texts.join(", ") };
-        format!("{} columns {texts}", self.grid.columns)
-    }
-
     fn not_acceleration(&self, found: String) -> RecordFileError {
         RecordFileError::NotAcceleration { line: self.line, found }
     }
 
     fn which_column(&self) -> RecordFileError {
-        RecordFileError::Column { columns: self.found() }
+        RecordFileError::Column { columns: self.grid.found() }
     }
-}
-
-fn numbers(grid: &Grid, column: usize) -> Result<Vec<f64>, RecordFileError> {
-    (0..grid.lines.len()).map(|row| Ok(grid.number(row, column)?)).collect()
 }
 
 /// Digits behind the decimal sign.
@@ -296,13 +280,13 @@ fn decimals_of(cell: &str) -> usize {
 }
 
 /// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
-fn quantities(grid: &Grid, headings: &[Heading]) -> Vec<Option<Quantity>> {
-    let are_components = headings.iter().any(|heading| matches!(&*heading.name, "l" | "r"));
+fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
+    let are_components = grid.headings.iter().any(|heading| matches!(&*heading.name, "l" | "r"));
     let mut quantities: Vec<Option<Quantity>> =
-        headings.iter().map(|heading| quantity(heading, are_components)).collect();
-    if grid.columns > 1 && quantities[0].is_none() && !quantities.contains(&Some(Quantity::Time)) {
+        grid.headings.iter().map(|heading| quantity(heading, are_components)).collect();
+    if quantities.len() > 1 && quantities[0].is_none() && !quantities.contains(&Some(Quantity::Time)) {
         let is_time = clock_s(grid.cell(0, 0)).is_some()
-            || numbers(grid, 0).is_ok_and(|times| times.is_sorted_by(|time, next| time < next));
+            || grid.numbers(0).is_ok_and(|times| times.is_sorted_by(|time, next| time < next));
         quantities[0] = is_time.then_some(Quantity::Time);
     }
     quantities
@@ -311,7 +295,7 @@ fn quantities(grid: &Grid, headings: &[Heading]) -> Vec<Option<Quantity>> {
 /// The quantity that a heading names; T beside L or R is a component.
 fn quantity(heading: &Heading, are_components: bool) -> Option<Quantity> {
     let own = heading.unit.map(|unit| unit.quantity);
-    let named = heading.name.split('_').find_map(|word| match word {
+    let named = heading.name.split('-').find_map(|word| match word {
         "t" if own == Some(Quantity::Acceleration) || are_components && own.is_none() => None,
         "a" | "ag" => Some(Quantity::Acceleration),
         "t" | "zeit" | "temps" | "date" | "datetime" | "timestamp" => Some(Quantity::Time),
@@ -327,7 +311,7 @@ fn quantity(heading: &Heading, are_components: bool) -> Option<Quantity> {
 /// What a heading is about that is no acceleration over time.
 fn other(heading: &Heading) -> Option<&'static str> {
     let is_named = |word: &str, start: &str| word == start || start.len() > 3 && word.starts_with(start);
-    let mut words = heading.name.split('_');
+    let mut words = heading.name.split('-');
     words.find_map(|word| OTHERS.iter().find(|(start, _)| is_named(word, start)).map(|(_, what)| *what))
 }
 
@@ -363,7 +347,7 @@ fn clock_s(cell: &str) -> Option<f64> {
 fn noted_step(notes: &[String]) -> Option<f64> {
     notes.iter().enumerate().find_map(|(at, note)| {
         let heading = Heading::new(note);
-        if heading.name.starts_with("dt_") {
+        if heading.name.starts_with("dt-") {
             return Some(first_number(note)? * heading.unit.map_or(1.0, |unit| unit.si));
         }
         let mut cells = note.split(',').map(str::to_lowercase);

@@ -17,7 +17,7 @@ pub fn time_step(dt_s: Option<f64>, line: usize) -> Result<f64, RecordFileError>
         None => Err(RecordFileError::missing(
             line,
             field,
-            "a header, times or a comment with it, or --dt, such as --dt 0.005",
+            "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005",
         )),
         Some(dt_s) if dt_s > 0.0 && dt_s <= LONGEST_STEP_S => Ok(dt_s),
         Some(dt_s) => {

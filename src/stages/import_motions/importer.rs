@@ -13,8 +13,7 @@ use crate::inputs::{About, Known, Member, unpack};
 use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
-use crate::records::implausibility::Implausibility;
-use crate::records::processing::{ImportedMotion, NamedRecord, Processing, ProcessingError};
+use crate::records::processing::{ImportedMotion, NamedRecord, Processing};
 use crate::records::rotation::pairs;
 use crate::records::{ReadOptions, RecordedMotion, read_records};
 use crate::rocking::Record;
@@ -112,7 +111,7 @@ impl Importer {
             let record = record?;
             let column = record.motion.origin.component.clone().filter(|_| several);
             let column = column.map_or(String::new(), |column| format!("column '{column}': "));
-            self.processing.import(record).map_err(|error| unprocessed(&file.path, &column, &error))
+            self.processing.import(record).map_err(|error| refusal(&file.path, &format!("{column}{error}")))
         });
         imported.collect()
     }
@@ -122,9 +121,7 @@ impl Importer {
             let record = self.read(file).into_iter().flatten().nth(*index);
             record.ok_or_else(|| refusal(&file.path, &"changed while it was read; run again"))
         });
-        self.processing
-            .import_pair([first?, second?])
-            .map_err(|error| unprocessed(&pair[0].0.path, "", &error))
+        self.processing.import_pair([first?, second?]).map_err(|error| refusal(&pair[0].0.path, &error))
     }
 
     /// Reads the records of a file, or of those in an archive.
@@ -201,19 +198,4 @@ fn text(name: Option<&OsStr>) -> String {
 
 fn refusal(file: &Path, reason: &impl ToString) -> NotImported {
     NotImported::Refused(format!("{}: {}", file.display(), reason.to_string()))
-}
-
-/// Why a record cannot be imported, and the option that helps.
-fn unprocessed(file: &Path, column: &str, error: &ProcessingError) -> NotImported {
-    let option = match error {
-        ProcessingError::Implausible(Implausibility::Drift { .. }) => {
-            " (--baseline linear corrects it, --accept-implausible imports it anyway)"
-        }
-        ProcessingError::Implausible(_) | ProcessingError::Scaled { .. } => {
-            " (--accept-implausible imports it anyway)"
-        }
-        ProcessingError::Resampled { .. } => ": choose another for --resample",
-        ProcessingError::Zero | ProcessingError::Corner { .. } => "",
-    };
-    refusal(file, &format!("{column}{error}{option}"))
 }

@@ -71,7 +71,7 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
                  leave it out"
             );
         }
-        let cells = (0..grid.columns).filter(|at| Some(*at) != grid.about("outcome"));
+        let cells = (0..grid.headings.len()).filter(|at| Some(*at) != grid.about("outcome"));
         let cells: Vec<&str> = cells.map(|at| grid.cell(row, at)).collect();
         if let Some(first) = rows.insert(cells, grid.lines[row]).filter(|_| grid.about("name").is_some()) {
             doubts.add(Warning::Repeated, format!("{line} as line {first}"));
