@@ -48,7 +48,7 @@ pub struct Section {
     pub figures: Vec<Figure>,
 }
 
-/// Rows of cells; the first column has their names.
+/// Rows of cells; the first column has their names. A column in which nothing stands is not shown.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     pub caption: String,
@@ -74,13 +74,8 @@ impl Table {
         Table { heads, rows, ..Table::default() }
     }
 
-    /// Whether all that stands in a column are numbers, which are set to the right.
-    fn is_of_numbers(&self, column: usize) -> bool {
-        let is_number = |cell: &String| {
-            cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
-        };
-        let mut cells = self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty());
-        column > 0 && cells.clone().next().is_some() && cells.all(is_number)
+    pub fn explained(self, caption: &str) -> Table {
+        Table { caption: caption.to_string(), ..self }
     }
 }
 
@@ -91,25 +86,21 @@ impl Page {
     }
 
     pub fn html(&self) -> String {
-        let mut figures = Vec::new();
-        for figure in &self.figures {
+        let mut figures = self.figures.iter().map(|figure| {
             // The title of the page is not said again.
-            let title = if words(&figure.title) == self.title { "" } else { &figure.title };
-            figures.push(write_figure(figure, title));
-        }
-        let (first, others) = figures.split_at(figures.len().min(1));
-        let (table, tables) = self.tables.split_at(self.tables.len().min(1));
+            let is_said = words(&figure.title) == self.title;
+            write_figure(figure, if is_said { "" } else { &figure.title })
+        });
+        let mut tables = self.tables.iter().map(write_table);
+        let (figure, table) = (figures.next().unwrap_or_default(), tables.next().unwrap_or_default());
         let is_beside =
-            self.figures.first().is_some_and(|figure| figure.panels.len() == 1) && !table.is_empty();
-        let told = match (table, &self.notes[..]) {
-            ([], []) => String::new(),
-            (table, notes) => format!(
-                "<div>\n{}<div class=\"notes\">{}</div></div>\n",
-                table.iter().map(write_table).collect::<String>(),
-                paragraphs(notes)
-            ),
+            !table.is_empty() && self.figures.first().is_some_and(|first| first.panels.len() == 1);
+        let told = match (table.as_str(), &self.notes[..]) {
+            ("", []) => String::new(),
+            (_, notes) => {
+                format!("<div>\n{table}<div class=\"notes\">{}</div></div>\n", paragraphs(notes))
+            }
         };
-        let (before, after) = if is_beside { (told, first.concat()) } else { (first.concat(), told) };
         sealed(format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
@@ -120,11 +111,12 @@ impl Page {
             sentence = html(&self.sentence),
             tiles = self.tiles.iter().map(write_tile).collect::<String>(),
             facts = paragraphs(&self.facts),
-            class = if is_beside { "first" } else { "" },
-            before = before,
-            after = after,
-            figures = others.concat(),
-            tables = tables.iter().map(write_table).collect::<String>(),
+            first = match is_beside {
+                true => format!("<div class=\"first\">\n{told}{figure}</div>"),
+                false => format!("<div class=\"\">\n{figure}{told}</div>"),
+            },
+            figures = figures.collect::<String>(),
+            tables = tables.collect::<String>(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             version = env!("CARGO_PKG_VERSION"),
         ))
@@ -160,20 +152,21 @@ fn write_figure(figure: &Figure, title: &str) -> String {
 }
 
 fn write_table(table: &Table) -> String {
-    let classes: Vec<&str> = (0..table.heads.len())
-        .map(|column| if table.is_of_numbers(column) { " class=\"number\"" } else { "" })
-        .collect();
-    let (mut heads, mut body) = (String::new(), String::new());
-    for (class, head) in classes.iter().zip(&table.heads) {
-        heads += &format!("<th scope=\"col\"{class}>{}</th>", html(head));
-    }
-    for row in &table.rows {
-        body += "<tr>";
-        for ((class, head), cell) in classes.iter().zip(&table.heads).zip(row) {
-            body += &format!("<td{class} data-head=\"{}\">{}</td>", escape(&words(head)), html(cell));
+    let (mut heads, mut rows) = (String::new(), vec![String::new(); table.rows.len()]);
+    for (column, head) in table.heads.iter().enumerate() {
+        let cells = table.rows.iter().map(|row| row.get(column).map_or("", String::as_str));
+        let mut written = cells.clone().filter(|cell| !cell.is_empty()).peekable();
+        if written.peek().is_none() {
+            continue;
         }
-        body += "</tr>\n";
+        let class = if column > 0 && written.all(is_number) { " class=\"number\"" } else { "" };
+        heads += &format!("<th scope=\"col\"{class}>{}</th>", html(head));
+        let head = escape(&words(head));
+        for (row, cell) in rows.iter_mut().zip(cells) {
+            *row += &format!("<td{class} data-head=\"{head}\">{}</td>", html(cell));
+        }
     }
+    let body: String = rows.iter().map(|row| format!("<tr>{row}</tr>\n")).collect();
     let (title, name) = (html(&table.caption), escape(&words(&table.caption)));
     // What is wider than a small screen is scrolled, by keys too.
     format!(
@@ -181,4 +174,9 @@ fn write_table(table: &Table) -> String {
          <div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{name}\">\n<table>\n\
          <thead><tr>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n</div>\n"
     )
+}
+
+/// Whether a cell is a number: a column of them is set to the right.
+fn is_number(cell: &str) -> bool {
+    cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
 }

@@ -133,29 +133,40 @@ fn other_options(fits: &Path) -> Vec<String> {
     differences
 }
 
-/// The eight planes of Table II: each number as published, of this run, and how far they are apart.
+/// A plane of Table II.
+pub struct Plane<'a> {
+    pub of: &'a Comparison,
+    /// Below or above the transition.
+    pub side: &'static str,
+    /// ln a, b1, b2 and R2.
+    pub numbers: [String; 4],
+}
+
+/// The eight planes of Table II.
+pub fn table_two(compared: &[Comparison]) -> impl Iterator<Item = Plane<'_>> {
+    compared.iter().filter(|number| number.quantity.ends_with("_plane")).map(|of| Plane {
+        of,
+        side: if of.quantity == "low_plane" { "below" } else { "above" },
+        numbers: ["ln_a", "b1", "b2", "r2"].map(|name| {
+            let quantity = of.quantity.replace("plane", name);
+            let its = (&quantity, &of.suite, &of.structure);
+            let number = compared.iter().find(|row| (&row.quantity, &row.suite, &row.structure) == its);
+            number.map_or(String::new(), both)
+        }),
+    })
+}
+
 fn planes(compared: &[Comparison]) -> String {
-    let names = ["ln_a", "b1", "b2", "r2"];
     let heading = ["Table II: published / this run (z)", "ln a", "b1", "b2", "R2"];
     let mut lines = vec![heading.map(str::to_string).to_vec()];
-    for plane in compared {
-        let Some(side) = plane.quantity.strip_suffix("_plane") else { continue };
-        let mut line = vec![format!("{}, {}, {side}", plane.suite, plane.structure)];
-        line.extend(names.map(|name| coefficient(compared, plane, name).map_or(String::new(), both)));
-        lines.push(line);
+    for Plane { of, side, numbers } in table_two(compared) {
+        lines.push([&[format!("{}, {}, {side}", of.suite, of.structure)], &numbers[..]].concat());
     }
     aligned(&lines, |_| false)
 }
 
-/// A coefficient of a plane.
-pub fn coefficient<'a>(compared: &'a [Comparison], plane: &Comparison, name: &str) -> Option<&'a Comparison> {
-    let quantity = plane.quantity.replace("plane", name);
-    let its = (&quantity, &plane.suite, &plane.structure);
-    compared.iter().find(|row| (&row.quantity, &row.suite, &row.structure) == its)
-}
-
 /// A number as published, of this run, and how far they are apart.
-pub fn both(row: &Comparison) -> String {
+fn both(row: &Comparison) -> String {
     let [published, ours] =
         [row.published, row.ours].map(|value| value.map_or("-".to_string(), |value| fixed(value, 2)));
     let z = row.z.map_or(String::new(), |z| format!(" ({z:+.1})"));

@@ -10,13 +10,14 @@ use crate::report::figures::*;
 const MOST_GROUPS: usize = 24;
 const MOST_STRUCTURES: usize = 6;
 
-/// Draws all figures; what is too much to draw is noted.
-pub fn all(tables: &Tables, notes: &mut Vec<String>) -> anyhow::Result<Vec<Figure>> {
+/// Draws all figures; what is too much to draw is left out.
+pub fn all(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let rocking: Vec<&Cases> = tables.groups.iter().filter(|cases| rocked(cases).next().is_some()).collect();
     let groups = &rocking[..rocking.len().min(MOST_GROUPS)];
     if groups.len() < rocking.len() {
         let names: Vec<String> = rocking[groups.len()..].iter().map(|cases| name(cases)).collect();
-        notes.push(format!("Not drawn, as they overturn less than those that are: {}.", names.join(", ")));
+        let names = names.join(", ");
+        tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
     }
     let suites: Vec<Vec<&Cases>> = by(groups.iter().copied(), |cases| &cases.suite)
         .iter()

@@ -1,9 +1,8 @@
 //! report: one page and its figures, of all tables in a folder.
 
-pub mod evaluations;
 mod figures;
 mod page;
-pub mod tables;
+mod tables;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -90,13 +89,10 @@ impl Stage for Report {
         if let Some(missing) = paths.iter().find(|path| !path.exists()) {
             bail!("{}: no such file or folder; expected tables of other commands", missing.display());
         }
-        let tables = Tables::read(&paths)?;
-        let mut notes = Vec::new();
-        let head = page::head(&tables)?;
-        let others = figures::all(&tables, &mut notes)?;
-        let figures: Vec<&Figure> = head.figures.iter().chain(&others).collect();
+        let mut tables = Tables::read(&paths)?;
+        let (whole, figures) = page::page(&mut tables)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
-        let left_out: String = tables.left_out.iter().chain(&notes).map(|note| format!("{note}\n")).collect();
+        let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
         let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
         let mut made = context.provenance(&page, &summary)?;
         let files =
@@ -105,11 +101,9 @@ impl Stage for Report {
         let former = Provenance::read(&page).ok().flatten().map(|made| made.further).unwrap_or_default();
         write_figures(&page, &files, &former, context)?;
         made.further = hashes(&page, &files);
-        let whole = page::page(&tables, head, others, notes)?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
         let title = self.title.clone().unwrap_or(whole.title);
-        let key = made.json();
-        let html = Page { title, byline, key, ..whole }.html();
+        let html = Page { title, byline, key: made.json(), ..whole }.html();
         context.write_file(&page, html.as_bytes())?;
         // Figures of the former page that are no more, unless another program has changed them.
         for gone in former.iter().filter(|(name, _)| !made.further.contains_key(*name)) {

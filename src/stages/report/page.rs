@@ -3,16 +3,17 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::figures;
 use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
 use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, scaled_label};
-use crate::report::text::{literal, minus, words};
+use crate::report::text::{literal, minus};
 use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
 use crate::rocking::{Outcome, Structure};
-use crate::stages::compare_paper::{both, coefficient};
+use crate::stages::compare_paper::table_two;
 use crate::stages::evaluate::pages;
 use crate::studies::Validation;
 use crate::studies::paper::Comparison;
@@ -45,58 +46,26 @@ has the median.
 validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
 evaluate: Annual rates integrate the probabilities of the universal surface over the hazard of the site.";
 
-/// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
-/// of responses.
-pub fn head(tables: &Tables) -> anyhow::Result<Page> {
-    let mut head = match (&tables.evaluations[..], &tables.compared[..], &tables.traces[..]) {
-        ([], [], []) if !tables.fragilities.is_empty() => {
-            return Ok(fragility::page(&tables.fragilities, None, None));
-        }
-        ([], [], []) => Page {
-            title: match tables.groups.is_empty() {
-                true => "Fits and motions".to_string(),
-                false => "What rocks and what overturns".to_string(),
-            },
-            sentence: overturned(&tables.groups),
-            tables: vec![outcomes(tables)?].into_iter().filter(|table| !table.rows.is_empty()).collect(),
-            ..Page::default()
-        },
-        ([], [], traces) => return Ok(response::page(traces)),
-        ([], compared, _) => Page {
-            title: "The paper's fragility curves, reproduced".to_string(),
-            place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
-            sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
-            tables: vec![planes(compared)],
-            ..Page::default()
-        },
-        (evaluations, ..) => match (tables.comparison(), evaluations) {
-            (Some([before, after]), _) => compare::page(before, after),
-            (None, all) => pages::page(&Evaluation::joined(all)),
-        },
-    };
-    head.figures.extend(response::figures(&tables.traces));
-    head.figures.push(fragility::figure(&tables.fragilities, None));
+/// The page of all tables, and all their figures, of which the page shows some.
+pub fn page(tables: &mut Tables) -> anyhow::Result<(Page, Vec<Figure>)> {
+    let others = figures::all(tables)?;
+    let mut head = head(tables)?;
     head.figures.retain(|figure| !figure.panels.is_empty());
-    Ok(head)
-}
-
-/// The page of all tables, below its head.
-pub fn page(tables: &Tables, head: Page, figures: Vec<Figure>, notes: Vec<String>) -> anyhow::Result<Page> {
+    let all = [head.figures.clone(), others.clone()].concat();
     let is_client = !tables.evaluations.is_empty();
-    let shown: &[&str] = match (is_client, tables.compared.is_empty()) {
+    let shown = match (is_client, tables.compared.is_empty()) {
         (true, _) => OF_RATES,
         (_, true) => OF_RESPONSES,
         _ => OF_PAPER,
     };
     let (seen, more): (Vec<Figure>, Vec<Figure>) =
-        figures.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+        others.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
-    let mut others = joined.lines();
-    let mut all_notes = [tables.left_out.clone(), notes, head.notes.clone()].concat();
-    if !is_client {
-        all_notes.extend(others.drain(..others.len().min(MOST_WARNINGS)));
-    }
+    let mut warnings = joined.lines();
+    let seen_warnings = if is_client { 0 } else { warnings.len().min(MOST_WARNINGS) };
+    let notes = tables.left_out.iter().cloned().chain(head.notes).chain(warnings.drain(..seen_warnings));
+    head.notes = notes.collect();
     let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
@@ -104,13 +73,47 @@ pub fn page(tables: &Tables, head: Page, figures: Vec<Figure>, notes: Vec<String
     let mut sections = vec![
         Section { figures: more, ..Section::new("More figures") },
         Section { paragraphs: method.collect(), ..Section::new("Method") },
-        Section { paragraphs: others, tables: tests(tables)?, ..Section::new("Tests and fits") },
+        Section { paragraphs: warnings, tables: tests(tables)?, ..Section::new("Tests and fits") },
         Section { tables: vec![files(tables)], ..Section::new("Files") },
     ];
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
-    let facts = [head.facts.clone(), facts(tables)].concat();
-    let figures = [head.figures.clone(), seen].concat();
-    Ok(Page { facts, notes: all_notes, figures, sections, ..head })
+    head.facts.extend(facts(tables));
+    head.figures.extend(seen);
+    Ok((Page { sections, ..head }, all))
+}
+
+/// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
+/// of responses.
+fn head(tables: &Tables) -> anyhow::Result<Page> {
+    let Tables { evaluations, compared, traces, fragilities, groups, .. } = tables;
+    let mut head = match tables.comparison() {
+        Some([before, after]) => compare::page(before, after),
+        None if !evaluations.is_empty() => pages::page(&Evaluation::joined(evaluations)),
+        None if !compared.is_empty() => Page {
+            title: "The paper's fragility curves, reproduced".to_string(),
+            place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
+            sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
+            tables: vec![planes(compared)],
+            ..Page::default()
+        },
+        None if !traces.is_empty() => return Ok(response::page(traces)),
+        None if !fragilities.is_empty() => return Ok(fragility::page(fragilities, None, None)),
+        None => {
+            let outcomes = outcomes(tables)?;
+            Page {
+                title: match groups.is_empty() {
+                    true => "Fits and motions".to_string(),
+                    false => "What rocks and what overturns".to_string(),
+                },
+                sentence: overturned(groups),
+                tables: if outcomes.rows.is_empty() { Vec::new() } else { vec![outcomes] },
+                ..Page::default()
+            }
+        }
+    };
+    head.figures.extend(response::figures(traces));
+    head.figures.push(fragility::figure(fragilities, None));
+    Ok(head)
 }
 
 /// By which motions, of which structures.
@@ -135,32 +138,23 @@ fn facts(tables: &Tables) -> Vec<String> {
 
 /// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
-    let rows: Vec<Value> = rows.into_iter().map(|row| json!(row)).collect();
-    let is_there = |field: &&str| rows.iter().any(|row| !row[*field].is_null());
-    let fields: Vec<&str> = fields.split('|').filter(is_there).collect();
-    let written = |row: &Value, field: &str| match field {
-        "structure" | "file" => literal(row[field].as_str().unwrap_or_default()),
-        _ => cell(&row[field]),
-    };
-    let cells = rows.iter().map(|row| fields.iter().map(|field| written(row, field)).collect());
-    let heads = fields.iter().map(|field| spaced(field)).collect();
-    Table { caption: caption.to_string(), heads, rows: cells.collect() }
+    let rows = rows.into_iter().map(|row| json!(row));
+    let cells = rows.map(|row| fields.split(' ').map(|field| cell(&row, field)).collect());
+    let heads: Vec<String> = fields.split(' ').map(|field| field.replace('_', " ")).collect();
+    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+    Table::new(&heads, cells.collect()).explained(caption)
 }
 
-/// A name of the program in words; marked text stays.
-fn spaced(text: &str) -> String {
-    if text.contains('{') { text.to_string() } else { text.replace('_', " ") }
-}
-
-fn cell(value: &Value) -> String {
-    match value {
+fn cell(row: &Value, field: &str) -> String {
+    match &row[field] {
         Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
         Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
+        Value::String(name) if field == "structure" => literal(name),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.as_str() == text) => {
             text.to_uppercase()
         }
-        Value::String(text) => spaced(text),
+        Value::String(text) => text.replace('_', " "),
         _ => String::new(),
     }
 }
@@ -168,20 +162,15 @@ fn cell(value: &Value) -> String {
 /// Table II: published over ours.
 fn planes(compared: &[Comparison]) -> Table {
     let mut rows = Vec::new();
-    for plane in compared.iter().filter(|number| number.quantity.ends_with("_plane")) {
-        let [ln_a, b1, b2, r2] = ["ln_a", "b1", "b2", "r2"]
-            .map(|name| coefficient(compared, plane, name).map(|number| minus(both(number))));
-        rows.push(json!({
-            "structure": plane.structure, "motions": plane.suite,
-            "plane": if plane.quantity == "low_plane" { "below" } else { "above" },
-            "ln *a*": ln_a, "*b*_{1}": b1, "*b*_{2}": b2, "*R*^{2}": r2,
-        }));
+    for plane in table_two(compared) {
+        let [structure, suite] = [&plane.of.structure, &plane.of.suite].map(|name| literal(name));
+        let numbers = plane.numbers.map(minus);
+        rows.push([vec![structure, suite, plane.side.to_string()], numbers.to_vec()].concat());
     }
-    table(
+    let heads = ["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}"];
+    Table::new(&heads, rows).explained(
         "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* \
          is their difference over the standard deviation between seeds.",
-        rows,
-        "structure|motions|plane|ln *a*|*b*_{1}|*b*_{2}|*R*^{2}",
     )
 }
 
@@ -202,27 +191,27 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         Some(fit) => format!("median of the lowest overturning {}", scaled_label(fit.measure)),
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
+    let often = "as often as the surface predicts";
+    let heads = ["structure", "motions", "number", "rock", "overturn", often, &median, "dispersion"];
     let mut rows = Vec::new();
     for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
+        let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
         let (theta, beta) = match capacity {
             Some(fit) => (fit.theta, fit.beta),
             None => curve_parameters(tables, cases),
         };
-        rows.push(json!({
-            "structure": words(&called(&cases.structure)), "motions": cases.suite, "number": cases.all.len(),
-            "rock": cases.all.len() - cases.count(Outcome::NoRocking),
-            "overturn": cases.count(Outcome::Overturned),
-            "as often as the surface predicts":
-                often.map(|often| format!("{} times", number::significant(often, 2))),
-            (median.as_str()): TWO_DIGITS.both(theta, ""), "dispersion": TWO_DIGITS.both(beta, ""),
-        }));
+        let all = cases.all.len();
+        let counts = [all, all - cases.count(Outcome::NoRocking), cases.count(Outcome::Overturned)];
+        let mut row = vec![called(&cases.structure), literal(cases.suite.as_deref().unwrap_or_default())];
+        row.extend(counts.map(number::count));
+        row.push(often.unwrap_or_default());
+        row.extend([theta, beta].map(|value| TWO_DIGITS.both(value, "")));
+        rows.push(row);
     }
-    let fields = format!(
-        "structure|motions|number|rock|overturn|as often as the surface predicts|{median}|dispersion"
-    );
-    Ok(table("Motions that rock and overturn each structure, with 95 % limits", rows, &fields))
+    let table = Table::new(&heads, rows);
+    Ok(table.explained("Motions that rock and overturn each structure, with 95 % limits"))
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
@@ -256,20 +245,20 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
                 "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
                  over seeds",
                 published,
-                "quantity|structure|suite|published|ours|mean|sd|z",
+                "quantity structure suite published ours mean sd z",
             ),
             table(
                 "Lognormal curves of overturning",
                 &tables.fits.curves,
-                "structure|suite|im_x|im_y|auc|n|n_events|status",
+                "structure suite im_x im_y auc n n_events status",
             ),
-            table("Planes of the demand", planes, "structure|suite|range_low|range_high|r2|beta|n|status"),
+            table("Planes of the demand", planes, "structure suite range_low range_high r2 beta n status"),
         ]);
     }
     all.push(table(
         "Validation: events observed and expected",
         validations,
-        "structure|suite|event|model|n|observed|expected|expected_error|log_score|calibration_slope",
+        "structure suite event model n observed expected expected_error log_score calibration_slope",
     ));
     all.retain(|table| !table.rows.is_empty());
     Ok(all)
@@ -282,7 +271,7 @@ fn files(tables: &Tables) -> Table {
             Some(made) => format!("{} {}", made.stage, made.version),
             None => "another program".to_string(),
         };
-        rows.push(json!({ "file": item.name(), "holds": item.kind, "made by": by, "rows": item.rows }));
+        rows.push(vec![literal(&item.name()), item.kind.to_string(), by, number::count(item.rows)]);
     }
-    table("", rows, "file|holds|made by|rows")
+    Table::new(&["file", "holds", "made by", "rows"], rows)
 }

@@ -2,27 +2,32 @@
 
 use std::path::{Path, PathBuf};
 
-use arrow_schema::Schema;
-
-use super::evaluations;
-use crate::fragility::{Calibration, Cases, Event};
-use crate::keyword::{Keyword, keywords};
+use crate::fragility::{Calibration, Cases, Event, LimitStates, Peak};
+use crate::hazard::{Fragility, FragilityPoint};
+use crate::keyword::keywords;
 use crate::paper;
 use crate::report::answers::Evaluation;
 use crate::report::compare;
 use crate::report::figures::Fits;
 use crate::report::response::Trace;
 use crate::rocking::Outcome;
+use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
+use crate::statistics::{Estimate, Limited};
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
-use crate::table::answers::{Answer, FragilityRow};
+use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
 use crate::table::motions::{self, Motion};
 use crate::table::provenance::{Provenance, joined};
+use crate::table::responses::TraceRow;
 use crate::table::rows::{self, Row};
 use crate::table::writer::MOTIONS_IN_GROUP;
+use crate::units::G_M_S2;
+
+/// The most responses that are drawn of a file.
+const MOST_TRACES: usize = 50;
 
 keywords! {
     /// What a table holds, in words.
@@ -49,40 +54,27 @@ keywords! {
     }
 }
 
-impl Kind {
-    /// Columns by which it is known; the first kind of which a table has all counts.
-    fn columns(self) -> &'static str {
-        match self {
-            Kind::Motions => "acceleration_m_s2 dt_s",
-            Kind::Traces => "theta_over_alpha time_s",
-            Kind::Stripes => "outcome intensity scale",
-            Kind::Responses => "outcome edp alpha_rad",
-            Kind::Capacities => "capacity overturning_intensity",
-            Kind::CapacityFits => "theta beta n_safe",
-            Kind::Rates => "overturning_per_year p_overturning",
-            Kind::Fragility => "p_rocking p_failure p_overturning",
-            Kind::Probabilities => "p_ro",
-            Kind::Calibrations => "ln_s tau n_clusters",
-            Kind::Curves => "event coefficients aic",
-            Kind::Planes => "model coefficients range_low",
-            Kind::Parameters => "parameter value standard_error",
-            Kind::Paper => "published ours",
-            Kind::Reliability => "predicted share",
-            Kind::Validation => "observed expected log_score",
-            Kind::Ranking => "loss rank measures",
-            Kind::Scenarios => "scenario_id gamma",
-            Kind::Other => "",
-        }
-    }
-
-    fn from_schema(schema: &Schema) -> Kind {
-        let has_all = |kind: &&Kind| {
-            let mut columns = kind.columns().split(' ').filter(|column| !column.is_empty());
-            columns.all(|column| schema.index_of(column).is_ok())
-        };
-        Kind::ALL.iter().find(has_all).copied().unwrap_or(Kind::Other)
-    }
-}
+/// Columns by which a table is known; the first kind of which it has all counts.
+const COLUMNS: [(Kind, &str); 18] = [
+    (Kind::Motions, "acceleration_m_s2 dt_s"),
+    (Kind::Traces, "theta_over_alpha time_s"),
+    (Kind::Stripes, "outcome intensity scale"),
+    (Kind::Responses, "outcome edp alpha_rad"),
+    (Kind::Capacities, "capacity overturning_intensity"),
+    (Kind::CapacityFits, "theta beta n_safe"),
+    (Kind::Rates, "overturning_per_year p_overturning"),
+    (Kind::Fragility, "p_rocking p_failure p_overturning"),
+    (Kind::Probabilities, "p_ro"),
+    (Kind::Calibrations, "ln_s tau n_clusters"),
+    (Kind::Curves, "event coefficients aic"),
+    (Kind::Planes, "model coefficients range_low"),
+    (Kind::Parameters, "parameter value standard_error"),
+    (Kind::Paper, "published ours"),
+    (Kind::Reliability, "predicted share"),
+    (Kind::Validation, "observed expected log_score"),
+    (Kind::Ranking, "loss rank measures"),
+    (Kind::Scenarios, "scenario_id gamma"),
+];
 
 /// Tables of which the page shows nothing of their own: others are made of them, or stand beside them.
 const SILENT: [Kind; 4] = [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities];
@@ -100,7 +92,8 @@ pub struct Item {
 impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
         let table = Table::open(path)?;
-        let kind = Kind::from_schema(table.schema());
+        let has = |columns: &str| columns.split(' ').all(|name| table.schema().index_of(name).is_ok());
+        let kind = COLUMNS.iter().find(|(_, columns)| has(columns)).map_or(Kind::Other, |(kind, _)| *kind);
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
@@ -139,15 +132,13 @@ impl Tables {
     pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
         let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
         for path in paths {
-            if path.is_dir() && file::tables(path).is_ok_and(|files| files.is_empty()) {
-                anyhow::bail!(
-                    "{}: no tables; expected those of simulate, fit-pro, ida or evaluate",
-                    path.display()
-                );
+            let files = files_of(path)?;
+            if files.is_empty() {
+                let expected = "expected those of simulate, fit-pro, ida or evaluate";
+                anyhow::bail!("{}: no tables; {expected}", path.display());
             }
-            for file in files_of(path)? {
-                tables.items.push(Item::read(&file)?);
-            }
+            let items = files.iter().map(|file| Item::read(file)).collect::<Result<Vec<_>, _>>()?;
+            tables.items.extend(items);
         }
         tables.leave_out_strangers();
         let groups = tables.of(Kind::Responses).map(|item| responses::read(&item.path));
@@ -155,21 +146,22 @@ impl Tables {
         if tables.groups.len() > 2 {
             tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
         }
-        let exceeding: Vec<Calibration> = tables.rows(Kind::Calibrations)?;
-        let limit_state = exceeding.iter().find_map(|row: &Calibration| row.limit_state);
+        let calibrations: Vec<Calibration> = tables.rows(Kind::Calibrations)?;
+        let (exceeding, calibrations): (Vec<_>, Vec<_>) =
+            calibrations.into_iter().partition(|row| row.limit_state.is_some());
         tables.fits = Fits {
             demand: tables.rows(Kind::Planes)?,
             curves: tables.rows(Kind::Curves)?,
-            calibrations: exceeding.into_iter().filter(|row| row.limit_state.is_none()).collect(),
-            limit_state: limit_state.unwrap_or(paper::LIMIT_STATE),
+            calibrations,
+            limit_state: exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE),
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
         tables.compared = tables.rows(Kind::Paper)?;
         for item in &tables.items {
             match item.kind {
-                Kind::Rates => tables.evaluations.push(evaluations::read(&item.path, item.made.as_ref())?),
-                Kind::Fragility => tables.fragilities.extend(evaluations::read_fragility(&item.path)?),
-                Kind::Traces => tables.traces.extend(evaluations::read_traces(&item.path)?),
+                Kind::Rates => tables.evaluations.push(read_evaluation(item)?),
+                Kind::Fragility => tables.fragilities.extend(read_fragility(&item.path)?),
+                Kind::Traces => tables.traces.extend(read_traces(&item.path)?),
                 Kind::Other | Kind::Probabilities => {
                     let (name, words) = (item.name(), item.kind);
                     tables.left_out.push(format!("{name} is not shown: it holds {words}."));
@@ -177,23 +169,25 @@ impl Tables {
                 _ => {}
             }
         }
-        // Probabilities over another peak, or in other times, do not compare.
-        let over = tables.fragilities.first().and_then(|first| first.row.over);
-        for other in tables.fragilities.extract_if(.., |answer| answer.row.over != over) {
+        tables.leave_out_incomparable();
+        Ok(tables)
+    }
+
+    /// Leaves out fragilities over another peak than the first, and probabilities in another time.
+    fn leave_out_incomparable(&mut self) {
+        let over = self.fragilities.first().and_then(|first| first.row.over);
+        for other in self.fragilities.extract_if(.., |answer| answer.row.over != over) {
             let name = other.object.structure;
-            tables.left_out.push(format!("{name} is not shown: its fragility is over another peak."));
+            self.left_out.push(format!("{name} is not shown: its fragility is over another peak."));
         }
         // Where no object has an answer there is no time.
-        let mut whens = tables.evaluations.iter().map(|evaluation| evaluation.when.clone());
-        let first = whens.find(|when| !when.is_empty()).unwrap_or_default();
-        for silent in tables.evaluations.iter_mut().filter(|evaluation| evaluation.when.is_empty()) {
-            silent.when.clone_from(&first);
-        }
-        for other in tables.evaluations.extract_if(.., |evaluation| evaluation.when != first) {
+        let mut times = self.evaluations.iter().map(|evaluation| evaluation.when.clone());
+        let first = times.find(|when| !when.is_empty()).unwrap_or_default();
+        for other in self.evaluations.extract_if(.., |one| !one.when.is_empty() && one.when != first) {
             let (file, when) = (other.file(), other.when);
-            tables.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
+            self.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
         }
-        Ok(tables)
+        self.evaluations.iter_mut().for_each(|evaluation| evaluation.when.clone_from(&first));
     }
 
     /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
@@ -300,4 +294,47 @@ fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     let folders = file::entries(path)?.into_iter().filter(|entry| entry.is_dir());
     files.extend(folders.filter(|folder| Table::open(folder).is_ok()));
     Ok(files)
+}
+
+fn read_evaluation(item: &Item) -> Result<Evaluation, TableError> {
+    let (objects, doubts) = (rows::read::<ObjectRow>(&item.path)?, rows::read::<DoubtsRow>(&item.path)?);
+    let mut answers = Vec::new();
+    for ((object, row), doubts) in objects.into_iter().zip(rows::read::<RatesRow>(&item.path)?).zip(doubts) {
+        let object = ObjectRow { file: item.name(), ..object };
+        answers.push(Answer { object, row, doubts, ..Answer::default() });
+    }
+    Ok(pages::over_hazard(answers, &item.made.clone().unwrap_or_default()))
+}
+
+/// The fragility curves of a file, those that need least first.
+fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> {
+    let mut all = Vec::new();
+    for curve in rows::read::<CurveRow>(path)?.chunk_by(|a, b| a.structure == b.structure) {
+        let points = curve.iter().map(|row| FragilityPoint {
+            intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or(f64::NAN),
+            p: LimitStates {
+                rocking: estimate(row.p_rocking),
+                failure: estimate(row.p_failure),
+                overturning: estimate(row.p_overturning),
+            },
+        });
+        let over = if curve[0].pga_g.is_some() { Peak::Pga } else { Peak::Pgv };
+        let object = ObjectRow { structure: curve[0].structure.clone(), ..ObjectRow::default() };
+        let curve = Some(Fragility::from_points(over, points.collect()));
+        let row = FragilityRow { over: Some(over), curve, ..FragilityRow::default() };
+        all.push(Answer { object, row, ..Answer::default() });
+    }
+    Ok(all)
+}
+
+fn estimate(p: Limited) -> Estimate {
+    let [value, low, high] = [p.value, p.low, p.high].map(|p| p.unwrap_or(f64::NAN));
+    Estimate { value, low, high }
+}
+
+/// The first responses over time of a file.
+fn read_traces(path: &Path) -> Result<Vec<Trace>, TableError> {
+    let rows = rows::read::<TraceRow>(path)?;
+    let traces = rows.chunk_by(|a, b| a.motion_id == b.motion_id && a.structure == b.structure);
+    Ok(traces.take(MOST_TRACES).map(|trace| Trace(trace.to_vec())).collect())
 }
