@@ -20,11 +20,14 @@ use crate::fragility::{LimitStates, Peak};
 /// pelicun, which keeps six digits where it converts units.
 pub const GAP: f64 = 2e-5;
 
-/// What the functions of a file have in common.
+/// Functions of one file, over one peak.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FragilityModel {
     pub id: String,
+    pub peak: Peak,
+    /// What each limit state is, in their order.
     pub limit_states: Vec<String>,
+    pub functions: Vec<Function>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -33,21 +36,13 @@ pub struct Function {
     pub id: String,
     /// What falls and what predicts it, for a reader.
     pub description: String,
-    pub peak: Peak,
-    /// Intensities, m/s2 or m/s, rising from uplift: below the first all probabilities are 0.
+    /// Intensities, m/s2 or m/s, one or more, rising from uplift: below the first all probabilities are 0.
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
     pub probabilities: Vec<LimitStates<f64>>,
     /// The largest intensity for which there are data and that was ever recorded; the first level is that of
     /// uplift, the least.
     pub end_of_data: f64,
-}
-
-impl Function {
-    /// The intensity at uplift, m/s2 or m/s.
-    pub fn uplift(&self) -> f64 {
-        self.levels.first().copied().unwrap_or(self.end_of_data)
-    }
 }
 
 /// Makes an id for each name, without the signs that have a meaning in these programs: names that are told

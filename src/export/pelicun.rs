@@ -30,21 +30,21 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 
 /// Writes the rows: rocking has a PGA that is known, uplift; else they have tables of their cumulative
 /// distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
-pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
+pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut names = COMMON.map(str::to_string).to_vec();
     for state in LimitState::ALL {
         names.extend(STATE.map(|name| format!("{}-{name}", state.as_str())));
     }
     writer.write_record(names)?;
-    for function in functions {
-        let (name, unit_name, unit) = demand(function.peak);
-        let uplift = (function.uplift() / unit).to_string();
+    let (name, unit_name, unit) = demand(model.peak);
+    for function in &model.functions {
+        let uplift = (function.levels[0] / unit).to_string();
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that
         // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
         // PGA alone decides on uplift.
-        let tables = match function.peak {
+        let tables = match model.peak {
             Peak::Pga => {
                 row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
                 &LimitState::ALL[1..]
@@ -62,7 +62,7 @@ pub fn parameters(functions: &[Function]) -> anyhow::Result<String> {
 
 /// Writes the levels, a bar, and the probabilities at them.
 fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) -> String {
-    let below_uplift = (function.uplift() * (1.0 - GAP), 0.0);
+    let below_uplift = (function.levels[0] * (1.0 - GAP), 0.0);
     let mut points = vec![below_uplift];
     for (&level, probabilities) in function.levels.iter().zip(&function.probabilities) {
         let (last_level, last) = points[points.len() - 1];
@@ -72,13 +72,12 @@ fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) ->
         }
     }
     let (last_level, last) = points[points.len() - 1];
-    let flat = function
-        .levels
-        .last()
-        .filter(|&&end| end >= last_level * (1.0 + GAP) && 1.0 - last > 2.0 * LEAST_RISE);
-    points.extend(flat.map(|&end| (end, last + LEAST_RISE)));
+    let end = function.levels[function.levels.len() - 1];
+    if end >= last_level * (1.0 + GAP) && 1.0 - last > 2.0 * LEAST_RISE {
+        points.push((end, last + LEAST_RISE));
+    }
     // pelicun knows a whole distribution or none: what is left stands just beyond the last level.
-    points.extend(function.levels.last().map(|&end| (end * (1.0 + GAP), 1.0)));
+    points.push((end * (1.0 + GAP), 1.0));
     let join = |part: fn(&(f64, f64)) -> f64, unit: f64| {
         points.iter().map(|point| (part(point) / unit).to_string()).collect::<Vec<_>>().join(",")
     };
@@ -86,7 +85,7 @@ fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) ->
 }
 
 /// Describes the rows, for the JSON file beside them.
-pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
+pub fn metadata(model: &FragilityModel) -> Value {
     let mut all = json!({
         "_GeneralInformation": {
             "ShortName": model.id,
@@ -95,16 +94,16 @@ pub fn metadata(model: &FragilityModel, functions: &[Function]) -> Value {
             "ComponentGroups": { "Rocking structures": [] },
         },
     });
-    for function in functions {
-        let (name, unit_name, unit) = demand(function.peak);
-        let [low, high] = [function.uplift(), function.end_of_data].map(|intensity| intensity / unit);
-        let end = function.levels.last().map_or(high, |end| end / unit);
-        let state = |(index, meaning): (usize, &String)| {
-            (format!("LS{}", index + 1), json!({ format!("DS{}", index + 1): { "Description": meaning } }))
-        };
-        let states: Map<String, Value> = model.limit_states.iter().enumerate().map(state).collect();
-        all[&function.id] = json!({
-            "Description": function.description,
+    let (name, unit_name, unit) = demand(model.peak);
+    let states = (1..).zip(&model.limit_states).map(|(number, meaning)| {
+        (format!("LS{number}"), json!({ format!("DS{number}"): { "Description": meaning } }))
+    });
+    let states: Map<String, Value> = states.collect();
+    for Function { id, description, levels, end_of_data, .. } in &model.functions {
+        let [low, high, end] =
+            [levels[0], *end_of_data, levels[levels.len() - 1]].map(|intensity| intensity / unit);
+        all[id] = json!({
+            "Description": description,
             "Comments": format!(
                 "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
             ),

@@ -4,7 +4,7 @@ use super::answers::{Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
-use super::probabilities::{self, Row};
+use super::probabilities::{self, Row, Value};
 use super::text::literal;
 use crate::hazard::{RateByParts, ratio_of_rates};
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
@@ -26,12 +26,11 @@ pub struct Pair<'a> {
 /// these the most likely to overturn before.
 pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>> {
     let same_hazard = before.hazard_key == after.hazard_key;
-    let mut pairs = Vec::new();
-    for one in &before.rows {
-        let other = namesake(one, after);
-        let Some(other) = other.filter(|other| one.is_answered() || other.is_answered()) else { continue };
-        pairs.push(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) });
-    }
+    let pairs = before.rows.iter().filter_map(|one| {
+        let other = namesake(one, after).filter(|other| one.is_answered() || other.is_answered())?;
+        Some(Pair { before: one, after: other, ratio: ratio(one, other, same_hazard) })
+    });
+    let mut pairs: Vec<Pair> = pairs.collect();
     pairs.sort_by(|a, b| b.before.severity().total_cmp(&a.before.severity()));
     pairs.sort_by_key(|pair| !pair.is_changed());
     pairs
@@ -53,30 +52,30 @@ impl Pair<'_> {
         self.before.row.p_overturning != self.after.row.p_overturning || !self.changes().is_empty()
     }
 
-    /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle and eta where nothing else does.
+    /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle or eta where nothing else does.
     fn changes(&self) -> Vec<String> {
         let both = [self.before, self.after].map(|rated| &rated.object);
-        let mut words: Vec<String> = [
-            both.map(|object| literal(&object.place())),
-            both.map(|object| object.size().replace(' ', "\u{a0}")),
-        ]
-        .into_iter()
-        .filter(|[old, new]| old != new)
-        .map(|[old, new]| format!("{old} → {new}"))
-        .collect();
+        let places = both.map(|object| literal(&object.place()));
+        let sizes = both.map(|object| object.size().replace(' ', "\u{a0}"));
+        let mut changes: Vec<String> =
+            [places, sizes].into_iter().filter_map(|pair| arrow("", pair)).collect();
         let reason = self.after.doubts.warnings.as_deref().filter(|_| !self.after.is_answered());
-        words.extend(reason.map(literal));
-        let written =
-            |value: Option<f64>| value.map_or("-".to_string(), |value| number::significant(value, 3));
-        for (name, unit, [old, new]) in [
-            ("tips at", "°", both.map(|object| written(object.alpha_rad.map(f64::to_degrees)))),
-            ("restitution", "", both.map(|object| written(object.eta))),
-        ] {
-            let is_told = words.is_empty() && old != new;
-            words.extend(is_told.then(|| format!("{name} {old}{unit} → {new}{unit}")));
+        changes.extend(reason.map(literal));
+        if changes.is_empty() {
+            let degrees = both.map(|object| digits(object.alpha_rad.map(f64::to_degrees)) + "°");
+            let eta = both.map(|object| digits(object.eta));
+            changes.extend(arrow("tips at ", degrees).or_else(|| arrow("restitution ", eta)));
         }
-        words
+        changes
     }
+}
+
+fn arrow(name: &str, [old, new]: [String; 2]) -> Option<String> {
+    (old != new).then(|| format!("{name}{old} → {new}"))
+}
+
+fn digits(value: Option<f64>) -> String {
+    value.map_or("-".to_string(), |value| number::significant(value, 3))
 }
 
 /// Those that are drawn and have a row: the changed ones of several, else the one that there is.
@@ -87,23 +86,19 @@ fn told<'a, 'b>(pairs: &'b [Pair<'a>]) -> &'b [Pair<'a>] {
 
 /// Before and after in one row.
 pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
-    let (before, after) = (Ink::Muted, Ink::Data(1));
-    let mut rows = Vec::new();
-    for pair in told(pairs) {
-        let values = vec![(before, pair.before.row.p_overturning), (after, pair.after.row.p_overturning)];
+    let rows = told(pairs).iter().map(|pair| {
+        let sides = [(pair.before, Ink::Muted, "before"), (pair.after, Ink::Data(1), "after")];
+        let values = sides.map(|(rated, ink, label)| Value { p: rated.row.p_overturning, ink, label });
         let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
-        rows.push(Row { name: pair.before.object.marked_name(), values, words });
-    }
-    let all = rows.iter().flat_map(|row| &row.values).map(|(_, p)| *p).chain([Limited::value(target)]);
-    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
-    let labels = [(before, "before"), (after, "after")];
-    let panel = probabilities::panel("", x, &rows, &labels, target);
+        Row { name: pair.before.object.marked_name(), values: values.into(), words }
+    });
+    let rows: Vec<Row> = rows.collect();
+    let panel = (!rows.is_empty()).then(|| probabilities::panel("", when, &rows, target));
     let caption = format!(
         "Probability of overturning {when} before and after, with 95 % limits; at the right the ratio of the \
          rates, after over before."
     );
-    let panels = if pairs.is_empty() { Vec::new() } else { vec![panel] };
-    Figure::new("compared", "Before and after", 1, 0.0, panels).explained(caption)
+    Figure::new("compared", "Before and after", 1, 0.0, panel.into_iter().collect()).explained(caption)
 }
 
 /// The page of two evaluations.
@@ -147,14 +142,12 @@ fn sentence(pairs: &[Pair], when: &str, target: Option<f64>) -> String {
             "{name} overturns with a probability of {before} before and {after} after, {when}.{target}"
         );
     }
-    let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
-    let changed =
-        format!("{} of {} changed.", number::count(changed), number::counted(pairs.len(), "object"));
+    let changed = number::count(pairs.iter().filter(|pair| pair.is_changed()).count());
+    let changed = format!("{changed} of {} changed.", number::counted(pairs.len(), "object"));
     let mut after: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
     after.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
     after.retain(|rated| target.is_none_or(|target| rated.severity() > target));
-    let worst: Vec<String> =
-        after.iter().map(|rated| format!("{} ({})", rated.object.marked_name(), percent(rated))).collect();
+    let worst: Vec<String> = after.iter().map(|rated| with_number(rated)).collect();
     match target.map(|target| PERCENT.one(target)) {
         None => format!("{changed} The most likely to overturn {when} is now {}.", worst[0]),
         Some(target) if worst.is_empty() => format!("{changed} All now meet the target of {target} {when}."),
@@ -182,50 +175,54 @@ fn tiles(before: &Evaluation, after: &Evaluation, when: &str, target: Option<f64
 fn table(pairs: &[Pair], when: &str) -> Table {
     let before = format!("before, % {when}");
     let heads = ["object", "change", &before, "after, %", "95 % limits", "times as often", "95 % limits"];
-    let mut rows = Vec::new();
-    for pair in pairs {
+    let rows = pairs.iter().map(|pair| {
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
-        let times = pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio));
-        let mut row = vec![
+        vec![
             pair.before.object.marked_name(),
             pair.changes().join("; "),
             OF_HUNDRED.value(p),
             OF_HUNDRED.value(q),
-        ];
-        row.extend([OF_HUNDRED.span(q), times, TWO_DIGITS.span(pair.ratio)]);
-        rows.push(row);
-    }
-    Table::new(&heads, rows)
+            OF_HUNDRED.span(q),
+            pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio)),
+            TWO_DIGITS.span(pair.ratio),
+        ]
+    });
+    Table::new(&heads, rows.collect())
 }
 
-/// Objects that are unchanged, those of one file alone, and those without an answer in both.
+/// Objects that are unchanged, those without an answer in both, and those of one file alone.
 fn others(before: &Evaluation, after: &Evaluation, pairs: &[Pair]) -> Vec<String> {
     let same: Vec<&Rated> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
+    let (mut silent, mut gone): (Vec<&Rated>, Vec<&Rated>) = Default::default();
+    for rated in &before.rows {
+        match namesake(rated, after) {
+            None => gone.push(rated),
+            Some(other) if !rated.is_answered() && !other.is_answered() => silent.push(rated),
+            Some(_) => {}
+        }
+    }
+    let new: Vec<&Rated> = after.rows.iter().filter(|rated| namesake(rated, before).is_none()).collect();
     let mut lines = Vec::new();
     for (heading, all) in [
         ("unchanged", same),
-        ("not assessed before or after", silent(before, after)),
-        (&format!("only in {}", before.file()), only_in(before, after)),
-        (&format!("only in {}", after.file()), only_in(after, before)),
+        ("not assessed before or after", silent),
+        (&format!("only in {}", before.file()), gone),
+        (&format!("only in {}", after.file()), new),
     ] {
-        let names = all.iter().map(|rated| match rated.is_answered() {
-            true => format!("{} ({})", rated.object.marked_name(), PERCENT.value(rated.row.p_overturning)),
-            false => rated.object.marked_name(),
-        });
-        let names: Vec<String> = names.collect();
+        let names: Vec<String> = all.iter().map(|rated| with_number(rated)).collect();
         let (count, names) = (number::counted(all.len(), "object"), number::listed(&names, MANY));
         lines.extend((!all.is_empty()).then(|| format!("{count} {heading}: {names}.")));
     }
     lines
 }
 
-fn only_in<'a>(one: &'a Evaluation, other: &Evaluation) -> Vec<&'a Rated> {
-    one.rows.iter().filter(|rated| namesake(rated, other).is_none()).collect()
-}
-
-fn silent<'a>(before: &'a Evaluation, after: &Evaluation) -> Vec<&'a Rated> {
-    let rows = before.rows.iter().filter(|rated| !rated.is_answered());
-    rows.filter(|rated| namesake(rated, after).is_some_and(|other| !other.is_answered())).collect()
+/// Names an object with its probability, if it has one.
+fn with_number(rated: &Rated) -> String {
+    let name = rated.object.marked_name();
+    match rated.is_answered() {
+        true => format!("{name} ({})", PERCENT.value(rated.row.p_overturning)),
+        false => name,
+    }
 }
 
 fn namesake<'a>(rated: &Rated, other: &'a Evaluation) -> Option<&'a Rated> {

@@ -20,26 +20,24 @@ const NAMED: usize = 4;
 
 /// How likely each object overturns, the worst first; those on floors with their floor.
 pub fn figure(evaluation: &Evaluation) -> Figure {
-    let Evaluation { when, target, .. } = evaluation;
+    let when = &evaluation.when;
     let answered: Vec<&Rated> = evaluation.rows.iter().filter(|rated| rated.is_answered()).collect();
     let drawn = &answered[..answered.len().min(DRAWN)];
-    let all = drawn.iter().map(|rated| rated.row.p_overturning).chain([Limited::value(*target)]);
-    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
-    let bands = [(Ink::Band(2), "above 10 %"), (Ink::Band(1), "2 to 10 %"), (Ink::Band(0), "below 2 %")];
-    let mut rows = Vec::new();
-    for Rated { object, row, .. } in drawn.iter().copied() {
-        let p = row.p_overturning;
-        let band = BANDS.iter().filter(|end| p.value.or(p.high).is_some_and(|p| p > **end)).count();
-        rows.push(Row::new(&object.name_and_floor(), Ink::Band(band), &[p]));
-    }
+    let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
+    let rows = drawn.iter().map(|rated| {
+        let band = BANDS.iter().filter(|end| rated.severity() > **end).count();
+        let name = rated.object.name_and_floor();
+        Row::new(&name, Ink::Band(band), bands[band], &[rated.row.p_overturning])
+    });
+    let rows: Vec<Row> = rows.collect();
     let rest = match answered.len() - drawn.len() {
         0 => String::new(),
         rest => format!(" Not drawn: {} that are less likely to overturn.", number::counted(rest, "object")),
     };
     let caption = format!("Probability of overturning {when} with 95 % limits.{rest}");
-    let panels = Some(probabilities::panel("", x, &rows, &bands, *target)).filter(|_| !rows.is_empty());
+    let panel = (!rows.is_empty()).then(|| probabilities::panel("", when, &rows, evaluation.target));
     let title = "How likely each object is to overturn";
-    Figure::new("list", title, 1, 0.0, panels.into_iter().collect()).explained(caption)
+    Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
 }
 
 /// The page of several objects, of one file or of several.

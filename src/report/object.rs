@@ -9,7 +9,7 @@ use super::text::{literal, words};
 use crate::fragility::{LimitState, Peak, Z_95};
 use crate::hazard::{Fragility, intensity_in_words};
 use crate::keyword::Keyword;
-use crate::number::{self, Limited, PERCENT, RATE};
+use crate::number::{self, PERCENT, RATE};
 use crate::object::Part;
 use crate::table::answers::ObjectRow;
 
@@ -135,23 +135,18 @@ pub fn averaged(over: Peak) -> String {
     format!("averaged over the {} of such motions", other.words().0)
 }
 
-fn changes_panel(evaluation: &Evaluation) -> Panel {
-    let (when, changes) = (&evaluation.when, &evaluation.portrait.changes);
-    let mut rows = Vec::new();
-    for Change { words, p, .. } in changes {
-        let ink = if rows.is_empty() { Ink::Data(1) } else { Ink::Data(0) };
-        rows.push(Row::new(words, ink, p));
-    }
-    let all = changes.iter().flat_map(|change| &change.p).copied();
-    let all = all.chain([Limited::value(evaluation.target)]);
-    let x = probabilities::axis(&format!("probability of overturning {when}"), all);
+fn changes_panel(Evaluation { when, target, portrait, .. }: &Evaluation) -> Panel {
+    let rows = portrait.changes.iter().enumerate().map(|(place, Change { words, p, .. })| {
+        let ink = if place == 0 { Ink::Data(1) } else { Ink::Data(0) };
+        Row::new(words, ink, "", p)
+    });
+    let rows: Vec<Row> = rows.collect();
     let caption = format!(
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
          test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces see ASCE 7, \
          chapter 13, or EN 1998-1, 4.3.5."
     );
-    let labels = [(Ink::Data(1), ""), (Ink::Data(0), "")];
-    probabilities::panel("What would change it", x, &rows, &labels, evaluation.target).explained(caption)
+    probabilities::panel("What would change it", when, &rows, *target).explained(caption)
 }
 
 /// An intensity that comes once in so many years.

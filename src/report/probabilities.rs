@@ -1,4 +1,4 @@
-//! Probabilities in rows: names, values with their limits, words beside them, and a target.
+//! Probabilities of overturning in rows: names, values with their limits, words beside them, and a target.
 
 use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Span, Words};
 use crate::number::{Limited, OF_HUNDRED, PERCENT};
@@ -7,40 +7,56 @@ use crate::number::{Limited, OF_HUNDRED, PERCENT};
 pub struct Row {
     /// Marked text.
     pub name: String,
-    /// Probabilities in their colours, one below the other.
-    pub values: Vec<(Ink, Limited)>,
+    /// One below the other.
+    pub values: Vec<Value>,
     /// At the right edge.
     pub words: String,
 }
 
+/// A probability, in a colour that the legend names.
+pub struct Value {
+    pub p: Limited,
+    pub ink: Ink,
+    pub label: &'static str,
+}
+
 impl Row {
     /// A row of probabilities in one colour, with their values at its end.
-    pub fn new(name: &str, ink: Ink, all: &[Limited]) -> Row {
-        let words: Vec<String> = all
-            .iter()
-            .map(|p| match (p.value, p.high) {
-                (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
-                _ => OF_HUNDRED.value(*p),
-            })
-            .collect();
-        let values = all.iter().map(|p| (ink, *p)).collect();
-        Row { name: name.to_string(), values, words: words.join(", ") + " %" }
+    pub fn new(name: &str, ink: Ink, label: &'static str, all: &[Limited]) -> Row {
+        let words = all.iter().map(|p| match (p.value, p.high) {
+            (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
+            _ => OF_HUNDRED.value(*p),
+        });
+        let words = words.collect::<Vec<_>>().join(", ") + " %";
+        let values = all.iter().map(|&p| Value { p, ink, label }).collect();
+        Row { name: name.to_string(), values, words }
     }
 }
 
 /// How far apart the values of a row stand, rows.
 const APART: f64 = 0.34;
 
-/// An axis in percent over all of these.
-pub fn axis(label: &str, all: impl IntoIterator<Item = Limited>) -> Axis {
-    let ends = all.into_iter().flat_map(|p| [p.value, p.low, p.high]).flatten();
-    let Span { low, high } = Span::from_values(ends.filter(|p| *p > 0.0).map(|p| 100.0 * p));
-    let axis = Axis::log(&format!("{label}, %"));
-    if low <= high { axis.over(low / 1.3, (1.3 * high).min(104.0)) } else { axis }
-}
-
-/// A panel of rows; `labels` name the colours in the legend, the last one drawn last.
-pub fn panel(title: &str, x: Axis, rows: &[Row], labels: &[(Ink, &str)], target: Option<f64>) -> Panel {
+/// A panel of rows, in percent, over all values and the target.
+pub fn panel(title: &str, when: &str, rows: &[Row], target: Option<f64>) -> Panel {
+    let (mut layers, mut words): (Vec<Layer>, _) = (Vec::new(), Vec::new());
+    let mut ends: Vec<f64> = target.into_iter().collect();
+    for (at, row) in rows.iter().enumerate() {
+        let y = at as f64;
+        words.push(Words { x: 0.0, y, text: row.words.clone(), side: Side::Margin, ink: Ink::Text });
+        for (place, Value { p, ink, label }) in row.values.iter().enumerate() {
+            ends.extend([p.value, p.low, p.high].into_iter().flatten());
+            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
+            let y = y + APART * (place as f64 - 0.5 * (row.values.len() as f64 - 1.0));
+            let mark = Mark { low, high, ..Mark::new(x, y) };
+            match layers.iter_mut().find(|layer| layer.ink == *ink) {
+                Some(layer) => layer.marks.push(mark),
+                None => layers.push(Layer::new(label, *ink, Shape::Estimates, [mark])),
+            }
+        }
+    }
+    let Span { low, high } = Span::from_values(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
+    let x = Axis::log(&format!("probability of overturning {when}, %"));
+    let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));
     let mut panel = Panel::new(title, x, names, Vec::new());
     if let Some(target) = target {
@@ -48,23 +64,7 @@ pub fn panel(title: &str, x: Axis, rows: &[Row], labels: &[(Ink, &str)], target:
         let words = Words { x: 100.0 * target, y: -0.5, text, side: Side::Above, ink: Ink::Muted };
         panel.add_upright(words, rows.len() as f64 - 0.5);
     }
-    for (ink, label) in labels {
-        let mut marks = Vec::new();
-        for (at, row) in rows.iter().enumerate() {
-            let middle = 0.5 * (row.values.len() as f64 - 1.0);
-            for (place, (_, p)) in row.values.iter().enumerate().filter(|(_, (own, _))| own == ink) {
-                let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-                let y = at as f64 + APART * (place as f64 - middle);
-                marks.push(Mark { low, high, ..Mark::new(x, y) });
-            }
-        }
-        if !marks.is_empty() {
-            panel.layers.push(Layer::new(label, *ink, Shape::Estimates, marks));
-        }
-    }
-    for (at, row) in rows.iter().enumerate() {
-        let (y, text) = (at as f64, row.words.clone());
-        panel.words.push(Words { x: 0.0, y, text, side: Side::Margin, ink: Ink::Text });
-    }
+    panel.layers.extend(layers);
+    panel.words.extend(words);
     panel
 }

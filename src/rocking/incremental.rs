@@ -6,6 +6,8 @@
 //! There is no single capacity. At its resolution, a scan returns the least overturning intensity, the
 //! overturning share of each band above it, and the windows in which no simulated intensity overturns.
 
+use serde::{Deserialize, Serialize};
+
 use super::response::{Outcome, Response};
 use crate::keyword::keywords;
 
@@ -214,15 +216,18 @@ keywords! {
 }
 
 /// The overturning capacity of a structure in a scan.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Capacity {
     /// Whether and where it overturns.
+    #[serde(rename = "capacity")]
     pub status: CapacityStatus,
     /// Largest safe intensity below the first overturning one.
     pub safe_below: Option<f64>,
     /// Least overturning intensity.
+    #[serde(rename = "overturning_intensity")]
     pub overturning: Option<f64>,
     /// Safe ranges above it.
+    #[serde(skip)]
     pub windows: Vec<SafeWindow>,
     /// Largest safe intensity.
     pub safe_up_to: Option<f64>,

@@ -96,22 +96,24 @@ impl Stage for Export {
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
             id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },
+            peak: self.over,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
+            functions,
         };
         let files = self.outputs();
         match self.to {
             Program::OpenQuake => {
-                let marked = discrete(&model, &functions).replacen('\n', &format!("\n{}\n", xml_mark()), 1);
+                let marked = discrete(&model).replacen('\n', &format!("\n{}\n", xml_mark()), 1);
                 context.write_file(&files[0], marked.as_bytes())?;
             }
             Program::Pelicun => {
-                let json = serde_json::to_string_pretty(&metadata(&model, &functions))? + "\n";
+                let json = serde_json::to_string_pretty(&metadata(&model))? + "\n";
                 context.write_file(&files[0], json.as_bytes())?;
-                context.write_file(&files[1], parameters(&functions)?.as_bytes())?;
+                context.write_file(&files[1], parameters(&model)?.as_bytes())?;
             }
         }
-        let (file, number, over) = (files[files.len() - 1].display(), functions.len(), self.over);
-        let most = functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
+        let (file, number, over) = (files[files.len() - 1].display(), model.functions.len(), self.over);
+        let most = model.functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
         Ok(format!("{file}: {number} structure(s) over {over}, up to {most} levels each\n"))
     }
 }
@@ -163,7 +165,6 @@ impl Export {
         Function {
             id: format!("{id}_{}", self.over),
             description: format!("{}{directions}, by {}", object.name, model.words()),
-            peak: self.over,
             probabilities,
             end_of_data: end,
             levels,

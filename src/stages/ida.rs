@@ -182,54 +182,54 @@ impl Ida {
         }
         let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
         let (mut rows, mut stripes, mut scanned) = (Vec::new(), Vec::new(), Vec::new());
-        for (case, responses) in cases.iter().zip(&responses) {
+        for (Case { motion, measures, structure, unscaled, .. }, responses) in cases.iter().zip(&responses) {
             let at_levels = responses
                 .iter()
                 .filter(|at| scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok());
+            let Motion { motion_id, suite, earthquake, mw, re_km, .. } = motion;
+            let capacity = CapacityRow {
+                motion_id: motion_id.clone(),
+                suite: suite.clone(),
+                earthquake: earthquake.clone(),
+                mw: *mw,
+                re_km: *re_km,
+                structure: structure.name.clone(),
+                measure: self.measure,
+                unscaled: *unscaled,
+                found: scan.capacity(responses),
+            };
             scanned.push(Scanned {
-                capacity: self.capacity(&scan.capacity(responses), case),
+                capacity,
                 overturns: at_levels.clone().map(ScanResponse::overturns).collect(),
             });
             let shares = scan.overturning_shares(responses).into_iter().map(Some).chain([None]);
             for (&ScanResponse { intensity, response }, overturning_above) in at_levels.zip(shares) {
-                let scale = intensity / case.unscaled;
-                let measures = case.measures.scaled(scale);
-                rows.push(measures.response_row(case.motion, case.structure, response));
+                let scale = intensity / unscaled;
+                rows.push(measures.scaled(scale).response_row(motion, structure, response));
                 stripes.push(StripeRow { measure: self.measure, intensity, scale, overturning_above });
             }
         }
         Ok(Analysed { stripes: side_by_side(&rows, &stripes)?, scanned, warnings: warned })
     }
 
-    fn capacity(&self, capacity: &Capacity, case: &Case) -> CapacityRow {
-        CapacityRow {
-            motion_id: case.motion.motion_id.clone(),
-            suite: case.motion.suite.clone(),
-            earthquake: case.motion.earthquake.clone(),
-            mw: case.motion.mw,
-            re_km: case.motion.re_km,
-            structure: case.structure.name.clone(),
-            measure: self.measure,
-            unscaled: case.unscaled,
-            capacity: capacity.status,
-            safe_below: capacity.safe_below,
-            overturning_intensity: capacity.overturning,
-            safe_up_to: capacity.safe_up_to,
-        }
-    }
-
     /// The lognormal distribution of the capacities of a suite and structure.
     fn fit(&self, levels: &[f64], cases: &[&Scanned]) -> CapacityFitRow {
-        let known = cases.iter().map(|Scanned { capacity, .. }| {
-            match (capacity.capacity, capacity.overturning_intensity) {
-                (CapacityStatus::Overturns, Some(intensity)) => KnownCapacity::At(intensity),
-                (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
-                _ => KnownCapacity::Above(self.to),
+        let known = cases.iter().map(|case| match case.capacity.found {
+            Capacity { status: CapacityStatus::Overturns, overturning: Some(at), .. } => {
+                KnownCapacity::At(at)
             }
+            Capacity { status: CapacityStatus::Below, .. } => KnownCapacity::Below(self.from),
+            _ => KnownCapacity::Above(self.to),
         });
-        let fit = fit_capacities(&known.collect::<Vec<_>>(), &clusters(cases));
+        // Clusters as in fits: by earthquake, else by magnitude and distance; what shares nothing is its own.
+        let mut numbers = BTreeMap::new();
+        let clusters = (0..).zip(cases).map(|(next, Scanned { capacity, .. })| {
+            let cluster = Cluster::new(capacity.earthquake.as_deref(), capacity.mw, capacity.re_km);
+            cluster.map_or(next, |cluster| *numbers.entry(cluster).or_insert(next))
+        });
+        let fit = fit_capacities(&known.collect::<Vec<_>>(), &clusters.collect::<Vec<_>>());
         let [n_safe, n_below] = [CapacityStatus::Safe, CapacityStatus::Below]
-            .map(|status| cases.iter().filter(|case| case.capacity.capacity == status).count() as i64);
+            .map(|status| cases.iter().filter(|case| case.capacity.found.status == status).count() as i64);
         let first = &cases[0].capacity;
         CapacityFitRow {
             suite: first.suite.clone(),
@@ -244,17 +244,6 @@ impl Ida {
             status: fit.err().unwrap_or(FitStatus::Ok),
         }
     }
-}
-
-/// Numbers the clusters of capacities as fits do: by earthquake, else by magnitude and distance; a motion
-/// that shares nothing is its own.
-fn clusters(cases: &[&Scanned]) -> Vec<u32> {
-    let mut numbers = BTreeMap::new();
-    let numbered = (0..).zip(cases).map(|(next, Scanned { capacity, .. })| {
-        let cluster = Cluster::new(capacity.earthquake.as_deref(), capacity.mw, capacity.re_km);
-        cluster.map_or(next, |cluster| *numbers.entry(cluster).or_insert(next))
-    });
-    numbered.collect()
 }
 
 /// The lowest level at which half of some motions overturn a structure, by the share in between: along ln
@@ -303,19 +292,16 @@ fn side_by_side(responses: &[ResponseRow], stripes: &[StripeRow]) -> anyhow::Res
 
 /// Simulates scaled copies of motions, as many at once as fit.
 fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
+    let longest = cases.iter().map(|case| case.motion.acceleration_m_s2.len()).max().unwrap_or(0).max(1);
     let mut responses = Vec::with_capacity(points.len());
-    while let Some(next) = points.get(responses.len()..).filter(|next| !next.is_empty()) {
-        let (mut scaled, mut held): (Vec<Vec<f64>>, usize) = (Vec::new(), 0);
-        for point in next {
+    for some in points.chunks((MOST_SAMPLES / longest).max(1)) {
+        let scaled = some.iter().map(|point| {
             let Case { motion, unscaled, .. } = cases[point.case];
-            held += motion.acceleration_m_s2.len();
-            if held > MOST_SAMPLES && !scaled.is_empty() {
-                break;
-            }
             let scale = point.intensity / unscaled;
-            scaled.push(motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect());
-        }
-        let problems = next.iter().zip(&scaled).map(|(point, samples)| {
+            motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect()
+        });
+        let scaled: Vec<Vec<f64>> = scaled.collect();
+        let problems = some.iter().zip(&scaled).map(|(point, samples)| {
             let Case { path, motion, structure, .. } = cases[point.case];
             let record = Record::new(samples, motion.dt_s).map_err(|problem| {
                 value_error(path, motion, &format!("{problem}; scale less by a lower --to"))

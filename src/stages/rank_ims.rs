@@ -1,7 +1,6 @@
 //! rank-ims: which intensity measures predict best, alone, in pairs and in triples.
 
-use std::borrow::Cow;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -9,7 +8,7 @@ use clap::Args;
 use polars::prelude::SortMultipleOptions;
 use serde::Serialize;
 
-use super::shared::responses::{self, Candidates};
+use super::shared::responses::{self, Candidate, Candidates};
 use crate::motion::Dimension;
 use crate::number::listed;
 use crate::paper;
@@ -139,16 +138,11 @@ fn not_ranked(incomplete: &BTreeMap<String, usize>) -> String {
 /// Further measures of motions.
 #[derive(Default)]
 struct Further {
-    measures: Vec<FurtherMeasure>,
-    /// The place of each motion in the columns.
-    places: HashMap<String, usize>,
     path: PathBuf,
-}
-
-struct FurtherMeasure {
-    column: String,
-    quantity: Dimension,
-    values: Vec<Option<f64>>,
+    /// The columns, and what each measures.
+    columns: Vec<(String, Dimension)>,
+    /// The values of each motion, by its name.
+    motions: HashMap<String, Vec<Option<f64>>>,
 }
 
 impl Further {
@@ -160,52 +154,44 @@ impl Further {
             let problem = format!("{file}: no column '{missing}'; expected one of {names}");
             return Err(UsageError::because(problem));
         }
-        let mut further = Further { path: path.to_path_buf(), ..Further::default() };
-        for column in names {
-            let is_known = FURTHER.contains(&column.as_str()) || column.starts_with("sa_");
-            let quantity = quantity(column).filter(|_| is_known || candidates.contains(column));
-            let Some(quantity) = quantity else { continue };
-            further.measures.push(FurtherMeasure { column: column.clone(), quantity, values: Vec::new() });
-        }
-        let columns: HashSet<String> =
-            further.measures.iter().map(|measure| measure.column.clone()).collect();
-        let mut rows = 0;
-        for batch in table.batches(|name| name == "motion_id" || columns.contains(name)) {
+        let columns = names.into_iter().filter_map(|name| {
+            let is_known = FURTHER.contains(&name.as_str()) || name.starts_with("sa_");
+            let quantity = quantity(name).filter(|_| is_known || candidates.contains(name));
+            Some((name.clone(), quantity?))
+        });
+        let columns: Vec<(String, Dimension)> = columns.collect();
+        let mut motions = HashMap::new();
+        for batch in table.batches(|name| name == "motion_id" || columns.iter().any(|(own, _)| own == name)) {
             let batch = batch?;
-            for measure in &mut further.measures {
-                measure.values.extend(batch.numbers(&measure.column)?);
+            let values = columns.iter().map(|(column, _)| batch.numbers(column));
+            let values = values.collect::<Result<Vec<_>, _>>()?;
+            for (row, id) in batch.required_texts("motion_id")?.into_iter().enumerate() {
+                motions.insert(id.into_owned(), values.iter().map(|values| values[row]).collect());
             }
-            let ids = batch.required_texts("motion_id")?.into_iter().map(Cow::into_owned);
-            further.places.extend(ids.zip(rows..));
-            rows += batch.rows.num_rows();
         }
-        // A measure that no motion has does not compete.
-        further.measures.retain(|measure| measure.values.iter().any(Option::is_some));
-        Ok(further)
+        Ok(Further { path: path.to_path_buf(), columns, motions })
     }
 
     /// The measures of motions, made dimensionless for a structure, by their names without units.
-    fn candidates(
-        &self,
-        motions: &[&str],
-        structure: &Structure,
-    ) -> anyhow::Result<Vec<(String, Vec<Option<f64>>)>> {
-        if self.measures.is_empty() {
-            return Ok(Vec::new());
-        }
-        let places = motions.iter().map(|motion| {
-            self.places.get(*motion).copied().with_context(|| {
+    fn candidates(&self, motions: &[&str], structure: &Structure) -> anyhow::Result<Vec<Candidate>> {
+        let motions = motions.iter().map(|motion| {
+            self.motions.get(*motion).with_context(|| {
                 let file = self.path.display();
                 format!("{file}: no motion '{motion}'; expected the motions of the responses")
             })
         });
-        let places = places.collect::<anyhow::Result<Vec<usize>>>()?;
-        let candidates = self.measures.iter().map(|FurtherMeasure { column, quantity, values }| {
-            let name = UNITS.iter().find_map(|(unit, _)| column.strip_suffix(unit)).unwrap_or(column);
-            let values = places.iter().map(|&place| Some(quantity.dimensionless(values[place]?, structure)));
-            (name.to_string(), values.collect())
-        });
-        Ok(candidates.collect())
+        let motions = motions.collect::<anyhow::Result<Vec<_>>>()?;
+        let mut candidates = Vec::new();
+        for (place, (column, quantity)) in self.columns.iter().enumerate() {
+            // A measure that no motion has does not compete.
+            if self.motions.values().any(|values| values[place].is_some()) {
+                let name = UNITS.iter().find_map(|(unit, _)| column.strip_suffix(unit)).unwrap_or(column);
+                let values =
+                    motions.iter().map(|values| Some(quantity.dimensionless(values[place]?, structure)));
+                candidates.push((name.to_string(), values.collect()));
+            }
+        }
+        Ok(candidates)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::fragility::{Case, Cases, Measure};
 use crate::keyword::{Keyword, keywords};
 use crate::rocking::Outcome;
 use crate::statistics::clusters::clustered_mean;
-use crate::statistics::{FitStatus, Folds, LinearFit, ProbitFit, least_squares, normal, predict, probit};
+use crate::statistics::{FitStatus, Folds, LinearFit, least_squares, normal, predict, probit};
 
 keywords! {
     /// Target of the prediction.
@@ -94,22 +94,13 @@ pub struct Ranking {
 }
 
 /// The cases of a target, with the measures known in all of them: only then are likelihoods comparable.
-struct Contest {
+struct Contest<'a> {
     target: Target,
+    transition: f64,
+    rows: Vec<&'a Case>,
     names: Vec<String>,
     ln_im: Vec<Vec<f64>>,
-    /// ln EDP, where that is the target.
-    y: Vec<f64>,
-    /// Whether the structure overturned.
-    events: Vec<bool>,
-    is_low: Vec<bool>,
     clusters: Vec<u32>,
-}
-
-enum Fitted {
-    /// Below the transition and above it; the same for a single form.
-    Demand([LinearFit; 2]),
-    Overturning(ProbitFit),
 }
 
 /// Ranks all sets of up to `rules.terms` measures, those of Eq. 13 and candidates.
@@ -192,22 +183,13 @@ fn subsets(count: usize, most: usize) -> Vec<Vec<usize>> {
     all
 }
 
-impl Contest {
-    fn new(cases: &Cases, target: Target, transition: f64) -> (Contest, Vec<(String, usize)>) {
+impl<'a> Contest<'a> {
+    fn new(cases: &'a Cases, target: Target, transition: f64) -> (Contest<'a>, Vec<(String, usize)>) {
         let counted = cases.all.iter().enumerate().filter(|(_, case)| match target {
             Target::Demand => case.ln_demand().is_some(),
             Target::Overturning => case.outcome != Outcome::NoRocking,
         });
         let (places, rows): (Vec<usize>, Vec<&Case>) = counted.unzip();
-        let mut contest = Contest {
-            target,
-            names: Vec::new(),
-            ln_im: Vec::new(),
-            y: rows.iter().filter_map(|case| case.ln_demand()).collect(),
-            events: rows.iter().map(|case| case.outcome == Outcome::Overturned).collect(),
-            is_low: rows.iter().map(|case| case.measures.im4 < transition).collect(),
-            clusters: rows.iter().map(|case| case.cluster).collect(),
-        };
         let published = Measure::SCALAR.iter().map(|measure| {
             let values = rows.iter().map(|case| measure.raw_value_of(&case.measures));
             (measure.as_str(), values.collect::<Vec<_>>())
@@ -215,88 +197,77 @@ impl Contest {
         let candidates = cases.candidates.iter().map(|(name, values)| {
             (name.as_str(), places.iter().map(|place| values[*place]).collect::<Vec<_>>())
         });
-        let mut incomplete = Vec::new();
+        let (mut names, mut ln_im, mut incomplete) = (Vec::new(), Vec::new(), Vec::new());
         for (name, values) in published.chain(candidates) {
-            let ln: Vec<f64> =
-                values.into_iter().flatten().map(f64::ln).filter(|ln| ln.is_finite()).collect();
+            let ln = values.into_iter().flatten().map(f64::ln).filter(|ln| ln.is_finite());
+            let ln: Vec<f64> = ln.collect();
             if ln.len() == rows.len() {
-                contest.names.push(name.to_string());
-                contest.ln_im.push(ln);
+                names.push(name.to_string());
+                ln_im.push(ln);
             } else {
                 incomplete.push((name.to_string(), rows.len() - ln.len()));
             }
         }
-        (contest, incomplete)
+        let clusters = rows.iter().map(|case| case.cluster).collect();
+        (Contest { target, transition, rows, names, ln_im, clusters }, incomplete)
     }
 
+    /// The measures of a set in some of the cases.
     fn columns(&self, set: &[usize], rows: &[usize]) -> Vec<Vec<f64>> {
         set.iter().map(|&k| rows.iter().map(|&row| self.ln_im[k][row]).collect()).collect()
     }
 
-    /// Fits one power law of the demand.
-    fn law(&self, set: &[usize], rows: &[usize]) -> Result<LinearFit, FitStatus> {
-        let y: Vec<f64> = rows.iter().map(|&row| self.y[row]).collect();
-        least_squares(&self.columns(set, rows), &y)
-    }
-
-    fn fit(&self, set: &[usize], form: Form, rows: &[usize]) -> Result<Fitted, FitStatus> {
-        match (self.target, form) {
-            (Target::Overturning, _) => {
-                let events: Vec<bool> = rows.iter().map(|&row| self.events[row]).collect();
-                Ok(Fitted::Overturning(probit(&self.columns(set, rows), &events)?))
-            }
-            (Target::Demand, Form::Single) => {
-                self.law(set, rows).map(|law| Fitted::Demand([law.clone(), law]))
-            }
-            (Target::Demand, Form::Biplanar) => {
-                let (low, high): (Vec<usize>, Vec<usize>) = rows.iter().partition(|&&row| self.is_low[row]);
-                Ok(Fitted::Demand([self.law(set, &low)?, self.law(set, &high)?]))
-            }
-        }
-    }
-
-    /// Computes the log-likelihood of each case; `sd` is the standard deviation of ln EDP.
-    fn log_likelihoods(&self, set: &[usize], model: &Fitted, sd: impl Fn(&LinearFit) -> f64) -> Vec<f64> {
+    /// Computes the log-likelihood of each case by the fit to some, whose standard deviation of ln EDP is
+    /// `sd`.
+    fn log_likelihoods(
+        &self,
+        set: &[usize],
+        form: Form,
+        fitted: &[usize],
+        sd: impl Fn(&LinearFit) -> f64,
+    ) -> Result<Vec<f64>, FitStatus> {
         let x: Vec<&[f64]> = set.iter().map(|&k| self.ln_im[k].as_slice()).collect();
-        match model {
-            Fitted::Overturning(probit) => {
-                let z = predict(probit.fit.coefficients.as_slice(), &x);
-                z.iter()
-                    .zip(&self.events)
-                    .map(|(z, event)| normal::ln_cdf(if *event { *z } else { -z }))
-                    .collect()
+        let overturned = |row: usize| self.rows[row].outcome == Outcome::Overturned;
+        let mut scores = vec![0.0; self.rows.len()];
+        if self.target == Target::Overturning {
+            let events: Vec<bool> = fitted.iter().map(|&row| overturned(row)).collect();
+            let probit = probit(&self.columns(set, fitted), &events)?;
+            for (row, z) in predict(probit.fit.coefficients.as_slice(), &x).into_iter().enumerate() {
+                scores[row] = normal::ln_cdf(if overturned(row) { z } else { -z });
             }
-            Fitted::Demand(laws) => {
-                let means = laws.each_ref().map(|law| predict(law.fit.coefficients.as_slice(), &x));
-                let densities = (0..self.y.len()).map(|row| {
-                    let side = usize::from(!self.is_low[row]);
-                    let sd = sd(&laws[side]);
-                    -0.5 * (((self.y[row] - means[side][row]) / sd).powi(2) + (2.0 * PI).ln()) - sd.ln()
-                });
-                densities.collect()
+            return Ok(scores);
+        }
+        let is_low = |row: usize| form == Form::Biplanar && self.rows[row].measures.im4 < self.transition;
+        let y: Vec<f64> = self.rows.iter().filter_map(|case| case.ln_demand()).collect();
+        let sides: &[bool] = if form == Form::Biplanar { &[true, false] } else { &[false] };
+        for &side in sides {
+            let rows: Vec<usize> = fitted.iter().copied().filter(|row| is_low(*row) == side).collect();
+            let its: Vec<f64> = rows.iter().map(|&row| y[row]).collect();
+            let law = least_squares(&self.columns(set, &rows), &its)?;
+            let (means, sd) = (predict(law.fit.coefficients.as_slice(), &x), sd(&law));
+            for row in (0..y.len()).filter(|row| is_low(*row) == side) {
+                scores[row] = -0.5 * (((y[row] - means[row]) / sd).powi(2) + (2.0 * PI).ln()) - sd.ln();
             }
         }
+        Ok(scores)
     }
 
     /// Computes the log-likelihood of each case by the fit without its fold; none if a fold has no fit.
     fn left_out(&self, set: &[usize], form: Form, folds: &Folds) -> Option<Vec<f64>> {
-        let mut scores = vec![0.0; self.clusters.len()];
+        let mut scores = vec![0.0; self.rows.len()];
         for fold in 0..folds.count {
             let (kept, left_out) = folds.split(fold);
-            let by_others =
-                self.log_likelihoods(set, &self.fit(set, form, &kept).ok()?, LinearFit::residual_sd);
+            let by_others = self.log_likelihoods(set, form, &kept, LinearFit::residual_sd).ok()?;
             left_out.into_iter().for_each(|row| scores[row] = by_others[row]);
         }
         Some(scores)
     }
 
     fn rate(&self, cases: &Cases, set: &[usize], form: Form, scores: Option<&[f64]>) -> RankedSet {
-        let n = self.clusters.len();
-        let model = self.fit(set, form, &(0..n).collect::<Vec<_>>());
-        let log_likelihood = model.as_ref().ok().map(|model| {
-            let by_case = self.log_likelihoods(set, model, |law| (law.rss / law.fit.n as f64).sqrt());
-            by_case.iter().sum::<f64>()
-        });
+        let n = self.rows.len();
+        let all: Vec<usize> = (0..n).collect();
+        let by_case = self.log_likelihoods(set, form, &all, |law| (law.rss / law.fit.n as f64).sqrt());
+        let log_likelihood = by_case.as_ref().ok().map(|by_case| by_case.iter().sum::<f64>());
         let parameters = match (self.target, form) {
             (Target::Overturning, _) => set.len() + 1,
             (Target::Demand, Form::Single) => set.len() + 2,
@@ -317,7 +288,7 @@ impl Contest {
             log_score: scores.map(|scores| scores.iter().sum::<f64>() / n as f64),
             loss: None,
             loss_error: None,
-            status: model.err().unwrap_or(FitStatus::Ok),
+            status: by_case.err().unwrap_or(FitStatus::Ok),
         }
     }
 }

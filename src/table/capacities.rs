@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::responses::OutcomeWord;
 use crate::fragility::grouped;
 use crate::keyword::keywords;
-use crate::rocking::CapacityStatus;
+use crate::rocking::Capacity;
 use crate::statistics::{FitStatus, Limited};
 
 keywords! {
@@ -37,10 +37,7 @@ pub struct CapacityRow {
     pub structure: String,
     pub measure: ScaledMeasure,
     pub unscaled: f64,
-    pub capacity: CapacityStatus,
-    pub safe_below: Option<f64>,
-    pub overturning_intensity: Option<f64>,
-    pub safe_up_to: Option<f64>,
+    pub found: Capacity,
 }
 
 /// The lognormal distribution of the capacities of a structure under the motions of a suite.

@@ -170,7 +170,7 @@ fn figures(count: usize) -> Vec<Figure> {
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
         "theta": { "value": 0.3, "low": null, "high": null }, "beta": { "value": 0.5, "low": null, "high": null }, "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
-        "capacity": "overturns", "overturning_intensity": 0.3 });
+        "found": { "capacity": "overturns", "overturning_intensity": 0.3 } });
     let stripe =
         |k: usize| json!({ "structure": "a", "intensity": 0.1 * (1 + k) as f64, "outcome": "overturning" });
     let capacities: Vec<_> = serde_json::from_value(json!(vec![capacity; count])).unwrap();

@@ -47,9 +47,9 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let mut capacities: Vec<f64> = rows
         .iter()
         .filter(|row| row.group() == fit.group())
-        .filter_map(|row| match row.capacity {
-            CapacityStatus::Below => Some(row.overturning_intensity.unwrap_or(span.low)),
-            _ => row.overturning_intensity,
+        .filter_map(|row| match row.found.status {
+            CapacityStatus::Below => Some(row.found.overturning.unwrap_or(span.low)),
+            _ => row.found.overturning,
         })
         .collect();
     capacities.sort_unstable_by(f64::total_cmp);

@@ -20,8 +20,11 @@ use crate::table::{frame, rows};
 const COLUMNS: &str =
     "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
-/// Gives further measures by name, a column each, of the motions of these names and a structure.
-pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<(String, Vec<Option<f64>>)>>;
+/// The name of a further measure, and its values.
+pub type Candidate = (String, Vec<Option<f64>>);
+
+/// Gives further measures of the motions of these names and a structure.
+pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<Candidate>>;
 
 /// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
 /// come.
