@@ -202,8 +202,10 @@ fn columns_of_rows() -> BTreeSet<String> {
             };
             ends.iter().map(|end| format!("{name}{end}")).collect::<Vec<_>>()
         };
+        let renamed =
+            lines.clone().filter_map(|line| line.strip_prefix("#[serde(rename = \"")?.split('"').next());
         let fields = lines.filter_map(|line| line.trim_start_matches("pub ").split_once(": "));
-        fields.flat_map(columns).collect()
+        fields.flat_map(columns).chain(renamed.map(str::to_string)).collect()
     };
     sources().into_iter().flat_map(|(_, text)| fields(text)).collect()
 }
