@@ -4,32 +4,35 @@ use std::sync::Mutex;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
+use rayon::prelude::*;
+
 /// Capacity of a queue between two steps.
 const QUEUE: usize = 2;
 
-/// Passes each item of `source` through `work` to `sink`. Source and sink each have their own thread, the
-/// work has this one. The first error ends all and is returned.
+/// Passes the items of each batch of `source` through `work`, on all threads, and what comes of them in order to
+/// `sink`. Source and sink each have their own thread. The first error ends all and is returned.
 pub fn pipelined<A: Send, B: Send>(
-    source: impl Iterator<Item = anyhow::Result<A>> + Send,
-    work: impl Fn(A) -> anyhow::Result<B>,
+    source: impl Iterator<Item = anyhow::Result<Vec<A>>> + Send,
+    work: impl Fn(A) -> anyhow::Result<B> + Sync,
     mut sink: impl FnMut(B) -> anyhow::Result<()> + Send,
 ) -> anyhow::Result<()> {
     thread::scope(|scope| {
         let (to_work, from_source) = sync_channel(QUEUE);
-        let (to_sink, from_work) = sync_channel(QUEUE);
+        let (to_sink, from_work) = sync_channel::<Vec<B>>(QUEUE);
         scope.spawn(move || {
-            for item in source {
-                let last = item.is_err();
+            for batch in source {
+                let last = batch.is_err();
                 // The queue is closed if a later step failed; that step returns the error.
-                if to_work.send(item).is_err() || last {
+                if to_work.send(batch).is_err() || last {
                     break;
                 }
             }
         });
-        let writer = scope.spawn(move || from_work.into_iter().try_for_each(&mut sink));
+        let writer = scope.spawn(move || from_work.into_iter().flatten().try_for_each(&mut sink));
         let mut worked = Ok(true);
-        for item in from_source {
-            worked = item.and_then(&work).map(|done| to_sink.send(done).is_ok());
+        for batch in from_source {
+            let done = batch.and_then(|batch| batch.into_par_iter().map(&work).collect());
+            worked = done.map(|done| to_sink.send(done).is_ok());
             // The queue is closed if the sink failed; the sink returns the error.
             if !matches!(worked, Ok(true)) {
                 break;

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use arrow_array::RecordBatch;
 use arrow_schema::Schema;
 use clap::Args;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::shared::motions::each;
 use super::shared::objects::field;
 use crate::motion::{Floor, MeasurePlan, MotionMeasures, Suite, Transforms};
 use crate::object::Field;
@@ -16,17 +16,15 @@ use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition};
-use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
-use crate::table::file::{Partition, or_error};
-use crate::table::motions::{ACCELERATION, batch, open, read, record, spectral_period_s};
+use crate::table::file::Partition;
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, parts, record, spectral_period_s};
 use crate::table::rows;
 
-/// Motions that a thread takes at once, and such parts that are in memory, for each thread.
+/// Motions that a thread takes at once.
 const AT_ONCE: usize = 32;
-const PARTS_A_THREAD: usize = 2;
 
 /// Filter motions through a linear building to one of its floors
 #[derive(Debug, Args, Serialize)]
@@ -80,22 +78,14 @@ impl Stage for FloorMotions {
         }
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
-        let schema = self.filter(&none, &[], &mut Transforms::default())?.schema();
+        let none = Sampled { columns: none, samples: Vec::new() };
+        let schema = self.filter(none, &mut Transforms::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
-        let pool = Pool::new(Transforms::default);
-        let bar = context.bar(table.rows());
-        let parts = table.row_groups().into_iter();
-        let parts = parts.flat_map(|group| or_error(read(&table, &group, &|_| true, AT_ONCE)));
-        pipelined(
-            batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
-            |parts| {
-                let filtered = parts.into_par_iter().map(|(part, samples)| {
-                    bar.advance(part.rows.num_rows())?;
-                    pool.with(|scratch| self.filter(&part, &samples, scratch))
-                });
-                filtered.collect::<anyhow::Result<Vec<_>>>()
-            },
-            |parts| Ok(parts.iter().try_for_each(|part| writer.append(part))?),
+        each(
+            &context.bar(table.rows()),
+            parts(&table, |_| true, AT_ONCE),
+            |some, transforms| self.filter(some, transforms),
+            |some| Ok(writer.append(&some)?),
         )?;
         let summary =
             format!("{} motions at level {} of a building of {} s\n", table.rows(), self.level, self.period);
@@ -106,35 +96,30 @@ impl Stage for FloorMotions {
 
 impl FloorMotions {
     /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
-    fn filter(
-        &self,
-        ground: &Batch,
-        samples: &[Vec<f64>],
-        scratch: &mut Transforms,
-    ) -> anyhow::Result<RecordBatch> {
+    fn filter(&self, ground: Sampled, transforms: &mut Transforms) -> anyhow::Result<RecordBatch> {
+        let Sampled { columns, samples } = ground;
         let floor = Floor { period_s: self.period, level: self.level };
-        let schema = ground.rows.schema();
+        let schema = columns.rows.schema();
         let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
-        let housner = ground.numbers("housner_m")?.iter().any(Option::is_some);
+        let housner = columns.numbers("housner_m")?.iter().any(Option::is_some);
         let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
-        let dt = ground.required_numbers("dt_s")?;
+        let dt = columns.required_numbers("dt_s")?;
         let (mut filtered, mut measured) = (Vec::new(), Vec::new());
         for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
-            record(&ground.path, ground.first_row + row, acceleration, dt_s)?;
+            record(&columns.path, columns.first_row + row, acceleration, dt_s)?;
             let moved = floor.motion(acceleration, dt_s, self.damping);
             let moved: Vec<f32> = moved.iter().map(|&a| a as f32).collect();
             let written: Vec<f64> = moved.iter().map(|&a| f64::from(a)).collect();
-            measured.push(plan.measure(&written, dt_s, scratch));
+            measured.push(plan.measure(&written, dt_s, transforms));
             filtered.push(moved);
         }
-        let floors = ground.texts("suite")?.into_iter().map(|suite| FloorRow {
+        let floors = columns.texts("suite")?.into_iter().map(|suite| FloorRow {
             suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::ON_FLOOR,
             floor_period_s: self.period,
             floor_level: self.level,
         });
         let floors: Vec<FloorRow> = floors.collect();
-        let measures = rows::batch(&measured)?;
-        let known = [others(&ground.rows)?, rows::batch(&floors)?, measures];
+        let known = [others(&columns.rows)?, rows::batch(&floors)?, rows::batch(&measured)?];
         batch(&known, &plan.sa_periods_s, measured.iter().zip(filtered.iter().map(Vec::as_slice)))
     }
 }

@@ -24,7 +24,7 @@ use crate::rocking::{
 use crate::statistics::FitStatus;
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
-use crate::table::motions::{self, ACCELERATION, Motion};
+use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::responses::ResponseRow;
 use crate::table::{frame, rows};
 use crate::units::G_M_S2;
@@ -95,7 +95,6 @@ struct Scanned {
 
 /// A structure under a motion.
 struct Case<'a> {
-    path: &'a Path,
     motion: &'a Motion,
     measures: Measures,
     structure: &'a Structure,
@@ -133,10 +132,9 @@ impl Stage for Ida {
         let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[])?.schema())?;
         let mut scanned = Vec::new();
         each(
-            context,
-            &motions,
-            (ANALYSES / self.steps).clamp(1, MOTIONS),
-            |path, some, scratch| self.analyse(&scan, &structures, path, some, scratch),
+            &context.bar(motions.rows()),
+            motions::parts(&motions, is_of_motion, (ANALYSES / self.steps).clamp(1, MOTIONS)),
+            |some, scratch| self.analyse(&scan, &structures, some, scratch),
             |some| {
                 stripes.append(&some.stripes)?;
                 scanned.extend(some.scanned);
@@ -163,21 +161,21 @@ impl Ida {
         &self,
         scan: &Scan,
         structures: &[&Structure],
-        path: &Path,
-        motions: &[Motion],
+        some: Sampled,
         scratch: &mut Transforms,
     ) -> anyhow::Result<Analysed> {
+        let motions = some.motions()?;
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
-        for motion in motions {
-            let record = motion.record(path)?;
+        for motion in &motions {
+            let record = motion.record()?;
             let measures = Measures::new(motion, &record, scratch);
             warned.extend(warnings(motion, &record));
             for &structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
                     let problem = "above 0 to scale; leave the motion out, or take --measure scale";
-                    value_error(path, motion, &format!("no {} {problem}", self.measure))
+                    motion.value_error(&format!("no {} {problem}", self.measure))
                 })?;
-                cases.push(Case { path, motion, measures, structure, unscaled });
+                cases.push(Case { motion, measures, structure, unscaled });
             }
         }
         let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
@@ -302,19 +300,14 @@ fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableE
         });
         let scaled: Vec<Vec<f64>> = scaled.collect();
         let problems = some.iter().zip(&scaled).map(|(point, samples)| {
-            let Case { path, motion, structure, .. } = cases[point.case];
-            let record = Record::new(samples, motion.dt_s).map_err(|problem| {
-                value_error(path, motion, &format!("{problem}; scale less by a lower --to"))
-            })?;
+            let Case { motion, structure, .. } = cases[point.case];
+            let record = Record::new(samples, motion.dt_s)
+                .map_err(|problem| motion.value_error(&format!("{problem}; scale less by a lower --to")))?;
             Ok(Problem { structure, record })
         });
         responses.extend(simulate_all(&problems.collect::<Result<Vec<_>, TableError>>()?));
     }
     Ok(responses)
-}
-
-fn value_error(path: &Path, motion: &Motion, problem: &str) -> TableError {
-    TableError::value(path, motion.row, ACCELERATION, format!("motion '{}': {problem}", motion.motion_id))
 }
 
 /// Warns of structures without a median: half of the motions or more do not overturn them, or do so at the

@@ -19,7 +19,7 @@ use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
 use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
 use crate::table::file::{Partition, Table};
-use crate::table::motions::{self, Motion};
+use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
@@ -98,10 +98,9 @@ impl Stage for Simulate {
         };
         let mut overturning = vec![Overturning::default(); plan.objects.len()];
         each(
-            context,
-            &motions,
-            CHUNK,
-            |path, some, scratch| self.respond(path, some, &plan, scratch),
+            &context.bar(motions.rows()),
+            motions::parts(&motions, is_of_motion, CHUNK),
+            |some, scratch| self.respond(some, &plan, scratch),
             |some| {
                 for (structure, motion) in some.overturned {
                     let Overturning { count, named } = &mut overturning[structure];
@@ -180,14 +179,9 @@ impl Simulate {
     }
 
     /// Runs all structures on some motions, while these are at hand.
-    fn respond(
-        &self,
-        path: &Path,
-        motions: &[Motion],
-        plan: &Plan,
-        scratch: &mut Transforms,
-    ) -> anyhow::Result<Responded> {
-        let records = motions.iter().map(|motion| motion.record(path)).collect::<Result<Vec<_>, _>>()?;
+    fn respond(&self, some: Sampled, plan: &Plan, scratch: &mut Transforms) -> anyhow::Result<Responded> {
+        let motions = some.motions()?;
+        let records = motions.iter().map(Motion::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);
         let problems = pairs.clone().flat_map(|(motion, &record)| {
             plan.structures(motion).map(move |structure| Problem { structure, record })

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use clap::Args;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::inputs::Grid;
@@ -21,6 +20,8 @@ use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{Partition, Table};
 use crate::table::{TableError, motions, rows};
 
+/// Scenarios that a thread takes at once.
+const CHUNK: usize = 4;
 /// Scenarios that are held in memory together, and samples of their longest motions.
 const AT_ONCE: usize = 128;
 const MOST_SAMPLES: usize = 1 << 23;
@@ -135,11 +136,11 @@ impl Stage for SynthesizeMotions {
         pipelined(
             together(scenarios, model.clone()),
             |some| {
-                let motions = some.par_iter().flat_map_iter(|scenario| {
-                    pool.with(|scratch| synthesize(scenario, suites, &plan, scratch))
-                });
-                let motions: Vec<SyntheticMotion> = motions.collect();
                 bar.advance(some.len())?;
+                let synthesize = |scratch: &mut _| {
+                    some.iter().flat_map(|scenario| synthesize(scenario, suites, &plan, scratch)).collect()
+                };
+                let motions: Vec<SyntheticMotion> = pool.with(synthesize);
                 batch(&motions, &periods)
             },
             |batch| Ok(writer.append(&batch)?),
@@ -154,11 +155,11 @@ impl Stage for SynthesizeMotions {
     }
 }
 
-/// Takes scenarios whose motions fit into memory together.
+/// Takes scenarios whose motions fit into memory together, some for each thread.
 fn together(
     scenarios: impl Iterator<Item = Result<Vec<Scenario>, TableError>> + Send,
     model: MotionModel,
-) -> impl Iterator<Item = anyhow::Result<Vec<Scenario>>> + Send {
+) -> impl Iterator<Item = anyhow::Result<Vec<Vec<Scenario>>>> + Send {
     let mut scenarios = scenarios.flat_map(|read| match read {
         Ok(some) => some.into_iter().map(Ok).collect::<Vec<_>>(),
         Err(error) => vec![Err(error.into())],
@@ -175,7 +176,7 @@ fn together(
                 Err(error) => return Some(Err(error)),
             }
         }
-        (!some.is_empty()).then_some(Ok(some))
+        (!some.is_empty()).then(|| Ok(some.chunks(CHUNK).map(<[_]>::to_vec).collect()))
     })
 }
 

@@ -15,13 +15,13 @@ use std::sync::Arc;
 use arrow_schema::SchemaRef;
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
+    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder,
 };
 use parquet::file::metadata::RowGroupMetaData;
 
 use super::TableError;
+use super::checksums::expect_undamaged;
 use super::columns::Batch;
-use super::pages::Pages;
 use super::provenance::Provenance;
 use crate::source::is_pipe;
 
@@ -181,38 +181,53 @@ impl Table {
         groups
     }
 
-    /// Reads the `wanted` columns of a row group in batches of `batch_size` rows.
+    /// Reads the `wanted` columns of a row group in batches of `batch_size` rows, up to the first error.
     pub fn read(
         &self,
         group: &RowGroup,
         wanted: &dyn Fn(&str) -> bool,
         batch_size: usize,
-    ) -> Result<impl Iterator<Item = Result<Batch, TableError>> + Send + use<>, TableError> {
+    ) -> impl Iterator<Item = Result<Batch, TableError>> + Send + use<> {
+        let (path, mut first_row) = (self.files[group.file].path.clone(), group.first_row);
+        let (mut reader, error) = match self.reader(group, wanted, batch_size) {
+            Ok(reader) => (Some(reader), None),
+            Err(error) => (None, Some(Err(error))),
+        };
+        let batches = std::iter::from_fn(move || {
+            let reader = reader.as_mut()?;
+            let rows = guarded(&path, || reader.next().transpose()).transpose()?;
+            Some(rows.map(|rows| {
+                let batch = Batch { path: path.clone(), first_row, rows };
+                first_row += batch.rows.num_rows();
+                batch
+            }))
+        });
+        batches.chain(error)
+    }
+
+    fn reader(
+        &self,
+        group: &RowGroup,
+        wanted: &dyn Fn(&str) -> bool,
+        batch_size: usize,
+    ) -> Result<ParquetRecordBatchReader, TableError> {
         let TableFile { path, metadata } = &self.files[group.file];
-        let (path, schema) = (path.clone(), metadata.parquet_schema());
+        let schema = metadata.parquet_schema();
         let roots = schema.root_schema().get_fields().iter().enumerate();
         let roots = roots.filter(|(_, root)| wanted(root.name())).map(|(place, _)| place);
         let mask = ProjectionMask::roots(schema, roots);
-        expect_small(&path, metadata.metadata().row_group(group.group), &mask)?;
-        let pages = Pages::open(&path, metadata.metadata(), group.group, &mask)?;
-        let mut reader = guarded(&path, || {
-            ParquetRecordBatchReaderBuilder::new_with_metadata(pages, metadata.clone())
+        expect_small(path, metadata.metadata().row_group(group.group), &mask)?;
+        let file = File::open(path).map_err(|source| TableError::io(path, source))?;
+        expect_undamaged(path, &file, metadata.metadata(), group.group, &mask)?;
+        guarded(path, || {
+            ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
                 .with_offset(group.rows.start)
                 .with_limit(group.rows.len())
                 .with_batch_size(batch_size)
                 .build()
-        })?;
-        let mut next_row = group.first_row;
-        Ok(std::iter::from_fn(move || {
-            let rows = guarded(&path, || reader.next().transpose()).transpose()?;
-            Some(rows.map(|rows| {
-                let first_row = next_row;
-                next_row += rows.num_rows();
-                Batch { path: path.clone(), first_row, rows }
-            }))
-        }))
+        })
     }
 
     pub fn batches<'a>(
@@ -220,7 +235,7 @@ impl Table {
         wanted: impl Fn(&str) -> bool + Send + 'a,
     ) -> impl Iterator<Item = Result<Batch, TableError>> + Send + 'a {
         let groups = self.row_groups().into_iter();
-        groups.flat_map(move |group| or_error(self.read(&group, &wanted, NARROW_BATCH)))
+        groups.flat_map(move |group| self.read(&group, &wanted, NARROW_BATCH))
     }
 }
 
@@ -254,17 +269,6 @@ impl TableFile {
     fn whole(&self) -> Option<String> {
         Provenance::from_footer(self.metadata.metadata()).map(|made| made.whole())
     }
-}
-
-/// Returns the items, or the error in their place.
-pub fn or_error<T, E>(
-    items: Result<impl Iterator<Item = Result<T, E>>, E>,
-) -> impl Iterator<Item = Result<T, E>> {
-    let (items, error) = match items {
-        Ok(items) => (Some(items), None),
-        Err(error) => (None, Some(Err(error))),
-    };
-    items.into_iter().flatten().chain(error)
 }
 
 /// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.

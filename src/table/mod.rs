@@ -5,7 +5,7 @@
 //! rows        structs as rows of a table (serde)
 //! file        a table on disk: a file, or a folder of files
 //! columns     columns of a batch by name, from any program
-//! pages       pages and their checksums
+//! checksums   checksums of columns
 //! writer      atomic writing
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
@@ -19,6 +19,7 @@
 
 pub mod answers;
 pub mod capacities;
+mod checksums;
 pub mod columns;
 pub mod dictionary;
 pub mod file;
@@ -26,7 +27,6 @@ pub mod frame;
 pub mod keys;
 pub mod marks;
 pub mod motions;
-mod pages;
 pub mod provenance;
 pub mod responses;
 pub mod rows;

@@ -2,7 +2,7 @@
 //! acceleration_m_s2.
 
 use std::collections::HashSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::builder::{Float32Builder, ListBuilder};
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
-use super::file::{Partition, RowGroup, Table, or_error};
+use super::file::{Partition, RowGroup, Table};
 use super::rows::{self, side_by_side};
 use crate::motion::MotionMeasures;
 use crate::records::Origin;
@@ -22,7 +22,7 @@ use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
-/// Row groups of more motions are read in parts of this size.
+/// Row groups of more motions are read in parts.
 const LARGEST_PART: usize = 128;
 
 /// A motion, with the measures that the file has.
@@ -40,30 +40,45 @@ pub struct Motion {
     pub tp_s: Option<f64>,
     #[serde(skip)]
     pub acceleration_m_s2: Vec<f64>,
+    /// Its file, and its row there.
+    #[serde(skip)]
+    pub path: PathBuf,
     #[serde(skip)]
     pub row: usize,
 }
 
 impl Motion {
-    /// The record of a motion of the file at `path`.
-    pub fn record(&self, path: &Path) -> Result<Record<'_>, TableError> {
-        record(path, self.row, &self.acceleration_m_s2, self.dt_s)
+    pub fn record(&self) -> Result<Record<'_>, TableError> {
+        record(&self.path, self.row, &self.acceleration_m_s2, self.dt_s)
+    }
+
+    /// A problem with its samples.
+    pub fn value_error(&self, problem: &str) -> TableError {
+        let problem = format!("motion '{}': {problem}", self.motion_id);
+        TableError::value(&self.path, self.row, ACCELERATION, problem)
     }
 }
 
-/// Columns of some motions, and their samples.
-pub type Sampled = (Batch, Vec<Vec<f64>>);
-
-/// Motions, and the file they are in.
-type MotionsOfFile = (Arc<Path>, Vec<Motion>);
-
-/// A part of a motions table.
-pub enum Part {
-    /// A row group, not yet read.
-    Unread(RowGroup),
-    /// Motions of a row group too large to read at once.
-    Read(MotionsOfFile),
+/// Some motions: their samples, and the other columns that were wanted.
+pub struct Sampled {
+    pub columns: Batch,
+    pub samples: Vec<Vec<f64>>,
 }
+
+impl Sampled {
+    /// The motions as rows.
+    pub fn motions(self) -> Result<Vec<Motion>, TableError> {
+        let mut motions = rows::from_batch::<Motion>(&self.columns)?;
+        for ((place, motion), samples) in motions.iter_mut().enumerate().zip(self.samples) {
+            motion.acceleration_m_s2 = samples;
+            (motion.path, motion.row) = (self.columns.path.to_path_buf(), self.columns.first_row + place);
+        }
+        Ok(motions)
+    }
+}
+
+/// Some motions at a time of a part of a motions table, read when it is called.
+pub type Part<'a> = Box<dyn FnOnce() -> Result<Vec<Sampled>, TableError> + Send + 'a>;
 
 /// Opens a motions table, or a partition of it.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
@@ -75,66 +90,41 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableErr
     }
 }
 
-/// Returns all motions of a table in parts.
-pub fn parts(table: &Table) -> impl Iterator<Item = Result<Part, TableError>> + Send {
-    table.row_groups().into_iter().flat_map(|group| -> Box<dyn Iterator<Item = _> + Send> {
-        if group.rows.len() <= LARGEST_PART {
-            return Box::new(std::iter::once(Ok(Part::Unread(group))));
+/// Returns whether a column is one of [`Motion`].
+pub fn is_of_motion(column: &str) -> bool {
+    rows::schema::<Motion>().index_of(column).is_ok()
+}
+
+/// Returns all motions of a table in parts, with the columns that are `wanted`, `at_once` motions at a time:
+/// a row group, or some motions, already read, of one too large to read at once.
+pub fn parts(
+    table: &Table,
+    wanted: fn(&str) -> bool,
+    at_once: usize,
+) -> impl Iterator<Item = Part<'_>> + Send {
+    table.row_groups().into_iter().flat_map(move |group| -> Box<dyn Iterator<Item = Part> + Send> {
+        if group.rows.len() > LARGEST_PART {
+            let read = read(table, &group, wanted, at_once);
+            return Box::new(read.map(|some| Box::new(|| Ok(vec![some?])) as Part));
         }
-        let read = or_error(read_group(table, &group, LARGEST_PART));
-        Box::new(read.map(|read| read.map(Part::Read)))
+        let part: Part = Box::new(move || read(table, &group, wanted, at_once).collect());
+        Box::new(std::iter::once(part))
     })
 }
 
-/// Reads the motions of a part, `at_once` at a time.
-pub fn read_part(
-    table: &Table,
-    part: Part,
-    at_once: usize,
-) -> Result<Box<dyn Iterator<Item = Result<MotionsOfFile, TableError>>>, TableError> {
-    match part {
-        Part::Unread(group) => Ok(Box::new(read_group(table, &group, at_once)?)),
-        Part::Read((path, mut motions)) => Ok(Box::new(std::iter::from_fn(move || {
-            let next: Vec<Motion> = motions.drain(..at_once.min(motions.len())).collect();
-            (!next.is_empty()).then(|| Ok((path.clone(), next)))
-        }))),
-    }
-}
-
-fn read_group(
+fn read(
     table: &Table,
     group: &RowGroup,
+    wanted: fn(&str) -> bool,
     at_once: usize,
-) -> Result<impl Iterator<Item = Result<MotionsOfFile, TableError>> + Send + use<>, TableError> {
-    let schema = rows::schema::<Motion>();
-    let read = read(table, group, &|name| schema.index_of(name).is_ok(), at_once)?;
-    Ok(read.map(|read| read.and_then(motions)))
-}
-
-/// Reads the `wanted` columns of motions besides the samples, and these, `at_once` at a time.
-pub fn read(
-    table: &Table,
-    group: &RowGroup,
-    wanted: &dyn Fn(&str) -> bool,
-    at_once: usize,
-) -> Result<impl Iterator<Item = Result<Sampled, TableError>> + Send + use<>, TableError> {
-    let batches = table.read(group, &|name| name == ACCELERATION || wanted(name), at_once)?;
-    Ok(batches.map(|batch| {
-        let mut batch = batch?;
-        let samples = batch.lists(ACCELERATION)?;
-        if let Ok(place) = batch.rows.schema().index_of(ACCELERATION) {
-            batch.rows.remove_column(place);
-        }
-        Ok((batch, samples))
-    }))
-}
-
-fn motions((batch, samples): Sampled) -> Result<MotionsOfFile, TableError> {
-    let mut motions = rows::from_batch::<Motion>(&batch)?;
-    for (row, (motion, samples)) in (batch.first_row..).zip(motions.iter_mut().zip(samples)) {
-        (motion.row, motion.acceleration_m_s2) = (row, samples);
-    }
-    Ok((batch.path, motions))
+) -> impl Iterator<Item = Result<Sampled, TableError>> + Send + use<> {
+    table.read(group, &|name| name == ACCELERATION || wanted(name), at_once).map(|batch| {
+        let mut columns = batch?;
+        let samples = columns.lists(ACCELERATION)?;
+        let place = columns.rows.schema().index_of(ACCELERATION);
+        place.iter().for_each(|place| drop(columns.rows.remove_column(*place)));
+        Ok(Sampled { columns, samples })
+    })
 }
 
 /// The record of samples in a row of the file at `path`.
@@ -169,7 +159,8 @@ pub fn second_of_pairs(path: &Path) -> Result<HashSet<String>, TableError> {
     Ok(pairs(&origins).into_iter().map(|[_, second]| std::mem::take(&mut names[second])).collect())
 }
 
-/// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples.
+/// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples as they are
+/// written.
 pub fn batch<'a>(
     known: &[RecordBatch],
     periods_s: &[f64],

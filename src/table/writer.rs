@@ -14,7 +14,7 @@ use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
 use super::TableError;
-use super::pages::checksums;
+use super::checksums::checksums;
 use super::provenance::{CREATED_BY, Provenance};
 
 /// Rows per row group: of a narrow table, and of one with samples.
@@ -63,7 +63,7 @@ impl TableWriter {
     fn checksums(&mut self) -> parquet::errors::Result<KeyValue> {
         self.writer.flush()?;
         self.writer.sync()?;
-        checksums(self.writer.inner().as_file(), self.writer.flushed_row_groups())
+        Ok(checksums(self.partial(), self.writer.flushed_row_groups())?)
     }
 }
 

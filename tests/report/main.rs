@@ -161,6 +161,7 @@ fn figures(count: usize) -> Vec<Figure> {
         tm_s: Some(3.0),
         tp_s: Some(3.0),
         acceleration_m_s2: wave.clone(),
+        path: std::path::PathBuf::new(),
         row: 0,
     };
     let motions = [record("csgm"), record("pulse")];

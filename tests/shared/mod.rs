@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rockfrag::table::motions::{Motion, open, parts, read_part};
+use rockfrag::table::motions::{Motion, is_of_motion, open, parts};
 use serde::de::DeserializeOwned;
 
 pub fn reference(name: &str) -> PathBuf {
@@ -18,8 +18,8 @@ pub fn rows<T: DeserializeOwned>(name: &str) -> Vec<T> {
 /// All motions of a file.
 pub fn motions(path: &Path) -> Vec<Motion> {
     let table = open(path, None).unwrap();
-    let read = parts(&table).flat_map(|part| read_part(&table, part.unwrap(), 64).unwrap());
-    read.flat_map(|batch| batch.unwrap().1).collect()
+    let read = parts(&table, is_of_motion, 64).flat_map(|part| part().unwrap());
+    read.flat_map(|some| some.motions().unwrap()).collect()
 }
 
 /// The sixty synthetic motions of the references.

@@ -8,7 +8,6 @@ use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
 use clap::Args;
-use rayon::prelude::*;
 use serde::Serialize;
 
 use self::importer::Importer;
@@ -19,7 +18,7 @@ use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
-use crate::pipeline::stream::pipelined;
+use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::records::processing::{ImportedMotion, Processing, PulseSearch};
 use crate::records::rotation::Direction;
@@ -147,10 +146,10 @@ impl Stage for ImportMotions {
         let work = importer.work(context, &mut summary)?;
         let bar = context.bar(work.len());
         pipelined(
-            work.chunks(AT_ONCE).map(Ok),
+            batches(work.into_iter().map(anyhow::Ok), AT_ONCE),
             |work| {
-                bar.advance(work.len())?;
-                Ok(work.par_iter().flat_map_iter(|work| importer.import(work)).collect::<Vec<_>>())
+                bar.advance(1)?;
+                Ok(importer.import(&work))
             },
             |results| {
                 for result in results {

@@ -19,7 +19,7 @@ use crate::table::TableError;
 use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
-use crate::table::motions::{self, Motion};
+use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::provenance::{Provenance, joined};
 use crate::table::responses::TraceRow;
 use crate::table::rows::{self, Row};
@@ -274,9 +274,9 @@ impl Tables {
         let Some(item) = self.of(Kind::Motions).next() else { return Ok(Vec::new()) };
         let table = motions::open(&item.path, None)?;
         let middle = table.rows() / MOTIONS_IN_GROUP / 2;
-        let part = motions::parts(&table).nth(middle).or_else(|| motions::parts(&table).next());
-        let some = part.map(|part| motions::read_part(&table, part?, MOTIONS_IN_GROUP)?.next().transpose());
-        Ok(some.transpose()?.flatten().map_or(Vec::new(), |(_, motions)| motions))
+        let parts = || motions::parts(&table, is_of_motion, MOTIONS_IN_GROUP);
+        let some = parts().nth(middle).or_else(|| parts().next()).map(|part| part()).transpose()?;
+        some.into_iter().flatten().next().map_or(Ok(Vec::new()), Sampled::motions)
     }
 }
 

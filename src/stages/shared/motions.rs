@@ -1,52 +1,47 @@
 //! Motions as simulate and ida take them: as records, with their measures, under distinct names.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
-use std::path::Path;
-use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use crate::motion::{IntensityMeasures, Peaks, Suite, Transforms, measures};
-use crate::pipeline::context::Context;
+use crate::pipeline::context::Progress;
 use crate::pipeline::stream::{Pool, batches, pipelined};
 use crate::records::implausibility::implausibility;
 use crate::rocking::{Record, Response, Structure};
 use crate::table::TableError;
-use crate::table::file::Table;
-use crate::table::motions::{self, Motion, Part};
+use crate::table::motions::{Motion, Part, Sampled};
 use crate::table::responses::ResponseRow;
 use crate::warning::{Warning, Warnings};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
 
-/// Passes all motions of a table through `work`, some (`at_once`) at a time on all threads, and what comes of
-/// them in order to `sink`. The motions must have distinct names.
-pub fn each<T: Send>(
-    context: &Context,
-    table: &Table,
-    at_once: usize,
-    work: impl Fn(&Path, &[Motion], &mut Transforms) -> anyhow::Result<T> + Sync,
+/// Passes the motions of a table, in its parts, through `work` on all threads, and what comes of them in order to
+/// `sink`. They must have distinct names.
+pub fn each<'a, T: Send>(
+    bar: &Progress,
+    parts: impl Iterator<Item = Part<'a>> + Send,
+    work: impl Fn(Sampled, &mut Transforms) -> anyhow::Result<T> + Sync,
     mut sink: impl FnMut(T) -> anyhow::Result<()> + Send,
 ) -> anyhow::Result<()> {
     let (mut known, pool) = (HashSet::new(), Pool::new(Transforms::default));
-    let bar = context.bar(table.rows());
-    let work_on_part = |part: Part| -> anyhow::Result<Vec<_>> {
-        let chunks = motions::read_part(table, part, at_once)?.collect::<Result<Vec<_>, TableError>>()?;
-        let done = chunks.into_par_iter().map(|(path, some): (Arc<Path>, Vec<Motion>)| {
-            bar.advance(some.len())?;
-            let done = pool.with(|scratch| work(&path, &some, scratch))?;
-            Ok((path, some.into_iter().map(|motion| motion.motion_id).collect::<Vec<_>>(), done))
-        });
-        done.collect()
-    };
     pipelined(
-        batches(motions::parts(table), PARTS_A_THREAD * rayon::current_num_threads()),
-        |parts| parts.into_par_iter().map(work_on_part).collect::<anyhow::Result<Vec<_>>>(),
-        |done| {
-            for (path, names, done) in done.into_iter().flatten() {
-                if let Some(name) = names.into_iter().find_map(|name| known.replace(name)) {
-                    let problem = format!("two motions are called '{name}'; expected distinct motion_id");
+        batches(parts.map(anyhow::Ok), PARTS_A_THREAD * rayon::current_num_threads()),
+        |part| {
+            let done = part()?.into_par_iter().map(|some| {
+                let (path, ids) = (some.columns.path.clone(), some.columns.required_texts("motion_id")?);
+                let ids: Vec<String> = ids.into_iter().map(Cow::into_owned).collect();
+                bar.advance(ids.len())?;
+                Ok((path, ids, pool.with(|scratch| work(some, scratch))?))
+            });
+            done.collect::<anyhow::Result<Vec<_>>>()
+        },
+        |part| {
+            for (path, ids, done) in part {
+                if let Some(id) = ids.into_iter().find_map(|id| known.replace(id)) {
+                    let problem = format!("two motions are called '{id}'; expected distinct motion_id");
                     return Err(TableError::table(&path, problem).into());
                 }
                 sink(done)?;
