@@ -80,14 +80,9 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 /// PGA, g, that the hazard of any site reaches; PGV, m/s, and SA(1.0 s), g, reach a third of it.
 const REACHED_PGA_G: f64 = 0.03;
 
-/// Strong motion more frequent than anywhere on earth.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{0}")]
-pub struct ImplausibleHazard(pub(crate) String);
-
 /// Judges annual rates at which PGV (m/s), or PGA or a spectral acceleration (g), is exceeded, and guesses what
 /// they are instead.
-pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), ImplausibleHazard> {
+pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), String> {
     let is_velocity = measure == "PGV";
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
     let (unit, strongest) = if is_velocity { ("m/s", STRONGEST_PGV_M_S) } else { ("g", STRONGEST_PGA_G) };
@@ -95,9 +90,7 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), Implausi
     let reached = if measure == "PGA" { REACHED_PGA_G } else { REACHED_PGA_G / 3.0 };
     if most < reached && !points.is_empty() {
         let (most, expected) = (significant(most, 3), format!("expected {reached} {unit} or more"));
-        return Err(ImplausibleHazard(format!(
-            "{measure} of {most} {unit} at most; {expected}: a wrong unit?"
-        )));
+        return Err(format!("{measure} of {most} {unit} at most; {expected}: a wrong unit?"));
     }
     let is_plausible =
         |convert: fn((f64, f64)) -> (f64, f64)| points.iter().all(|&point| excess(convert(point)) < 1.0);
@@ -116,20 +109,20 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), Implausi
     };
     let (value, years) = (significant(value, 3), period(1.0 / rate));
     let hazard = format!("{measure} of {value} {unit} once in {years} years");
-    Err(ImplausibleHazard(format!("{hazard} exceeds any known hazard: {guess}")))
+    Err(format!("{hazard} exceeds any known hazard: {guess}"))
 }
 
 /// Spectral acceleration at 1 s over PGA, each exceeded as often, of any site.
 const SPECTRAL_OVER_PGA: RangeInclusive<f64> = 0.1..=3.0;
 
 /// Judges spectral accelerations at 1 s over PGA, each exceeded as often, by their median.
-pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), ImplausibleHazard> {
+pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), String> {
     let unit = match median(ratios) {
         Some(ratio) if ratio > *SPECTRAL_OVER_PGA.end() => "is it in m/s2 or cm/s2, beside PGA in g?",
         Some(ratio) if ratio < *SPECTRAL_OVER_PGA.start() => "is it in g, beside PGA in m/s2 or cm/s2?",
         _ => return Ok(()),
     };
-    Err(ImplausibleHazard(format!("SA(1.0 s) is not 0.1 to 3 times PGA at the same rates: {unit}")))
+    Err(format!("SA(1.0 s) is not 0.1 to 3 times PGA at the same rates: {unit}"))
 }
 
 /// Least m of the longest of the sides, and of the heights, of a list of objects.

@@ -1,7 +1,6 @@
 use std::path::Path;
 
 use crate::hazard::{HazardError, MatchError};
-use crate::plausibility::ImplausibleHazard;
 
 /// What is wrong with a file. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -44,8 +43,8 @@ pub enum InputError {
     Curve(#[from] HazardError),
     #[error(transparent)]
     Match(#[from] MatchError),
-    #[error(transparent)]
-    Implausible(#[from] ImplausibleHazard),
+    #[error("{0}")]
+    Implausible(String),
     #[error("{path}: {error}")]
     File { path: String, error: Box<InputError> },
 }

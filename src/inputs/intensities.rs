@@ -1,6 +1,9 @@
 //! Tables of intensities: peaks under headings with their units, and what else is known of each motion.
 
 use std::path::Path;
+use std::sync::Arc;
+
+use arrow_array::{ArrayRef, Float64Array, StringArray};
 
 use super::hazard::{expect_motions_alone, peak};
 use super::objects::describes_object;
@@ -8,19 +11,12 @@ use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 
-/// The cells of a column.
-pub enum Cells {
-    /// None where a cell is empty.
-    Numbers(Vec<Option<f64>>),
-    Texts(Vec<String>),
-}
-
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
-pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, Cells)>, InputError> {
+pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>, InputError> {
     renames.read(path).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
 }
 
-fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
+fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
     if let Some(heading) = grid.headings.iter().find(|heading| describes_object(heading)) {
         let found = format!("column '{}', which describes an object", heading.text);
         let expected = "peaks, mw, p_rad_s, alpha_rad and eta: describe one object by options, or list objects \
@@ -45,10 +41,10 @@ fn columns(grid: &Grid) -> Result<Vec<(String, Cells)>, InputError> {
             None if !is_peak => Ok(None),
             _ => grid.number(row, at).map(Some),
         });
-        let cells = match numbers.collect() {
-            Ok(numbers) => Cells::Numbers(numbers),
+        let cells: ArrayRef = match numbers.collect::<Result<Vec<_>, _>>() {
+            Ok(numbers) => Arc::new(Float64Array::from(numbers)),
             Err(error) if is_peak || means(&heading.name, "magnitude") => return Err(error),
-            Err(_) => Cells::Texts(rows.map(|row| grid.cell(row, at).to_string()).collect()),
+            Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| grid.cell(row, at)))),
         };
         let name = match heading.name.as_str() {
             name if means(name, "magnitude") => "mw",

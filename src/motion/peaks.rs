@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::number::significant;
-use crate::plausibility::{ImplausibleHazard, PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median};
+use crate::plausibility::{PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median};
 use crate::units::G_M_S2;
 
 /// The peaks of a ground motion.
@@ -46,13 +46,13 @@ const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
 
 /// Judges the motions of a table by the medians of their peaks, which show a wrong unit.
 #[doc(hidden)]
-pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), ImplausibleHazard> {
+pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), String> {
     let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / G_M_S2));
     let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));
     let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
     let refuse = |name: &str, value: f64, expected: &str| {
         let value = significant(value, 3);
-        Err(ImplausibleHazard(format!("half of the rows have {name} above {value}; {expected}")))
+        Err(format!("half of the rows have {name} above {value}; {expected}"))
     };
     match (pga_g, pgv, ratio_s) {
         (Some(pga), ..) if pga > STRONGEST_MEDIAN => {

@@ -60,14 +60,20 @@ struct Curve {
 }
 
 impl Curve {
-    /// Makes a curve that some place on earth can have. Tables often begin with motions that are certain to
-    /// come, and end with some that never do: these tell nothing.
+    /// Makes a curve, which some place on earth can have, of intensities (m/s2 or m/s) and the rows and
+    /// columns of their frequencies. Tables often begin with motions that are certain to come, and end with
+    /// some that never do: these tell nothing.
     fn new(
         (measure, statistic): (Measure, Statistic),
-        mut points: Vec<Point>,
+        frequency: Frequency,
+        cells: Vec<(f64, usize, usize)>,
         grid: &Grid,
         file: &Path,
     ) -> Result<Curve, InputError> {
+        let mut points = Vec::new();
+        for (value, row, column) in cells {
+            points.push(Point { value, annual_rate: frequency.annual_rate(grid, row, column)?, row, column });
+        }
         points.retain(|point| point.value != 0.0);
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
         for pair in points.windows(2) {
@@ -83,7 +89,7 @@ impl Curve {
         let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
         let unit = if measure == Measure::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
-        judge_hazard(measure.as_str(), &points)?;
+        judge_hazard(measure.as_str(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }
@@ -103,7 +109,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
         (Some(pga), None, Some(spectral)) => {
             let points = spectral.curve.points().iter();
             judge_spectrum(points.map(|(sa, rate)| sa / pga.curve.intensity(*rate)))
-                .map_err(|error| InputError::from(error).in_file(Path::new(&spectral.file)))?;
+                .map_err(|error| InputError::Implausible(error).in_file(Path::new(&spectral.file)))?;
             (pga, Hazard::with_spectrum(pga.curve.clone(), &spectral.curve)?)
         }
         (Some(pga), ..) => (pga, Hazard::over(Peak::Pga, pga.curve.clone())),
@@ -301,17 +307,12 @@ fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result
     if measure == Measure::Other {
         return Ok(None);
     }
-    let mut points = Vec::new();
+    let mut cells = Vec::new();
     for row in 0..grid.lines.len() {
-        let value = unit * grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
-        points.push(Point {
-            value,
-            annual_rate: frequency.annual_rate(grid, row, rates.at)?,
-            row,
-            column: rates.at,
-        });
+        let value = grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
+        cells.push((unit * value, row, rates.at));
     }
-    Curve::new((measure, statistic), points, grid, file).map(Some)
+    Curve::new((measure, statistic), frequency, cells, grid, file).map(Some)
 }
 
 /// Motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or equal.
@@ -321,7 +322,7 @@ fn joint(
     effective_years: Option<f64>,
     warnings: &mut Warnings,
 ) -> Result<Vec<PairOfPeaks>, InputError> {
-    let Some(Motions { given, peaks, mw, .. }) = motions(grid, warnings)? else {
+    let Some(Motions { given, mw, .. }) = motions(grid, warnings)? else {
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
         return Err(InputError::missing(found, "both, or rates of exceedance"));
     };
@@ -336,10 +337,11 @@ fn joint(
             let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
             return Err(InputError::missing(found, "one row of each bin"));
         }
-        bins.push(PairOfPeaks { peaks: peaks[row], annual_rate, mw: mw[row] });
+        bins.push(PairOfPeaks { peaks: given[row].at_rim(), annual_rate, mw: mw[row] });
     }
-    judge_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))?;
-    judge_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s))?;
+    judge_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
+        .and_then(|()| judge_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
+        .map_err(InputError::Implausible)?;
     match bins.is_empty() {
         true => Err(InputError::missing("no rows", "motions with PGA and PGV")),
         false => Ok(bins),

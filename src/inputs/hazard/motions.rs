@@ -20,9 +20,8 @@ pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
 
 /// The motions in the rows of a table.
 pub struct Motions {
-    /// Peaks as they are given, and none beyond any record.
+    /// Peaks as they are given, perhaps beyond any record.
     pub given: Vec<Peaks>,
-    pub peaks: Vec<Peaks>,
     pub mw: Vec<Option<f64>>,
     /// Columns of PGA, PGV and magnitude.
     pub columns: Vec<usize>,
@@ -46,12 +45,11 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, 
         given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
         mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
     }
-    judge_medians(given.iter().copied())?;
-    let peaks: Vec<Peaks> = given.iter().map(|peaks| peaks.at_rim()).collect();
-    let beyond = given.iter().zip(&peaks).filter(|(given, peaks)| given != peaks).count();
+    judge_medians(given.iter().copied()).map_err(InputError::Implausible)?;
+    let beyond = given.iter().filter(|peaks| **peaks != peaks.at_rim()).count();
     if beyond > 0 {
         warnings.add(Warning::AtRim, format!("{beyond} of {} rows", given.len()));
     }
     let columns = [Some(pga), Some(pgv), magnitude].into_iter().flatten().collect();
-    Ok(Some(Motions { given, peaks, mw, columns }))
+    Ok(Some(Motions { given, mw, columns }))
 }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use super::Curve;
 use super::columns::{Frequency, Measure, Statistic};
-use super::{Curve, Point};
 use crate::inputs::{Grid, Heading, InputError};
 use crate::units::{CM_PER_M, G_M_S2};
 
@@ -32,16 +32,15 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
     if grid.lines.len() != 1 {
         return Err(InputError::missing(format!("curves of {} sites", grid.lines.len()), "the row of one"));
     }
-    let mut points = Vec::new();
+    let mut cells = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let Some(level) = heading.text.strip_prefix("poe-") else { continue };
         let level: f64 = level
             .parse()
             .map_err(|_| InputError::missing(format!("heading {}", heading.text), "poe- and a level"))?;
-        let annual_rate = frequency.annual_rate(grid, 0, at)?;
-        points.push(Point { value: level * unit, annual_rate, row: 0, column: at });
+        cells.push((level * unit, 0, at));
     }
-    Curve::new((measure, statistic), points, grid, file)
+    Curve::new((measure, statistic), frequency, cells, grid, file)
 }
 
 /// Which of several curves it is. What is not known to be the mean is not taken for it.

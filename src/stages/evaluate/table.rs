@@ -4,9 +4,8 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
-use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::RecordBatch;
 use rayon::prelude::*;
 
 use super::Evaluate;
@@ -14,7 +13,7 @@ use super::point::TreeRow;
 use crate::fragility::Peak;
 use crate::hazard::Motion;
 use crate::inputs::Renames;
-use crate::inputs::intensities::{self, Cells};
+use crate::inputs::intensities;
 use crate::motion::{Peaks, judge_medians};
 use crate::number::counted;
 use crate::object::{Object, Restitution, Subject};
@@ -41,7 +40,12 @@ pub fn evaluate(
     let (structures, place) = (&call.structures, call.place.place());
     let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
         true => read_parquet(path, renames)?,
-        false => vec![Batch { path: path.into(), first_row: 0, rows: read_grid(path, renames)? }],
+        false => {
+            let columns = intensities::read(path, renames)?.into_iter();
+            let columns = columns.map(|(name, column)| (name, column, true));
+            let rows = RecordBatch::try_from_iter_with_nullable(columns)?;
+            vec![Batch { path: path.into(), first_row: 0, rows }]
+        }
     };
     let given = if structures.is_given() { structures.objects(&place, renames)?.0 } else { Vec::new() };
     if given.len() > 1 {
@@ -155,8 +159,7 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
 fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
     let all = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     let path = batches.first().map_or(Path::new(""), |batch| &*batch.path);
-    judge_medians(all.iter().flatten().copied())
-        .map_err(|problem| TableError::table(path, problem.to_string()).into())
+    judge_medians(all.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem).into())
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.
@@ -172,16 +175,4 @@ fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>
         renamed.push(Batch { rows: RecordBatch::try_from_iter_with_nullable(columns)?, ..batch });
     }
     Ok(renamed)
-}
-
-/// The columns of a table of people.
-fn read_grid(path: &Path, renames: &mut Renames) -> anyhow::Result<RecordBatch> {
-    let columns = intensities::read(path, renames)?.into_iter().map(|(name, cells)| {
-        let array: ArrayRef = match cells {
-            Cells::Numbers(numbers) => Arc::new(Float64Array::from(numbers)),
-            Cells::Texts(texts) => Arc::new(StringArray::from(texts)),
-        };
-        (name, array, true)
-    });
-    Ok(RecordBatch::try_from_iter_with_nullable(columns)?)
 }
