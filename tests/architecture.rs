@@ -195,12 +195,15 @@ fn columns_of_rows() -> BTreeSet<String> {
         let lines =
             bodies.flat_map(|body| body.lines().map(str::trim).filter(|line| !line.starts_with("//")));
         let columns = |(name, kind): (&str, &str)| {
-            let ends: &[&str] = match kind {
-                "Limited," => &["", "_low", "_high"],
-                "Bounds," => &["_low", "_high"],
-                _ => &[""],
+            let ends = match kind {
+                "Limited," => " _low _high",
+                "Bounds," => "_low _high",
+                "Lognormal," => {
+                    "_16 _16_low _16_high _theta _theta_low _theta_high _84 _84_low _84_high _beta _error"
+                }
+                _ => "",
             };
-            ends.iter().map(|end| format!("{name}{end}")).collect::<Vec<_>>()
+            ends.split(' ').map(|end| format!("{name}{end}")).collect::<Vec<_>>()
         };
         let renamed =
             lines.clone().filter_map(|line| line.strip_prefix("#[serde(rename = \"")?.split('"').next());

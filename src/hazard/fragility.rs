@@ -72,18 +72,23 @@ pub struct FragilityPoint {
 
 /// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
 /// beta).
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lognormal {
     /// Where 16, 50 and 84 % of the motions have the effect; none beyond the last point.
+    #[serde(rename = "_16")]
     pub at_16: Limited,
     /// Median.
+    #[serde(rename = "_theta")]
     pub theta: Limited,
     /// See `at_16`.
+    #[serde(rename = "_84")]
     pub at_84: Limited,
     /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that
     /// is reached.
+    #[serde(rename = "_beta")]
     pub beta: Option<f64>,
     /// Largest error of a probability by theta and beta there.
+    #[serde(rename = "_error")]
     pub largest_error: Option<f64>,
 }
 

@@ -186,16 +186,8 @@ impl DoubtsRow {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct FragilityRow {
     pub over: Option<Peak>,
-    pub failure_16: Limited,
-    pub failure_theta: Limited,
-    pub failure_84: Limited,
-    pub failure_beta: Option<f64>,
-    pub failure_error: Option<f64>,
-    pub overturning_16: Limited,
-    pub overturning_theta: Limited,
-    pub overturning_84: Limited,
-    pub overturning_beta: Option<f64>,
-    pub overturning_error: Option<f64>,
+    pub failure: Lognormal,
+    pub overturning: Lognormal,
     #[serde(skip)]
     pub curve: Option<Fragility>,
 }
@@ -209,20 +201,7 @@ impl FragilityRow {
             at_84: of.at_84.map(|intensity| intensity / unit),
             ..of
         });
-        FragilityRow {
-            over: Some(fragility.over),
-            failure_16: failure.at_16,
-            failure_theta: failure.theta,
-            failure_84: failure.at_84,
-            failure_beta: failure.beta,
-            failure_error: failure.largest_error,
-            overturning_16: overturning.at_16,
-            overturning_theta: overturning.theta,
-            overturning_84: overturning.at_84,
-            overturning_beta: overturning.beta,
-            overturning_error: overturning.largest_error,
-            curve: Some(fragility),
-        }
+        FragilityRow { over: Some(fragility.over), failure, overturning, curve: Some(fragility) }
     }
 }
 

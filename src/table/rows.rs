@@ -21,7 +21,8 @@ use super::dictionary;
 use super::file::Table;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
-/// it. A value with its limits ([`crate::statistics::Limited`]) is named by its field.
+/// it. A value with its limits ([`crate::statistics::Limited`]) is named by its field; a part whose name begins
+/// with a low line continues that of its field.
 pub trait Row: Serialize + DeserializeOwned + 'static {}
 
 impl<T: Serialize + DeserializeOwned + 'static> Row for T {}
@@ -58,13 +59,14 @@ fn find_layout<R: Row>() -> Layout {
 
 fn columns(field: &FieldRef) -> Vec<FieldRef> {
     let DataType::Struct(parts) = field.data_type() else { return vec![field.clone()] };
-    let columns = parts.iter().map(|part| {
+    let columns = parts.iter().flat_map(|part| {
         let name = match part.name().as_str() {
             "value" => field.name().clone(),
             limit @ ("low" | "high") => format!("{}_{limit}", field.name()),
+            end if end.starts_with('_') => format!("{}{end}", field.name()),
             other => other.to_string(),
         };
-        Arc::new(part.as_ref().clone().with_name(name))
+        columns(&Arc::new(part.as_ref().clone().with_name(name)))
     });
     columns.collect()
 }
@@ -78,11 +80,24 @@ pub fn batch<'a, R: Row + 'a>(rows: impl IntoIterator<Item = &'a R>) -> anyhow::
     let rows: Vec<&R> = rows.into_iter().collect();
     let (fields, schema) = layout::<R>();
     let arrays = serde_arrow::to_arrow(&fields, &rows)?;
-    let columns = arrays.into_iter().flat_map(|array| match array.as_struct_opt() {
-        Some(limited) => limited.columns().to_vec(),
-        None => vec![array],
-    });
-    Ok(RecordBatch::try_new(schema, columns.collect())?)
+    Ok(RecordBatch::try_new(schema, arrays.iter().flat_map(taken_apart).collect())?)
+}
+
+fn taken_apart(array: &ArrayRef) -> Vec<ArrayRef> {
+    match array.as_struct_opt() {
+        Some(parts) => parts.columns().iter().flat_map(taken_apart).collect(),
+        None => vec![array.clone()],
+    }
+}
+
+fn put_together(field: &FieldRef, columns: &mut impl Iterator<Item = ArrayRef>) -> ArrayRef {
+    match field.data_type() {
+        DataType::Struct(fields) => {
+            let parts = fields.iter().map(|field| put_together(field, columns)).collect();
+            Arc::new(StructArray::new(fields.clone(), parts, None))
+        }
+        _ => columns.next().expect("the schema has all columns"),
+    }
 }
 
 /// Reads all rows of a table. A column of optional values may be missing.
@@ -106,16 +121,10 @@ pub fn stream<'a, R: Row>(
 
 /// Reads the rows of a batch. A column of optional values may be missing.
 pub fn from_batch<R: Row>(batch: &Batch) -> Result<Vec<R>, TableError> {
-    let (fields, _) = layout::<R>();
-    let arrays = fields.iter().map(|field| -> Result<ArrayRef, TableError> {
-        let columns = columns(field);
-        let parts = columns.iter().map(|column| checked(batch, column)).collect::<Result<Vec<_>, _>>()?;
-        Ok(match field.data_type() {
-            DataType::Struct(fields) => Arc::new(StructArray::new(fields.clone(), parts, None)),
-            _ => parts[0].clone(),
-        })
-    });
-    let arrays = arrays.collect::<Result<Vec<_>, _>>()?;
+    let (fields, schema) = layout::<R>();
+    let columns = schema.fields().iter().map(|column| checked(batch, column));
+    let mut columns = columns.collect::<Result<Vec<_>, _>>()?.into_iter();
+    let arrays: Vec<ArrayRef> = fields.iter().map(|field| put_together(field, &mut columns)).collect();
     serde_arrow::from_arrow(&fields, &arrays)
         .map_err(|error| TableError::table(&batch.path, error.to_string()))
 }

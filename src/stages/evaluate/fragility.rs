@@ -14,11 +14,11 @@ use crate::units::G_M_S2;
 
 impl Predicted for FragilityRow {
     fn overturning(&self) -> Limited {
-        self.overturning_theta
+        self.overturning.theta
     }
 
     fn severity(&self) -> f64 {
-        let weakest = self.overturning_theta.value.map_or(0.0, f64::recip);
+        let weakest = self.overturning.theta.value.map_or(0.0, f64::recip);
         if self.over.is_some() { weakest } else { f64::NEG_INFINITY }
     }
 }
