@@ -92,7 +92,7 @@ fn with_short_help(command: Command) -> Command {
 /// Tells shells how to complete a path.
 fn with_hint(arg: Arg) -> Arg {
     match path_kind(&arg).map(|kind| kind.role) {
-        Some(Role::Fits | Role::Folder) => arg.value_hint(ValueHint::DirPath),
+        Some(Role::Folder) => arg.value_hint(ValueHint::DirPath),
         Some(_) => arg.value_hint(ValueHint::AnyPath),
         None => arg,
     }

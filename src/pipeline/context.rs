@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use arrow_schema::SchemaRef;
@@ -118,7 +118,7 @@ impl Observed {
     /// Stops the stage: what it writes goes, and gets no name, whenever it hears of it.
     pub fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
-        for path in self.begun.lock().iter().flat_map(|begun| begun.iter()) {
+        for path in &*locked(&self.begun) {
             let _ = std::fs::remove_file(path);
         }
     }
@@ -129,13 +129,18 @@ impl Observed {
     }
 }
 
-#[derive(Clone, Default)]
+fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[derive(Default)]
 pub struct Context {
     pub common: Common,
     pub observed: Arc<Observed>,
-    plan: Arc<Plan>,
-    warnings: Arc<Mutex<Warnings>>,
-    written: Arc<Mutex<Vec<Written>>>,
+    plan: Plan,
+    warnings: Mutex<Warnings>,
+    /// Files that have no name until the stage ends: one that fails leaves nothing.
+    written: Mutex<Vec<Written>>,
 }
 
 impl Context {
@@ -145,8 +150,8 @@ impl Context {
 
     /// Returns the context of a planned call.
     pub fn begin(&self, plan: Plan) -> Context {
-        let (warnings, written) = Default::default();
-        Context { plan: Arc::new(plan), warnings, written, ..self.clone() }
+        let (common, observed) = (self.common.clone(), self.observed.clone());
+        Context { common, observed, plan, ..Context::default() }
     }
 
     /// Returns what is made, before it has a text.
@@ -155,36 +160,26 @@ impl Context {
     }
 
     pub fn warn(&self, warnings: Warnings) {
-        if let Ok(mut all) = self.warnings.lock() {
-            all.extend(warnings);
-        }
+        locked(&self.warnings).extend(warnings);
     }
 
     pub fn warnings(&self) -> Warnings {
-        self.warnings.lock().map(|all| all.clone()).unwrap_or_default()
+        locked(&self.warnings).clone()
     }
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
         let writer = TableWriter::create(path, schema)?;
-        if let Ok(mut begun) = self.observed.begun.lock() {
-            begun.push(writer.partial().to_path_buf());
-        }
+        locked(&self.observed.begun).push(writer.partial().to_path_buf());
         self.observed.expect_running()?;
         Ok(writer)
     }
 
     /// Ends a table with its [`Context::provenance`].
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
-        let made = self.provenance(writer.path(), summary)?;
-        self.keep(writer.finish(&made)?);
+        let made = self.provenance(writer.path(), summary);
+        let written = writer.finish(&made)?;
+        locked(&self.written).push(written);
         Ok(())
-    }
-
-    /// Keeps a file until the stage ends: one that fails leaves nothing.
-    fn keep(&self, written: Written) {
-        if let Ok(mut all) = self.written.lock() {
-            all.push(written);
-        }
     }
 
     /// Removes what the stage once wrote beside an output that it now makes without it.
@@ -195,19 +190,19 @@ impl Context {
         }
     }
 
-    /// Gives all files that were written their names, unless another program stops the stage.
+    /// Gives all files that were written their names, unless another program stops the stage or has changed
+    /// an input.
     pub fn persist(&self) -> anyhow::Result<()> {
         self.observed.expect_running()?;
-        let written = self.written.lock().map(|mut all| std::mem::take(&mut *all)).unwrap_or_default();
-        Ok(written.into_iter().try_for_each(Written::persist)?)
+        self.expect_unchanged()?;
+        Ok(std::mem::take(&mut *locked(&self.written)).into_iter().try_for_each(Written::persist)?)
     }
 
-    /// Returns the provenance of a finished output. A changed input is an error.
-    pub fn provenance(&self, out: &Path, summary: &str) -> Result<Provenance, TableError> {
-        self.expect_unchanged()?;
+    /// Returns the provenance of a finished output.
+    pub fn provenance(&self, out: &Path, summary: &str) -> Provenance {
         let output = self.plan.outputs.iter().position(|output| output == out).unwrap_or_default();
-        let made = self.plan.output(output);
-        Ok(Provenance { summary: summary.to_string(), warnings: self.warnings(), ..made })
+        let (summary, warnings) = (summary.to_string(), self.warnings());
+        Provenance { summary, warnings, ..self.plan.output(output) }
     }
 
     /// Checks that no input was changed since the plan was made.
@@ -232,7 +227,8 @@ impl Context {
     pub fn replace(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
         let is_there = std::fs::read(path).is_ok_and(|there| there == content);
         if !is_there && self.observed.expect_running().is_ok() {
-            self.keep(Written::new(path, content)?);
+            let written = Written::new(path, content)?;
+            locked(&self.written).push(written);
         }
         Ok(())
     }

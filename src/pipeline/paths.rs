@@ -18,7 +18,6 @@ use crate::table::file::Partition;
 pub enum Role {
     Input,
     Folder,
-    Fits,
     Output,
 }
 
@@ -106,7 +105,7 @@ path_types! {
     /// A table, or a folder of which all tables are read.
     InputFolder: Folder, ["parquet"], [];
     /// A folder of fits.
-    FitsFolder: Fits, ["parquet"], [];
+    FitsFolder: Folder, ["parquet"], [];
     /// A table to write.
     Output: Output, ["parquet"], [];
     /// Answers to write.

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
-use super::shared::objects::{StructureArgs, named};
+use super::shared::objects::{StructureArgs, on_ground};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
 use crate::fragility::{LimitStates, Peak};
@@ -129,13 +129,7 @@ impl Export {
     /// Reads the objects, each of which must rock, on the ground.
     fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (objects, unused) = self.structures.objects(&Place::default(), &mut Renames::new(&[]))?;
-        for object in &objects {
-            object.sides().map_err(|reason| named(object, &reason))?;
-            if object.place.floor().is_ok_and(|floor| floor.is_some()) {
-                let problem = "stands on a floor; expected an object on the ground, without level and period";
-                return Err(named(object, &problem));
-            }
-        }
+        objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;
         Ok((objects, unused))
     }
 

@@ -149,24 +149,17 @@ impl Batch {
 
 /// Converts a column of numbers to f64, `None` for null and NaN; `None` for columns of other types.
 pub fn numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
-    macro_rules! cast {
-        ($type:ty) => {
-            column.as_primitive::<$type>().iter().map(|value| value.map(|value| value as f64)).collect()
-        };
-    }
-    Some(downcast_integer! {
-        column.data_type() => (cast),
-        DataType::Float64 => known(column.as_primitive::<Float64Type>()),
-        DataType::Float32 => known(column.as_primitive::<Float32Type>()),
-        DataType::Float16 => known(column.as_primitive::<Float16Type>()),
+    match column.data_type() {
+        DataType::Float64 => Some(known(column.as_primitive::<Float64Type>())),
+        DataType::Float32 => Some(known(column.as_primitive::<Float32Type>())),
+        DataType::Float16 => Some(known(column.as_primitive::<Float16Type>())),
         DataType::Decimal128(_, scale) => {
             let unit = 10f64.powi(i32::from(*scale));
             let decimals = column.as_primitive::<Decimal128Type>().iter();
-            decimals.map(|value| value.map(|value| value as f64 / unit)).collect()
+            Some(decimals.map(|value| value.map(|value| value as f64 / unit)).collect())
         }
-        DataType::Null => vec![None; column.len()],
-        _ => return None,
-    })
+        _ => Some(integers(column)?.into_iter().map(|value| value.map(|value| value as f64)).collect()),
+    }
 }
 
 fn known<T: ArrowPrimitiveType<Native: Into<f64>>>(column: &PrimitiveArray<T>) -> Vec<Option<f64>> {

@@ -3,7 +3,7 @@
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, PolarsError};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::columns::{integers, numbers};
 use super::file::{NARROW_BATCH, Table};
@@ -82,68 +82,58 @@ fn column(name: &str, array: &ArrayRef) -> Column {
     }
 }
 
-/// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects.
+/// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects: numbers in full but in
+/// text, null as an empty cell.
 pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
+    let names = frame.get_column_names();
     match format {
         Format::Text => Ok(text(frame)),
-        Format::Csv => csv(frame),
+        Format::Csv => {
+            let mut writer = csv::Writer::from_writer(Vec::new());
+            writer.write_record(names.iter().map(|name| name.as_str()))?;
+            for row in rows(frame) {
+                writer.write_record(row.iter().map(|value| cell(value, "")))?;
+            }
+            Ok(String::from_utf8(writer.into_inner()?)?)
+        }
         Format::Json => {
-            let objects: Vec<Map<String, Value>> =
-                (0..frame.height()).map(|row| object(frame, row)).collect();
-            Ok(serde_json::to_string_pretty(&objects)? + "\n")
+            let names = names.iter().map(|name| name.to_string());
+            let objects = rows(frame).map(|row| names.clone().zip(row).collect::<Value>());
+            Ok(serde_json::to_string_pretty(&objects.collect::<Vec<_>>())? + "\n")
         }
     }
 }
 
-fn object(frame: &DataFrame, row: usize) -> Map<String, Value> {
-    let columns = frame.columns().iter();
-    columns.map(|column| (column.name().to_string(), json(&value(column, row)))).collect()
-}
-
-fn value(column: &Column, row: usize) -> AnyValue<'_> {
-    column.get(row).unwrap_or(AnyValue::Null)
-}
-
-fn json(value: &AnyValue) -> Value {
-    match value {
-        AnyValue::Float64(number) => Value::from(*number),
-        AnyValue::Int64(count) => Value::from(*count),
-        AnyValue::Boolean(flag) => Value::from(*flag),
-        AnyValue::String(text) => Value::from(*text),
-        AnyValue::StringOwned(text) => Value::from(text.as_str()),
+fn rows(frame: &DataFrame) -> impl Iterator<Item = Vec<Value>> {
+    let value = |column: &Column, row| match column.get(row) {
+        Ok(AnyValue::Float64(number)) => Value::from(number),
+        Ok(AnyValue::Int64(count)) => Value::from(count),
+        Ok(AnyValue::Boolean(flag)) => Value::from(flag),
+        Ok(AnyValue::String(text)) => Value::from(text),
         _ => Value::Null,
-    }
+    };
+    (0..frame.height()).map(move |row| frame.columns().iter().map(|column| value(column, row)).collect())
 }
 
-fn cell(value: &AnyValue, null: &str) -> String {
-    match json(value) {
+fn cell(value: &Value, null: &str) -> String {
+    match value {
         Value::Null => null.to_string(),
-        Value::String(text) => text,
+        Value::String(text) => text.clone(),
         other => other.to_string(),
     }
 }
 
-/// Formats a frame as CSV: numbers in full, null as an empty cell.
-fn csv(frame: &DataFrame) -> anyhow::Result<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(frame.columns().iter().map(|column| column.name().as_str()))?;
-    for row in 0..frame.height() {
-        writer.write_record(frame.columns().iter().map(|column| cell(&value(column, row), "")))?;
-    }
-    Ok(String::from_utf8(writer.into_inner()?)?)
-}
-
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
-    let columns = frame.columns();
-    let mut rows: Vec<Vec<String>> = vec![columns.iter().map(|column| column.name().to_string()).collect()];
-    for row in 0..frame.height() {
-        let cells = columns.iter().map(|column| match value(column, row) {
-            AnyValue::Float64(value) => significant(value, 4),
-            AnyValue::Int64(count) => fixed(count as f64, 0),
-            other => cell(&other, "-"),
+    let names = frame.get_column_names().into_iter().map(|name| name.to_string());
+    let lines = rows(frame).map(|row| {
+        let cells = row.iter().map(|value| match (value.as_i64(), value.as_f64()) {
+            (Some(count), _) => fixed(count as f64, 0),
+            (None, Some(number)) => significant(number, 4),
+            _ => cell(value, "-"),
         });
-        rows.push(cells.collect());
-    }
-    aligned(&rows, |column| columns[column].dtype() != &DataType::String)
+        cells.collect()
+    });
+    let lines: Vec<Vec<String>> = std::iter::once(names.collect()).chain(lines).collect();
+    aligned(&lines, |column| frame.columns()[column].dtype() != &DataType::String)
 }

@@ -363,7 +363,7 @@ impl Evaluate {
                 context.finish(writer, &printed)?;
                 continue;
             }
-            let key = context.provenance(&out, &printed)?.json();
+            let key = context.provenance(&out, &printed).json();
             let drawn = |key: &str| Ok::<_, anyhow::Error>(svg(&page()?.main_figure(), key));
             let content = match &*ending {
                 "csv" => shown(rows, Format::Csv)?.into_bytes(),

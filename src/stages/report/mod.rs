@@ -94,7 +94,7 @@ impl Stage for Report {
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
         let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
-        let mut made = context.provenance(&page, &summary)?;
+        let mut made = context.provenance(&page, &summary);
         let files =
             figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
         let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();

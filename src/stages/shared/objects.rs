@@ -212,13 +212,11 @@ impl StructureArgs {
 }
 
 /// Finds the structures of the directions of an object, which must stand on the ground.
-fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
+pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
     let sides = object.sides().map_err(|reason| named(object, &reason))?;
     if object.place.floor().is_ok_and(|floor| floor.is_some()) {
-        return Err(UsageError::because(format!(
-            "{} stands on a floor: leave out level and period; floor-motions makes its motions",
-            object.name
-        )));
+        let problem = "on a floor: leave out level and period; floor-motions makes its motions";
+        return Err(named(object, &problem));
     }
     let mut structures: Vec<Structure> = sides.into_iter().map(|side| side.structure).collect();
     structures.iter_mut().skip(1).for_each(|other| other.name += ", other direction");
