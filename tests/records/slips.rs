@@ -30,6 +30,7 @@ fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), RecordFileError> {
 fn what_is_meant_is_read() {
     let row = |row: &[f64]| row.iter().map(|a| format!("{a:10.6}")).collect::<String>() + "\n";
     let wrapped: String = motion(1600).chunks(8).map(row).collect();
+    let sample = |_: usize, a: f64| format!("{a:.6}");
     for (text, options) in [
         (csv("t (s),a [cm/s^2]", 0.01), ""),
         (csv("time,acc (%g)", 0.01 * G), ""),
@@ -46,7 +47,17 @@ fn what_is_meant_is_read() {
         (csv("time,acc_g", G).replace(',', ";").replace('.', ",").replace('-', "\u{2212}"), ""),
         (csv("time (s),acc (g)", G).replace(',', " ").replace('.', ",").replace('\n', "\r\n"), ""),
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "dt=0.01"),
-        (lines("time,acc_g", G, |k, a| format!("00:00:{:05.2},{a:.6}", time(k))), ""),
+        // A time step and a number of samples above them.
+        (lines("0.01", 1.0, sample), "unit=m/s2 dt=0.01"),
+        (lines("1600\n0.01", 1.0, sample), "unit=m/s2 dt=0.01"),
+        (lines("0.01\n1600", 1.0, sample), "unit=m/s2 dt=0.01"),
+        (lines("1600", 1.0, sample), "unit=m/s2 dt=0.01"),
+        // Headings that explain their unit, or have one that is unknown.
+        (csv("time (s),\"acc (g = 9.81 m/s2)\"", G), ""),
+        (csv("time (s),\"acc (gravity, 1g = 980.5 cm/s/s)\"", G), ""),
+        (csv("time (s),acc in cm/s2", 0.01), ""),
+        (csv("time (s),\"acc [unit: m/s2]\"", 1.0), ""),
+        (csv("time (s),acc (x10 m/s2)", 1.0), "unit=m/s2"),
         (
             lines("time,acc_g", G, |k, a| match time(k) - 2.0 {
                 before if before < 0.0 => format!("23:59:{:05.2},{a:.6}", 60.0 + before),
@@ -74,6 +85,9 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (csv("time,acc (counts)", 1e-4), "unit=g", "Value { line: 2, field: \"unit\""),
         (csv("time,acc", G), "", "Missing { line: 2, field: \"unit\""),
         (csv("time,acc (furlong)", G), "", "Value { line: 2, field: \"unit\", found: \"acc (furlong)"),
+        (csv("time (s),acc (x10 m/s2)", 1.0), "", "Value { line: 2, field: \"unit\""),
+        (csv("time (s),acc (0.1 g)", 1.0), "", "Value { line: 2, field: \"unit\""),
+        (csv("time (s),acc (*1e-3 m/s2)", 1.0), "", "Value { line: 2, field: \"unit\""),
         (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
         (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
         (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),

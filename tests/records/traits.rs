@@ -249,36 +249,3 @@ fn a_short_line_before_the_last_shows_blocks() {
         );
     }
 }
-
-#[test]
-fn a_time_step_above_the_samples_is_none_of_them() {
-    let samples: String = motion(400).iter().map(|a| format!("{a:.6}\n")).collect();
-    for head in ["0.01\n", "400\n0.01\n", "0.01\n400\n", "400\n"] {
-        let read = read_csv(&(head.to_string() + &samples), "unit=m/s2 dt=0.01").unwrap();
-        expect_samples(&read[0], &motion(400), 1e-6);
-    }
-    expect_samples(&read_csv(&samples, "unit=m/s2 dt=0.01").unwrap()[0], &motion(400), 1e-6);
-}
-
-#[test]
-fn a_heading_that_explains_its_unit_has_that_unit() {
-    for (heading, unit) in [
-        ("time (s),\"acc (g = 9.81 m/s2)\"", G),
-        ("time (s),\"acc (gravity, 1g = 980.5 cm/s/s)\"", G),
-        ("time (s),acc in cm/s2", 0.01),
-        ("time (s),\"acc [unit: m/s2]\"", 1.0),
-    ] {
-        let read =
-            read_csv(&table(heading, unit, 1, seconds), "").unwrap_or_else(|why| panic!("{heading}: {why}"));
-        expect_samples(&read[0], &motion(400), 2e-6 * G);
-    }
-    for heading in ["time (s),acc (x10 m/s2)", "time (s),acc (0.1 g)", "time (s),acc (*1e-3 m/s2)"] {
-        let refusal = read_csv(&table(heading, 1.0, 1, seconds), "");
-        assert!(
-            matches!(refusal, Err(RecordFileError::Value { field: "unit", .. })),
-            "{heading}: {refusal:?}"
-        );
-        let given = read_csv(&table(heading, 1.0, 1, seconds), "unit=m/s2").unwrap();
-        expect_samples(&given[0], &motion(400), 2e-6);
-    }
-}
