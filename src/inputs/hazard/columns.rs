@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 
 use crate::fragility::Peak;
-use crate::inputs::words::{is_one_of, means};
+use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, InputError};
 use crate::keyword::keywords;
 use crate::units::Quantity;
@@ -44,22 +44,13 @@ pub enum Frequency {
     Occurrence,
 }
 
-/// What a column holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Content {
-    /// Values in a unit of so many m/s2 or m/s.
-    Values(f64),
-    Frequencies(Frequency),
-    Magnitude,
-    Period,
-    Unknown,
-}
-
-/// A column by its heading.
+/// A column by its heading: of values, of frequencies, or of neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
     pub at: usize,
-    pub content: Content,
+    /// Of values, in m/s2 or m/s.
+    pub unit: Option<f64>,
+    pub frequency: Option<Frequency>,
     /// None where the heading names none: `Ground Motion (g)`, `AFE`.
     pub measure: Option<Measure>,
     pub statistic: Statistic,
@@ -85,30 +76,25 @@ impl Column {
         words.extend((quantity == Some(Quantity::Time)).then_some("years"));
         let measure = take_measure(&mut words);
         let statistic = take_statistic(&mut words);
-        let frequency = Frequency::new(&words, investigation_years);
-        let measured = unit.filter(|_| are_of_values(&words, measure, quantity));
-        let content = match (measured, frequency) {
-            (Some(unit), _) => Content::Values(unit.si),
-            (None, Some(frequency)) => Content::Frequencies(frequency),
-            _ if means(&heading.name, "magnitude") => Content::Magnitude,
-            _ if means(&heading.name, "spectral-period") => Content::Period,
-            _ => Content::Unknown,
-        };
+        let unit = unit.filter(|_| are_of_values(&words, measure, quantity)).map(|unit| unit.si);
+        let frequency = Frequency::new(&words, investigation_years).filter(|_| unit.is_none());
         let is_velocity = quantity == Some(Quantity::Velocity);
         let measure = measure.or(is_velocity.then_some(Measure::Pgv));
-        Column { at, content, measure, statistic }
+        Column { at, unit, frequency, measure, statistic }
+    }
+
+    pub fn is_of_curve(&self) -> bool {
+        self.unit.is_some() || self.frequency.is_some()
     }
 }
 
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
 /// word more, which may change the meaning: `vertical PGA`. An acceleration without a name is PGA.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let Column { content: Content::Values(unit), measure, .. } = Column::new(0, heading, None) else {
-        return None;
-    };
+    let Column { unit, measure, .. } = Column::new(0, heading, None);
     match measure {
-        None | Some(Measure::Pga) => Some((Peak::Pga, unit)),
-        Some(Measure::Pgv) => Some((Peak::Pgv, unit)),
+        None | Some(Measure::Pga) => Some((Peak::Pga, unit?)),
+        Some(Measure::Pgv) => Some((Peak::Pgv, unit?)),
         Some(Measure::Spectral | Measure::Other) => None,
     }
 }

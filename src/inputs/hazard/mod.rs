@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 pub use self::columns::peak;
-use self::columns::{Column, Content, Frequency, Measure, Statistic, noted_statistic};
+use self::columns::{Column, Frequency, Measure, Statistic, noted_statistic};
 pub use self::motions::{Motions, expect_motions_alone, motions};
 use super::words::means;
-use super::{Grid, InputError, Renames};
+use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
 use crate::keyword::Keyword;
@@ -180,7 +180,8 @@ impl Found {
             let statistic = noted_statistic(&grid)?;
             columns.iter_mut().for_each(|column| column.statistic = statistic);
         }
-        let occurrence = columns.iter().find(|column| column.content == OCCURRENCE).map(|column| column.at);
+        let occurrence = columns.iter().find(|column| column.frequency == Some(Frequency::Occurrence));
+        let occurrence = occurrence.map(|column| column.at);
         let is_joint = are_fields || occurrence.is_some();
         let before = self.curves.len();
         if is_joint {
@@ -195,12 +196,12 @@ impl Found {
         if !is_joint && before == self.curves.len() {
             return Err(not_understood(&grid, &columns));
         }
-        for Column { at, content, .. } in
-            columns.into_iter().filter(|_| !are_fields && !grid.lines.is_empty())
-        {
-            let is_unused = content == Content::Unknown || content == Content::Magnitude && !is_joint;
-            let heading = &grid.headings[at];
-            if is_unused && !means(&heading.name, "place") && grid.number(0, at).is_ok() {
+        for column in columns.iter().filter(|_| !are_fields && !grid.lines.is_empty()) {
+            let heading = &grid.headings[column.at];
+            let is_about = |meaning: &str| means(&heading.name, meaning);
+            let is_used = column.is_of_curve() || is_about("place") || is_about("spectral-period");
+            let is_used = is_used || is_joint && is_about("magnitude");
+            if !is_used && grid.number(0, column.at).is_ok() {
                 self.warnings.add(Warning::UnusedColumns, heading.text.clone());
             }
         }
@@ -253,15 +254,15 @@ impl Found {
     }
 }
 
-const OCCURRENCE: Content = Content::Frequencies(Frequency::Occurrence);
-
 /// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
 /// not understood first.
 fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
-    let values = || columns.iter().filter(|column| matches!(column.content, Content::Values(_)));
+    let (of_curve, others): (Vec<&Column>, Vec<&Column>) =
+        columns.iter().partition(|column| column.is_of_curve());
+    let mut others = others.iter().map(|column| &grid.headings[column.at]);
     // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
     let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
-    if is_uniform || columns.iter().any(|column| column.content == Content::Period) {
+    if is_uniform || others.clone().any(|heading| means(&heading.name, "spectral-period")) {
         let found = "a uniform hazard spectrum: one rate, many periods";
         return InputError::missing(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
     }
@@ -272,17 +273,19 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
                         under pga_g and annual_rate_of_exceedance";
         return InputError::missing(found, expected);
     }
-    let expected = if values().any(|column| column.measure == Some(Measure::Other)) {
+    let mut values = of_curve.iter().filter(|column| column.unit.is_some());
+    let expected = if values.clone().any(|column| column.measure == Some(Measure::Other)) {
         "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
-    } else if values().next().is_none() {
+    } else if values.next().is_none() {
         "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns pga_g=HEADING"
     } else {
         "annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period, by name or by \
          --columns annual_rate_of_exceedance=HEADING"
     };
-    let unknown = columns.iter().filter(|column| column.content == Content::Unknown);
-    let mut unknown = unknown.map(|column| &grid.headings[column.at]);
-    match unknown.find(|heading| !heading.text.is_empty() && !means(&heading.name, "place")) {
+    let is_unknown = |heading: &&Heading| {
+        !(heading.text.is_empty() || means(&heading.name, "place") || means(&heading.name, "magnitude"))
+    };
+    match others.find(is_unknown) {
         Some(heading) => InputError::Heading { heading: heading.text.clone(), expected, found: grid.found() },
         None => InputError::missing(grid.found(), expected),
     }
@@ -290,9 +293,7 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
 
 /// The curve of a column of values and one of frequencies, if they belong together.
 fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result<Option<Curve>, InputError> {
-    let (Content::Values(unit), Content::Frequencies(frequency)) = (values.content, rates.content) else {
-        return Ok(None);
-    };
+    let (Some(unit), Some(frequency)) = (values.unit, rates.frequency) else { return Ok(None) };
     let measure = match (values.measure, rates.measure) {
         (Some(own), Some(other)) if own != other => return Ok(None),
         // An acceleration without a name has that of its rates.
