@@ -1,6 +1,5 @@
 //! floor-motions: motions of the ground as a floor of a building has them.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
@@ -20,7 +19,7 @@ use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
 use crate::table::file::Partition;
-use crate::table::motions::{ACCELERATION, Sampled, batch, open, parts, record, spectral_period_s};
+use crate::table::motions::{ACCELERATION, Sampled, batch, open, parts, spectral_period_s};
 use crate::table::rows;
 
 /// Motions that a thread takes at once.
@@ -78,7 +77,7 @@ impl Stage for FloorMotions {
         }
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
-        let none = Sampled { columns: none, samples: Vec::new() };
+        let none = Sampled { columns: none, motions: Vec::new() };
         let schema = self.filter(none, &mut Transforms::default())?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         each(
@@ -97,28 +96,26 @@ impl Stage for FloorMotions {
 impl FloorMotions {
     /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
     fn filter(&self, ground: Sampled, transforms: &mut Transforms) -> anyhow::Result<RecordBatch> {
-        let Sampled { columns, samples } = ground;
+        let Sampled { columns, motions } = ground;
         let floor = Floor { period_s: self.period, level: self.level };
         let schema = columns.rows.schema();
         let periods = schema.fields().iter().filter_map(|field| spectral_period_s(field.name()));
         let housner = columns.numbers("housner_m")?.iter().any(Option::is_some);
         let plan = MeasurePlan { housner, sa_periods_s: periods.collect() };
-        let dt = columns.required_numbers("dt_s")?;
-        let (mut filtered, mut measured) = (Vec::new(), Vec::new());
-        for (row, (acceleration, &dt_s)) in samples.iter().zip(&dt).enumerate() {
-            record(&columns.path, columns.first_row + row, acceleration, dt_s)?;
-            let moved = floor.motion(acceleration, dt_s, self.damping);
+        let (mut floors, mut filtered, mut measured) = (Vec::new(), Vec::new(), Vec::new());
+        for motion in motions {
+            motion.record()?;
+            let moved = floor.motion(&motion.acceleration_m_s2, motion.dt_s, self.damping);
             let moved: Vec<f32> = moved.iter().map(|&a| a as f32).collect();
             let written: Vec<f64> = moved.iter().map(|&a| f64::from(a)).collect();
-            measured.push(plan.measure(&written, dt_s, transforms));
+            measured.push(plan.measure(&written, motion.dt_s, transforms));
             filtered.push(moved);
+            floors.push(FloorRow {
+                suite: motion.suite.unwrap_or("record".to_string()) + Suite::ON_FLOOR,
+                floor_period_s: self.period,
+                floor_level: self.level,
+            });
         }
-        let floors = columns.texts("suite")?.into_iter().map(|suite| FloorRow {
-            suite: suite.unwrap_or(Cow::Borrowed("record")).into_owned() + Suite::ON_FLOOR,
-            floor_period_s: self.period,
-            floor_level: self.level,
-        });
-        let floors: Vec<FloorRow> = floors.collect();
         let known = [others(&columns.rows)?, rows::batch(&floors)?, rows::batch(&measured)?];
         batch(&known, &plan.sa_periods_s, measured.iter().zip(filtered.iter().map(Vec::as_slice)))
     }

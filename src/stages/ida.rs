@@ -164,9 +164,8 @@ impl Ida {
         some: Sampled,
         scratch: &mut Transforms,
     ) -> anyhow::Result<Analysed> {
-        let motions = some.motions()?;
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
-        for motion in &motions {
+        for motion in &some.motions {
             let record = motion.record()?;
             let measures = Measures::new(motion, &record, scratch);
             warned.extend(warnings(motion, &record));

@@ -180,7 +180,7 @@ impl Simulate {
 
     /// Runs all structures on some motions, while these are at hand.
     fn respond(&self, some: Sampled, plan: &Plan, scratch: &mut Transforms) -> anyhow::Result<Responded> {
-        let motions = some.motions()?;
+        let motions = some.motions;
         let records = motions.iter().map(Motion::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);
         let problems = pairs.clone().flat_map(|(motion, &record)| {

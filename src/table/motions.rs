@@ -49,7 +49,10 @@ pub struct Motion {
 
 impl Motion {
     pub fn record(&self) -> Result<Record<'_>, TableError> {
-        record(&self.path, self.row, &self.acceleration_m_s2, self.dt_s)
+        Record::new(&self.acceleration_m_s2, self.dt_s).map_err(|problem| {
+            let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
+            TableError::value(&self.path, self.row, column, problem)
+        })
     }
 
     /// A problem with its samples.
@@ -59,22 +62,10 @@ impl Motion {
     }
 }
 
-/// Some motions: their samples, and the other columns that were wanted.
+/// Some motions, and the columns that were wanted but for the samples.
 pub struct Sampled {
     pub columns: Batch,
-    pub samples: Vec<Vec<f64>>,
-}
-
-impl Sampled {
-    /// The motions as rows.
-    pub fn motions(self) -> Result<Vec<Motion>, TableError> {
-        let mut motions = rows::from_batch::<Motion>(&self.columns)?;
-        for ((place, motion), samples) in motions.iter_mut().enumerate().zip(self.samples) {
-            motion.acceleration_m_s2 = samples;
-            (motion.path, motion.row) = (self.columns.path.to_path_buf(), self.columns.first_row + place);
-        }
-        Ok(motions)
-    }
+    pub motions: Vec<Motion>,
 }
 
 /// Some motions at a time of a part of a motions table, read when it is called.
@@ -123,20 +114,12 @@ fn read(
         let samples = columns.lists(ACCELERATION)?;
         let place = columns.rows.schema().index_of(ACCELERATION);
         place.iter().for_each(|place| drop(columns.rows.remove_column(*place)));
-        Ok(Sampled { columns, samples })
-    })
-}
-
-/// The record of samples in a row of the file at `path`.
-pub fn record<'a>(
-    path: &Path,
-    row: usize,
-    acceleration_m_s2: &'a [f64],
-    dt_s: f64,
-) -> Result<Record<'a>, TableError> {
-    Record::new(acceleration_m_s2, dt_s).map_err(|problem| {
-        let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
-        TableError::value(path, row, column, problem)
+        let mut motions = rows::from_batch::<Motion>(&columns)?;
+        for ((row, motion), samples) in (columns.first_row..).zip(&mut motions).zip(samples) {
+            motion.acceleration_m_s2 = samples;
+            (motion.path, motion.row) = (columns.path.to_path_buf(), row);
+        }
+        Ok(Sampled { columns, motions })
     })
 }
 

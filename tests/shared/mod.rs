@@ -19,7 +19,7 @@ pub fn rows<T: DeserializeOwned>(name: &str) -> Vec<T> {
 pub fn motions(path: &Path) -> Vec<Motion> {
     let table = open(path, None).unwrap();
     let read = parts(&table, is_of_motion, 64).flat_map(|part| part().unwrap());
-    read.flat_map(|some| some.motions().unwrap()).collect()
+    read.flat_map(|some| some.motions).collect()
 }
 
 /// The sixty synthetic motions of the references.

@@ -19,7 +19,7 @@ use crate::table::TableError;
 use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
-use crate::table::motions::{self, Motion, Sampled, is_of_motion};
+use crate::table::motions::{self, Motion, is_of_motion};
 use crate::table::provenance::{Provenance, joined};
 use crate::table::responses::TraceRow;
 use crate::table::rows::{self, Row};
@@ -276,7 +276,7 @@ impl Tables {
         let middle = table.rows() / MOTIONS_IN_GROUP / 2;
         let parts = || motions::parts(&table, is_of_motion, MOTIONS_IN_GROUP);
         let some = parts().nth(middle).or_else(|| parts().next()).map(|part| part()).transpose()?;
-        some.into_iter().flatten().next().map_or(Ok(Vec::new()), Sampled::motions)
+        Ok(some.into_iter().flatten().next().map_or(Vec::new(), |some| some.motions))
     }
 }
 

@@ -120,15 +120,14 @@ impl Models {
     /// named; without one, the surface, with a warning if there are fits.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
-        let fitted = self.rows_for(structure)?;
-        if fitted.is_empty() && model == ModelName::Paper {
-            let (folder, name, names) = (self.folder(), &structure.name, self.names());
-            bail!(
-                "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of {names} \
-                 by --name"
-            );
-        }
-        if fitted.is_empty() {
+        let Some(overturning) = self.fit(structure)? else {
+            if model == ModelName::Paper {
+                let (folder, name, names) = (self.folder(), &structure.name, self.names());
+                bail!(
+                    "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of \
+                     {names} by --name"
+                );
+            }
             let all: Vec<&Calibration> = self.overturning.iter().collect();
             let kind = match suite {
                 Some(kind) => kind,
@@ -137,8 +136,7 @@ impl Models {
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
-        }
-        let overturning = self.row_of_kind(&fitted)?;
+        };
         let exceeding = self.exceeding(overturning, structure)?;
         let model = match model {
             ModelName::Calibrated => {
@@ -204,17 +202,30 @@ impl Models {
         self.refuse(&format!("no structure '{name}'; expected one of {}", self.names()))
     }
 
-    /// The rows of the structure that is named, or else is like one, under one name.
-    fn rows_for(&self, structure: &Structure) -> anyhow::Result<Vec<&Calibration>> {
+    /// The fit of the structure that is named, or else is like one, to its kind of motion.
+    fn fit(&self, structure: &Structure) -> anyhow::Result<Option<&Calibration>> {
         let name = self.args.name.as_ref().or_else(|| {
             let is_like = |row: &&Calibration| row.is_of_outcomes() || structure.is_like(&structure_of(row));
             let mut like = self.overturning.iter().filter(is_like);
             let row = like.clone().find(|row| row.structure == structure.name).or_else(|| like.next());
             row.map(|row| &row.structure)
         });
-        let Some(name) = name else { return Ok(Vec::new()) };
-        let rows: Vec<&Calibration> = self.overturning.iter().filter(|row| row.structure == *name).collect();
-        if rows.is_empty() { Err(self.not_fitted(name)) } else { Ok(rows) }
+        let Some(name) = name else { return Ok(None) };
+        let mut rows: Vec<&Calibration> = self.overturning.iter().collect();
+        rows.retain(|row| row.structure == *name);
+        if rows.is_empty() {
+            return Err(self.not_fitted(name));
+        }
+        let kind = self.kind(&rows)?;
+        rows.retain(|row| row.kind == kind);
+        match rows.iter().find(|row| row.suite != rows[0].suite) {
+            None => Ok(Some(rows[0])),
+            Some(other) => Err(self.refuse(&format!(
+                "fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
+                suite_name(&rows[0].suite),
+                suite_name(&other.suite)
+            ))),
+        }
     }
 
     /// Returns the requested kind of motion, or the only one of rows.
@@ -228,20 +239,6 @@ impl Models {
             Some(kind) => Err(self.refuse(&format!("no fits of {kind}, only of {names}"))),
             None if kinds.len() == 1 => Ok(rows[0].kind),
             None => Err(self.refuse(&format!("fits of {names}; expected --suite with one of them"))),
-        }
-    }
-
-    /// Returns the row of this kind of motion.
-    fn row_of_kind<'a>(&self, rows: &[&'a Calibration]) -> anyhow::Result<&'a Calibration> {
-        let kind = self.kind(rows)?;
-        let rows: Vec<&Calibration> = rows.iter().filter(|row| row.kind == kind).copied().collect();
-        match rows.iter().find(|row| row.suite != rows[0].suite) {
-            None => Ok(rows[0]),
-            Some(other) => Err(self.refuse(&format!(
-                "fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
-                suite_name(&rows[0].suite),
-                suite_name(&other.suite)
-            ))),
         }
     }
 

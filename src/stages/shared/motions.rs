@@ -1,6 +1,5 @@
 //! Motions as simulate and ida take them: as records, with their measures, under distinct names.
 
-use std::borrow::Cow;
 use std::collections::HashSet;
 
 use rayon::prelude::*;
@@ -31,8 +30,8 @@ pub fn each<'a, T: Send>(
         batches(parts.map(anyhow::Ok), PARTS_A_THREAD * rayon::current_num_threads()),
         |part| {
             let done = part()?.into_par_iter().map(|some| {
-                let (path, ids) = (some.columns.path.clone(), some.columns.required_texts("motion_id")?);
-                let ids: Vec<String> = ids.into_iter().map(Cow::into_owned).collect();
+                let ids: Vec<String> = some.motions.iter().map(|motion| motion.motion_id.clone()).collect();
+                let path = some.columns.path.clone();
                 bar.advance(ids.len())?;
                 Ok((path, ids, pool.with(|scratch| work(some, scratch))?))
             });
