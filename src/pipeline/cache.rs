@@ -79,7 +79,7 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
 /// is no table is checked when it is written.
 fn expect_replaceable(out: &Path, plan: &Plan, force: bool) -> anyhow::Result<()> {
     let Ok(real) = out.canonicalize() else { return Ok(()) };
-    let mut read = plan.files.iter().map(|file| split_sheet(&file.path).0);
+    let mut read = plan.made.inputs.values().flatten().map(|file| split_sheet(&file.path).0);
     let is_read = read.any(|path| path.canonicalize().is_ok_and(|path| path == real));
     let problem = match () {
         _ if is_read => "is read and cannot be written too",

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::Stage;
-use super::context::{Common, Plan, PlannedFile, modified_at};
+use super::context::{Common, Plan};
 use super::paths::Read;
 use crate::table::TableError;
 use crate::table::file::{self, is_table};
@@ -27,23 +27,17 @@ pub struct Call {
 impl Call {
     /// Plans the call. `planned` has the keys of files not yet written.
     pub fn plan(&self, planned: &Planned) -> Result<Plan, TableError> {
-        let mut plan = Plan {
-            made: Provenance::new(&self.name, self.options.clone()),
-            files: Vec::new(),
-            outputs: self.stage.outputs(),
-        };
+        let made = Provenance::new(&self.name, self.options.clone());
+        let mut plan = Plan { made, outputs: self.stage.outputs() };
         for read in self.stage.inputs() {
             let files = read.files(&plan.outputs, planned)?;
             let inputs = plan.made.inputs.entry(read.flag.to_string()).or_default();
             for (path, name) in files.iter().zip(names_below(&files)) {
-                let modified = modified_at(path);
-                let (file, modified) = match planned.get(&resolved(path)) {
+                inputs.push(match planned.get(&resolved(path)).cloned() {
                     // Another run may have replaced it already: its time says nothing.
-                    Some(key) => (InputFile { name, key: key.clone(), whole: None }, None),
-                    None => (read_file(path, name)?, modified),
-                };
-                plan.files.push(PlannedFile { path: path.clone(), key: file.key.clone(), modified });
-                inputs.push(file);
+                    Some(key) => InputFile { name, key, path: path.clone(), ..InputFile::default() },
+                    None => read_file(path, name)?,
+                });
             }
         }
         plan.made.inputs.retain(|_, files| !files.is_empty());
@@ -53,7 +47,7 @@ impl Call {
 
 impl Read {
     /// Returns the files, without `outputs` and with the `planned` ones that are not there yet.
-    pub fn files(&self, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<PathBuf>, TableError> {
+    fn files(&self, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<PathBuf>, TableError> {
         let outputs: Vec<PathBuf> = outputs.iter().map(|path| resolved(path)).collect();
         let mut files = Vec::new();
         for path in &self.paths {

@@ -4,7 +4,6 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
 
 use arrow_schema::SchemaRef;
 use clap::Args;
@@ -14,9 +13,9 @@ use rayon::ThreadPoolBuilder;
 use super::options::{UsageError, number};
 use crate::keyword::keywords;
 use crate::table::TableError;
-use crate::table::keys::{read_file, resolved};
+use crate::table::keys::{modified_at, read_file, resolved};
 use crate::table::marks::is_ours;
-use crate::table::provenance::Provenance;
+use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{TableWriter, Written};
 use crate::warning::Warnings;
@@ -74,21 +73,7 @@ keywords! {
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     pub made: Provenance,
-    /// The files to read.
-    pub files: Vec<PlannedFile>,
     pub outputs: Vec<PathBuf>,
-}
-
-/// A file to read, with the key of its content and when it was last changed, if that tells anything.
-#[derive(Debug, Clone)]
-pub struct PlannedFile {
-    pub path: PathBuf,
-    pub key: String,
-    pub modified: Option<SystemTime>,
-}
-
-pub fn modified_at(path: &Path) -> Option<SystemTime> {
-    path.metadata().and_then(|found| found.modified()).ok()
 }
 
 impl Plan {
@@ -207,7 +192,7 @@ impl Context {
 
     /// Checks that no input was changed since the plan was made.
     pub fn expect_unchanged(&self) -> Result<(), TableError> {
-        for PlannedFile { path, key, modified } in &self.plan.files {
+        for InputFile { path, key, modified, .. } in self.plan.made.inputs.values().flatten() {
             if modified_at(path) != *modified && read_file(path, String::new())?.key != *key {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use super::TableError;
 use super::file::{self, is_table};
@@ -67,10 +68,13 @@ pub fn key_of(path: &Path) -> Result<String, TableError> {
 /// Computes the key of the content of a file that has this name among those read: the one in its footer if
 /// rockfrag wrote it, else the hash of its bytes.
 pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
+    let mut file = InputFile { name, path: path.to_path_buf(), ..InputFile::default() };
+    file.modified = modified_at(path);
     if is_table(path)
         && let Ok(Some(made)) = Provenance::read(path)
     {
-        return Ok(InputFile { name, key: made.key(), whole: made.partition().map(|_| made.whole()) });
+        (file.key, file.whole) = (made.key(), made.partition().map(|_| made.whole()));
+        return Ok(file);
     }
     let mut hasher = blake3::Hasher::new();
     let hashed = match source::is_pipe(path) || path == Path::new("-") {
@@ -80,5 +84,10 @@ pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
         }
     };
     hashed.map_err(|error| TableError::io(path, error))?;
-    Ok(InputFile { name, key: hasher.finalize().to_hex().to_string(), whole: None })
+    file.key = hasher.finalize().to_hex().to_string();
+    Ok(file)
+}
+
+pub fn modified_at(path: &Path) -> Option<SystemTime> {
+    path.metadata().and_then(|found| found.modified()).ok()
 }

@@ -1,10 +1,12 @@
 //! Provenance of a file: JSON in the footer of a table, or in the first lines of a page or figure.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::SystemTime;
 
 use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::warning::Warnings;
 
@@ -18,7 +20,7 @@ pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 /// A hash of the sources and data of this program.
 const PROGRAM: &str = env!("ROCKFRAG_PROGRAM");
 
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Provenance {
     pub stage: String,
@@ -45,8 +47,8 @@ pub fn is_ours(footer: &FileMetaData) -> bool {
     footer.created_by().is_some_and(|program| program.starts_with("rockfrag "))
 }
 
-/// A file that was read.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A file that is read.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct InputFile {
     /// Its name, below the innermost folder that has all files of its flag.
     pub name: String,
@@ -55,6 +57,11 @@ pub struct InputFile {
     /// If it is a part of a table, the key of the whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole: Option<String>,
+    #[serde(skip)]
+    pub path: PathBuf,
+    /// When it was last changed, if that tells anything.
+    #[serde(skip)]
+    pub modified: Option<SystemTime>,
 }
 
 /// Returns the key of the files that are one input: that of a single file, else a hash of all.
@@ -104,7 +111,7 @@ impl Provenance {
     pub fn whole(&self) -> String {
         let options: Vec<_> = self.arguments.iter().filter(|(flag, _)| *flag != "partition").collect();
         let inputs = self.inputs.iter().map(|(flag, files)| {
-            let files = files.iter().map(|InputFile { name, key, whole }| match whole {
+            let files = files.iter().map(|InputFile { name, key, whole, .. }| match whole {
                 Some(whole) => whole.clone(),
                 None => format!("{name} {key}"),
             });
@@ -164,8 +171,9 @@ impl Provenance {
                 [self, now].map(|made| made.arguments.get(name).map_or("nothing".to_string(), text_of));
             return Some(format!("--{name} changed from {before} to {now}"));
         }
-        let names = now.inputs.keys().chain(self.inputs.keys());
-        let other = names.into_iter().find(|name| self.inputs.get(*name) != now.inputs.get(*name));
+        let [before, now] = [self, now].map(|made| serde_json::json!(made.inputs));
+        let mut names = now.as_object().into_iter().chain(before.as_object()).flat_map(Map::keys);
+        let other = names.find(|name| before.get(*name) != now.get(*name));
         other.map(|name| format!("what --{name} reads changed"))
     }
 }

@@ -14,7 +14,6 @@ use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
 use crate::motion::MeasurePlan;
-use crate::pipeline::call::Planned;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
@@ -107,7 +106,9 @@ pub struct ImportMotions {
 
 impl Stage for ImportMotions {
     fn inputs(&self) -> Vec<Read> {
-        vec![self.records(), Read::new("about", self.about.iter().map(|path| &**path))]
+        let records = Read::new("files", self.files.iter().map(|path| &**path));
+        let about = Read::new("about", self.about.iter().map(|path| &**path));
+        vec![Read { whole_folders: true, ..records }, about]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -130,8 +131,8 @@ impl Stage for ImportMotions {
         context.warn(unused.collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
-        let files = self.records().files(&self.outputs(), &Planned::new())?;
-        let files = importer::named(files);
+        let files = context.made().inputs.get("files").into_iter().flatten();
+        let files = importer::named(files.map(|file| file.path.clone()).collect());
         let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
@@ -183,10 +184,6 @@ fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBat
 }
 
 impl ImportMotions {
-    fn records(&self) -> Read {
-        Read { whole_folders: true, ..Read::new("files", self.files.iter().map(|path| &**path)) }
-    }
-
     fn processing(&self) -> anyhow::Result<Processing> {
         let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
             (Some(factors), ..) if factors.0.iter().any(|factor| *factor <= 0.0) => {
