@@ -174,12 +174,11 @@ impl Cases {
 
     /// Returns the cases that have all measures and a `y`.
     pub fn sample<Y>(&self, measures: &[Measure], y: impl Fn(&Case) -> Option<Y>) -> Sample<Y> {
-        let nothing = Range { low: f64::INFINITY, high: f64::NEG_INFINITY };
         let mut sample = Sample {
             ln_im: vec![Vec::new(); measures.len()],
             y: Vec::new(),
             clusters: Vec::new(),
-            ranges: vec![nothing; measures.len()],
+            ranges: vec![Range::over([]); measures.len()],
         };
         for case in &self.all {
             let Some(observed) = y(case) else { continue };

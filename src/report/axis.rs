@@ -2,9 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use super::figure::{Axis, Panel, Scale, Span};
+use super::figure::{Axis, Panel, Scale};
 use super::text::minus;
 use crate::number;
+use crate::statistics::Range;
 
 /// An axis with a range.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,31 +43,30 @@ impl Panel {
             y.push(mark.y);
             if self.names().is_empty() { &mut y } else { &mut x }.extend([mark.low, mark.high]);
         }
-        [Ruler::new(&self.x, &x), Ruler::new(&self.y, &y)]
+        [Ruler::new(&self.x, x), Ruler::new(&self.y, y)]
     }
 }
 
 impl<'a> Ruler<'a> {
-    fn new(axis: &'a Axis, values: &[f64]) -> Ruler<'a> {
+    fn new(axis: &'a Axis, mut values: Vec<f64>) -> Ruler<'a> {
         let scale = &axis.scale;
-        let is_log = *scale == Scale::Log;
         let (least, most) = SHOWN.into_inner();
-        let usable = values.iter().filter(|value| value.abs() <= most && (!is_log || **value >= least));
-        let Span { low, high } = Span::from_values(usable.copied());
+        values.retain(|value| value.abs() <= most && (*scale != Scale::Log || *value >= least));
+        let Range { low, high } = Range::over(values);
         let (low, high) = match (axis.range, scale) {
             (Some(given), _) if given.low < given.high && given.high <= most => (given.low, given.high),
             (_, Scale::Names(names)) => (names.len() as f64 - 0.5, -0.5),
             _ if low > high => (1.0, 10.0),
-            (_, Scale::Log) if high / low > 1.0 + NARROWEST => {
-                let margin = (high / low).powf(MARGIN);
+            (_, Scale::Log) => {
+                let is_wide = high / low > 1.0 + NARROWEST;
+                let margin = if is_wide { (high / low).powf(MARGIN) } else { 2.0 };
                 (low / margin, high * margin)
             }
-            (_, Scale::Log) => (0.5 * low, 2.0 * low),
-            _ if high - low > (NARROWEST * low.abs().max(high.abs())).max(least) => {
-                let margin = MARGIN * (high - low);
+            (_, Scale::Linear) => {
+                let is_wide = high - low > (NARROWEST * low.abs().max(high.abs())).max(least);
+                let margin = if is_wide { MARGIN * (high - low) } else { 1.0 + 0.1 * low.abs() };
                 (low - margin, high + margin)
             }
-            _ => (low - 1.0 - 0.1 * low.abs(), low + 1.0 + 0.1 * low.abs()),
         };
         Ruler { scale, low, high }
     }
@@ -85,7 +85,7 @@ impl<'a> Ruler<'a> {
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
-            _ => (value - self.low) / (self.high - self.low),
+            _ => (value - self.low) / self.length(),
         }
     }
 
@@ -125,8 +125,8 @@ impl<'a> Ruler<'a> {
         let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
         let label = if as_powers { power_of_ten } else { number::plain };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
-        let shown = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
-        let minor = self.in_decades(shown, 1).into_iter().filter(|value| !labelled.contains(value));
+        let factors = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
+        let minor = self.in_decades(factors, 1).into_iter().filter(|value| !labelled.contains(value));
         let minor = minor.map(|value| Tick { value, label: None });
         labelled.iter().map(|&value| Tick { value, label: Some(label(value)) }).chain(minor).collect()
     }

@@ -112,6 +112,29 @@ fn with_text(png: &[u8], text: &str) -> Vec<u8> {
     [&png[..HEAD], &length, &content, &sum, &png[HEAD..]].concat()
 }
 
+/// Draws all panels in rows below one legend, so wide; returns the height too.
+fn drawn(figure: &Figure, width: f64) -> (String, f64) {
+    let mut pen = Pen::default();
+    let across = width / figure.columns.max(1) as f64;
+    let mut top = pen.legend(&legend_entries(figure), width);
+    for row in figure.panels.chunks(figure.columns.max(1)) {
+        let rooms: Vec<Rooms> = row.iter().map(|panel| Rooms::new(panel, figure, across)).collect();
+        let above = rooms.iter().map(|rooms| rooms.above).fold(0.0, f64::max);
+        for (column, (panel, rooms)) in row.iter().zip(&rooms).enumerate() {
+            let area = Area {
+                left: column as f64 * across + rooms.left,
+                top: top + above,
+                width: across - rooms.left - rooms.right,
+                height: rooms.height,
+            };
+            pen.panel(panel, area, above);
+        }
+        top += above + rooms.iter().map(|rooms| rooms.height).fold(0.0, f64::max);
+        top += rooms.iter().map(|rooms| rooms.below).fold(0.0, f64::max);
+    }
+    (pen.text, round(top.max(1.0)))
+}
+
 /// The area of the data of a panel.
 #[derive(Debug, Clone, Copy)]
 struct Area {
@@ -121,79 +144,50 @@ struct Area {
     height: f64,
 }
 
-/// Draws all panels in rows below one legend, so wide; returns the height too.
-fn drawn(figure: &Figure, width: f64) -> (String, f64) {
-    let mut pen = Pen::default();
-    let columns = figure.columns.max(1);
-    let across = width / columns as f64;
-    let mut top = pen.legend(&legend_entries(figure), width);
-    for row in figure.panels.chunks(columns) {
-        let highest = row.iter().map(|panel| own_height(panel, figure.height)).fold(0.0, f64::max);
-        let above = row.iter().map(head).fold(0.0, f64::max);
-        for (column, panel) in row.iter().enumerate() {
-            let room = side_rooms(panel, figure, across);
-            let (left, width) = (column as f64 * across + room.left, across - room.left - room.right);
-            let height = own_height(panel, figure.height);
-            pen.panel(panel, Area { left, top: top + above, width, height }, above);
-        }
-        top += above + highest + row.iter().map(foot).fold(0.0, f64::max);
-    }
-    (pen.text, round(top.max(1.0)))
-}
-
-/// The height of the area of the data; of a panel of names by their number.
-fn own_height(panel: &Panel, usual: f64) -> f64 {
-    if panel.names().is_empty() { usual } else { ROW * panel.names().len() as f64 }
-}
-
-/// The room above the area of the data.
-fn head(panel: &Panel) -> f64 {
-    let mut room = GAP;
-    for (is_there, height) in [
-        (!panel.title.is_empty(), TITLE),
-        (!panel.y.label.is_empty(), LABEL),
-        (panel.words.iter().any(|words| words.side == Side::Above), LABEL),
-    ] {
-        room += if is_there { height } else { 0.0 };
-    }
-    room
-}
-
-/// The room below it.
-fn foot(panel: &Panel) -> f64 {
-    match panel.frame {
-        Frame::ToScale => GAP,
-        Frame::Axes if panel.x.label.is_empty() => GAP,
-        Frame::Axes => BELOW,
-    }
-}
-
-/// The rooms to the left and the right of the data of a panel.
+/// The height of the area of the data of a panel, and the room around it.
 struct Rooms {
     left: f64,
     right: f64,
+    above: f64,
+    below: f64,
+    height: f64,
 }
 
-/// Finds the rooms for the names and words of rows if a panel has any: the same for all over the same axis.
-fn side_rooms(panel: &Panel, figure: &Figure, across: f64) -> Rooms {
-    let left = if panel.frame == Frame::ToScale { 4.0 } else { LEFT };
-    let mut rooms = Rooms { left, right: RIGHT };
-    if panel.names().is_empty() {
-        return rooms;
+impl Rooms {
+    fn new(panel: &Panel, figure: &Figure, across: f64) -> Rooms {
+        let is_to_scale = panel.frame == Frame::ToScale;
+        let has_words_above = panel.words.iter().any(|words| words.side == Side::Above);
+        let title = TITLE * f64::from(!panel.title.is_empty());
+        let labels = LABEL * f64::from(!panel.y.label.is_empty()) + LABEL * f64::from(has_words_above);
+        let mut rooms = Rooms {
+            left: if is_to_scale { 4.0 } else { LEFT },
+            right: RIGHT,
+            above: GAP + title + labels,
+            below: if is_to_scale || panel.x.label.is_empty() { GAP } else { BELOW },
+            height: figure.height,
+        };
+        if !panel.names().is_empty() {
+            rooms.height = ROW * panel.names().len() as f64;
+            // The names and words of rows have the same room in all panels over the same axis.
+            for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
+                let words = peer.words.iter().filter(|words| words.side == Side::Margin);
+                rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
+                rooms.left = peer.names().iter().map(|name| room(name)).fold(rooms.left, f64::max);
+            }
+            rooms.left = rooms.left.min(NAMES.min(0.46 * across));
+        }
+        rooms
     }
-    let room = |marked: &String| width(marked, SMALL) + 8.0;
-    for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
-        let words = peer.words.iter().filter(|words| words.side == Side::Margin);
-        rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
-        rooms.left = peer.names().iter().map(room).fold(rooms.left, f64::max);
-    }
-    rooms.left = rooms.left.min(NAMES.min(0.46 * across));
-    rooms
 }
 
 /// Estimates the width of marked text: the letters of its reader are not known.
 fn width(marked: &str, size: f64) -> f64 {
     words(marked).chars().count() as f64 * size * LETTER_WIDTH
+}
+
+/// The room for a name or words beside a row.
+fn room(marked: &str) -> f64 {
+    width(marked, SMALL) + 8.0
 }
 
 /// Cuts a name to the room for names.

@@ -1,7 +1,7 @@
 //! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
 use super::text::words;
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, Range};
 
 /// One picture: panels in rows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -51,7 +51,7 @@ pub struct Axis {
     /// Marked text; a horizontal axis without a label has ticks without numbers.
     pub label: String,
     pub scale: Scale,
-    pub range: Option<Span>,
+    pub range: Option<Range>,
 }
 
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -61,21 +61,6 @@ pub enum Scale {
     Log,
     /// Rows, from top to bottom, at 0, 1, 2 ...
     Names(Vec<String>),
-}
-
-/// All between two values.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Span {
-    pub low: f64,
-    pub high: f64,
-}
-
-impl Span {
-    /// Finds the least and the largest of values; of none, `low` is above `high`.
-    pub fn from_values(values: impl IntoIterator<Item = f64>) -> Span {
-        let none = Span { low: f64::INFINITY, high: f64::NEG_INFINITY };
-        values.into_iter().fold(none, |span, v| Span { low: span.low.min(v), high: span.high.max(v) })
-    }
 }
 
 /// Marks of one kind that belong together.
@@ -260,7 +245,7 @@ impl Axis {
     }
 
     pub fn over(self, low: f64, high: f64) -> Axis {
-        Axis { range: Some(Span { low, high }), ..self }
+        Axis { range: Some(Range { low, high }), ..self }
     }
 
     /// From 0 to 1, with room for dots at both ends.

@@ -1,7 +1,8 @@
 //! Probabilities of overturning in rows: names, values with their limits, words beside them, and a target.
 
-use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Span, Words};
+use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
 use crate::number::{Limited, OF_HUNDRED, PERCENT};
+use crate::statistics::Range;
 
 /// A row of a panel.
 pub struct Row {
@@ -54,7 +55,7 @@ pub fn panel(title: &str, when: &str, rows: &[Row], target: Option<f64>) -> Pane
             }
         }
     }
-    let Span { low, high } = Span::from_values(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
+    let Range { low, high } = Range::over(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
     let x = Axis::log(&format!("probability of overturning {when}, %"));
     let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));

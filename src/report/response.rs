@@ -1,12 +1,13 @@
 //! One response: rotation and ground motion over time, with its events; and the block as it moves.
 
-use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Span, Words};
+use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Words};
 use super::figures::common::called;
 use super::figures::envelope;
 use super::page::Page;
 use super::text::{escape, file_words, literal, words};
 use crate::number;
 use crate::rocking::{SolverEvent, Structure};
+use crate::statistics::Range;
 use crate::table::responses::TraceRow;
 use crate::units::G_M_S2;
 
@@ -77,7 +78,7 @@ impl Trace {
 
     /// What the pictures show.
     fn caption(&self) -> String {
-        let Span { low, high } = self.span();
+        let Range { low, high } = self.span();
         let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
         format!(
             "A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
@@ -86,14 +87,14 @@ impl Trace {
     }
 
     /// From when to when something happens, s.
-    fn span(&self) -> Span {
+    fn span(&self) -> Range {
         let mut events = self.0.iter().filter(|point| point.solver_event.is_some()).map(|point| point.time_s);
         let end = self.0.last().map_or(0.0, |point| point.time_s);
-        let Some(first) = events.next() else { return Span { low: 0.0, high: end.min(10.0) } };
+        let Some(first) = events.next() else { return Range { low: 0.0, high: end.min(10.0) } };
         let moving = self.0.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
         let last =
             events.next_back().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
-        Span { low: (first - AROUND_S).max(0.0), high: (last + AROUND_S).min(end) }
+        Range { low: (first - AROUND_S).max(0.0), high: (last + AROUND_S).min(end) }
     }
 }
 
@@ -102,7 +103,7 @@ impl Trace {
 pub fn figure(response: &Trace, id: usize) -> Figure {
     let samples: Vec<&TraceRow> = response.0.iter().filter(|point| point.solver_event.is_none()).collect();
     let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
-    let Span { low, high } = response.span();
+    let Range { low, high } = response.span();
     let line = |ink: Ink, value: fn(&TraceRow) -> f64| {
         let values: Vec<f64> = samples.iter().map(|point| value(point)).collect();
         let marks = envelope(&values, dt_s, VALUES);
@@ -210,7 +211,7 @@ fn moving(response: &Trace, id: usize) -> String {
 }
 
 /// The rotation at equal times, degrees.
-fn turns(response: &Trace, Span { low, high }: Span) -> Vec<f64> {
+fn turns(response: &Trace, Range { low, high }: Range) -> Vec<f64> {
     let pictures = (PICTURES_A_SECOND * (high - low)).clamp(1.0, MOST_PICTURES).ceil();
     let alpha = response.0[0].alpha_rad.to_degrees();
     let turn = |picture: i32| {

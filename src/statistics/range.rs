@@ -14,6 +14,12 @@ pub struct Range {
 const UNSEEN: f64 = 1e-5;
 
 impl Range {
+    /// Finds the least and the largest of values; of none, `low` is infinite and `high` is less.
+    pub fn over(values: impl IntoIterator<Item = f64>) -> Range {
+        let none = Range { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        values.into_iter().fold(none, |range, value| range.with(value))
+    }
+
     /// Returns whether a positive value is within it, as printed.
     pub fn has(&self, value: f64) -> bool {
         (self.low * (1.0 - UNSEEN)..=self.high * (1.0 + UNSEEN)).contains(&value)

@@ -12,10 +12,10 @@ use rockfrag::report::figures::common::{observed_shares, ratio_bins};
 use rockfrag::report::figures::*;
 use rockfrag::report::fragility;
 use rockfrag::report::response::{self, Trace};
-use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Span, Table, png, svg};
+use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list, object};
 use rockfrag::rocking::{Outcome, SolverEvent, Structure};
-use rockfrag::statistics::Estimate;
+use rockfrag::statistics::{Estimate, Range};
 use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use rockfrag::table::motions::Motion;
@@ -275,7 +275,7 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 #[test]
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
-    let shares = observed_shares(&cases, ratio_bins(Span { low: 1.0, high: 100.0 }, 4));
+    let shares = observed_shares(&cases, ratio_bins(Range { low: 1.0, high: 100.0 }, 4));
     let first = Mark { n: 3.0, ..Mark::estimate(5.5 / 3.0, observed_share(2, 3)) };
     let last = Mark { n: 2.0, ..Mark::estimate(95.0, observed_share(1, 2)) };
     assert_eq!(shares, [first, last]);

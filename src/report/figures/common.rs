@@ -4,9 +4,10 @@ use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandMode
 use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::number;
+use crate::report::Mark;
 use crate::report::text::literal;
-use crate::report::{Mark, Span};
 use crate::rocking::Structure;
+use crate::statistics::Range;
 use crate::studies::observed_share;
 use crate::table::capacities::ScaledMeasure;
 use crate::warning::UNNAMED;
@@ -146,7 +147,7 @@ pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec
 }
 
 /// Bins of equal ratio within a span, for [`observed_shares`].
-pub fn ratio_bins(Span { low, high }: Span, count: usize) -> impl Fn(f64) -> usize {
+pub fn ratio_bins(Range { low, high }: Range, count: usize) -> impl Fn(f64) -> usize {
     let ratio = (high / low).ln().max(f64::MIN_POSITIVE);
     move |value| (((value / low).ln() / ratio * count as f64) as usize).min(count - 1)
 }

@@ -7,8 +7,9 @@ use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_d
 use crate::keyword::Keyword;
 use crate::number;
 use crate::report::text::file_words;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape, Span};
+use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
 use crate::rocking::Structure;
+use crate::statistics::Range;
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;
@@ -77,7 +78,7 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         let points: Vec<Mark> = demands(cases)
             .filter_map(|(case, edp)| Some(Mark::new(measure.value_of(&case.measures)?, edp)))
             .collect();
-        let Span { low, high } = Span::from_values(points.iter().map(|point| point.x));
+        let Range { low, high } = Range::over(points.iter().map(|point| point.x));
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];
         let mut title = upper_case(measure);
         if let Some(fit) = fit.filter(|_| low < high) {
@@ -108,7 +109,7 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     for (title, label, value) in qualities.into_iter().filter(|_| !groups.is_empty()) {
         let values: Vec<_> =
             groups.iter().map(|cases| power_laws(fits, cases).map(|fit| fit.and_then(value))).collect();
-        let all = Span::from_values(values.iter().flatten().flatten().copied());
+        let all = Range::over(values.iter().flatten().flatten().copied());
         let mut layers = Vec::new();
         for (number, (cases, values)) in groups.iter().zip(values).enumerate() {
             let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;

@@ -3,7 +3,8 @@
 use super::common::{Fits, called, name, rocked};
 use crate::fragility::{Calibration, Cases, Kind, Scenarios};
 use crate::motion::{IntensityMeasures, Peaks};
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::statistics::Range;
 use crate::statistics::numerics::{equal_ratios, first};
 use crate::units::G_M_S2;
 
@@ -29,10 +30,10 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
         let its = its.map(|(case, _)| Mark::new(case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s));
         layers.push(Layer::points(label, ink, its));
     }
-    let all = Span::from_values(cases.all.iter().map(|case| case.peaks.pga_m_s2));
-    let pga = Span { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
-    let pgv = Span::from_values(cases.all.iter().map(|case| case.peaks.pgv_m_s));
-    let pgv = Span { high: 1.5 * pgv.high, ..pgv };
+    let all = Range::over(cases.all.iter().map(|case| case.peaks.pga_m_s2));
+    let pga = Range { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
+    let pgv = Range::over(cases.all.iter().map(|case| case.peaks.pgv_m_s));
+    let pgv = Range { high: 1.5 * pgv.high, ..pgv };
     for (level, dash) in LEVELS {
         let line = line(fits, cases, level, pga, pgv);
         layers.push(Layer::new(&format!("probability {level}"), Ink::Text, Shape::Line(dash), line));
@@ -46,7 +47,7 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 
 /// The motions under which a structure overturns with this probability, within these PGA and PGV (m/s2 and
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
-fn line(fits: &Fits, cases: &Cases, level: f64, pga: Span, pgv: Span) -> Vec<Mark> {
+fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<Mark> {
     let structure = &cases.structure;
     let shipped = || Calibration::shipped(Kind::from_suite(cases.suite.as_deref()), structure, None);
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);

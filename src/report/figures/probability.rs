@@ -5,10 +5,10 @@ use super::common::{observed_shares, ratio_bins, rocked};
 use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
 use crate::number;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape, Span};
-use crate::statistics::Estimate;
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
 use crate::statistics::numerics::equal_ratios;
 use crate::statistics::scores::sample_quantile;
+use crate::statistics::{Estimate, Range};
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;
@@ -109,7 +109,7 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
 fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
     let mut im3 = Vec::new();
-    let mut span = Span { low: 1.0, high: 1.5 };
+    let mut span = Range { low: 1.0, high: 1.5 };
     for cases in groups {
         for (case, _) in demands(cases) {
             im3.extend(case.measures.im3);
@@ -124,15 +124,15 @@ fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
     Over { measure: label(Measure::Im4), structures: structures.collect() }
 }
 
-fn exceeding_curves(fits: &Fits, cases: &Cases, span: Span, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
+fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
     let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
     let mut curves = Vec::new();
     for share in SHARES {
         let im3 = sample_quantile(im3.to_vec(), share);
         let transition = planes.last().and_then(|plane| plane.range_low);
         let Some((im3, transition)) = im3.zip(transition) else { continue };
-        let below = Span { high: transition * (1.0 - 1e-9), ..span };
-        let above = Span { low: transition, ..span };
+        let below = Range { high: transition * (1.0 - 1e-9), ..span };
+        let above = Range { low: transition, ..span };
         let im4 = equal_ratios(below.low, below.high, STEPS)
             .chain([f64::NAN])
             .chain(equal_ratios(above.low, above.high, STEPS));
@@ -162,7 +162,7 @@ fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measu
                 .collect();
             let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
             let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
-            let span = Span::from_values(observed.iter().map(|(value, _)| *value));
+            let span = Range::over(observed.iter().map(|(value, _)| *value));
             let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
             let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
             drawn.shares = observed_shares(&observed, bin);

@@ -3,8 +3,9 @@
 use super::common::{by, observed_shares, scaled_label, title};
 use crate::fragility::{Z_95, p_overturning};
 use crate::report::text::literal;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape, Span};
+use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
 use crate::rocking::CapacityStatus;
+use crate::statistics::Range;
 use crate::statistics::numerics::equal_ratios;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
@@ -33,7 +34,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 }
 
 fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
-    let span = Span {
+    let span = Range {
         low: levels.first().copied().unwrap_or(f64::NAN),
         high: levels.last().copied().unwrap_or(f64::NAN),
     };
