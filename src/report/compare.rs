@@ -174,7 +174,8 @@ fn tiles(before: &Evaluation, after: &Evaluation, when: &str, target: Option<f64
 
 fn table(pairs: &[Pair], when: &str) -> Table {
     let before = format!("before, % {when}");
-    let heads = ["object", "change", &before, "after, %", "95 % limits", "times as often", "95 % limits"];
+    let (after, times) = (["after, %", "after, 95 % limits"], ["times as often", "times, 95 % limits"]);
+    let heads = [&["object", "change", &before][..], &after, &times].concat();
     let rows = pairs.iter().map(|pair| {
         let [p, q] = [pair.before, pair.after].map(|rated| rated.row.p_overturning);
         vec![
