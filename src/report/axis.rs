@@ -121,8 +121,12 @@ impl<'a> Ruler<'a> {
             [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 3.0, 5.0], &[1.0, 2.0, 5.0], &[1.0, 3.0]];
         let dense = dense[if as_powers { 2 } else { 0 }..].iter().map(|factors| (*factors, 1));
         let choices = dense.chain([1, 2, 3, 5, 10, 20].map(|every| (&[1.0][..], every)));
-        let mut fitting = choices.map(|(factors, every)| self.in_decades(factors, every));
-        let labelled = fitting.find(|values| values.len() <= most).unwrap_or_default();
+        let mut fitting = choices.filter_map(|(factors, every)| {
+            // Whole decades have short labels, as wide apart as they can be.
+            let most = if factors == [1.0] && every == 1 { most + 1 } else { most };
+            Some(self.in_decades(factors, every)).filter(|values| values.len() <= most)
+        });
+        let labelled = fitting.next().unwrap_or_default();
         let label = if as_powers { power_of_ten } else { number::plain };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
         let factors = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
