@@ -1,6 +1,8 @@
 //! Drawing of figures: as SVG files in points of 1/72 inch and as PNG of them; as SVG in a page.
 
+use std::collections::HashSet;
 use std::fmt::Write;
+use std::slice;
 
 use super::axis::Ruler;
 use super::figure::{Dash, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side};
@@ -64,11 +66,21 @@ pub fn html_of_panels(figure: &Figure) -> String {
     // As high over its width as in the file.
     let across = PAGE_WIDTH * figure.columns.max(1) as f64 / FILE_WIDTH;
     let height = (figure.height * across).max(LEAST_HEIGHT);
-    let mut panels = String::new();
+    let (mut pen, mut shared, mut panels) = (Pen::default(), String::new(), String::new());
+    // A legend that all panels share stands above them.
+    let is_shared = figure.panels.windows(2).all(|pair| labels(&pair[0]) == labels(&pair[1]));
+    let is_shared = is_shared && figure.panels.len() > 1;
+    let above = if is_shared { pen.legend(legend(&figure.panels), PAGE_WIDTH) } else { 0.0 };
+    if above > 0.0 {
+        let (view, body) = (format!("0 0 {PAGE_WIDTH} {above}"), &pen.text);
+        shared = format!("<svg class=\"legend\" viewBox=\"{view}\" role=\"group\">\n{body}</svg>\n");
+    }
     for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
         let (name, caption) = (escape(&words(name)), html(&panel.caption));
-        let alone = Figure { columns: 1, height, panels: vec![panel.clone()], ..Figure::default() };
+        let mut panel = panel.clone();
+        panel.layers.iter_mut().filter(|_| is_shared).for_each(|layer| layer.label.clear());
+        let alone = Figure { columns: 1, height, panels: vec![panel], ..Figure::default() };
         let (body, height) = drawn(&alone, PAGE_WIDTH);
         panels += &format!(
             "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n\
@@ -76,7 +88,7 @@ pub fn html_of_panels(figure: &Figure) -> String {
         );
     }
     let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
-    Ink::in_page(format!("<div class=\"{class}\">\n{panels}</div>\n"))
+    Ink::in_page(format!("{shared}<div class=\"{class}\">\n{panels}</div>\n"))
 }
 
 /// Dots per inch of PNG files.
@@ -116,7 +128,7 @@ fn with_text(png: &[u8], text: &str) -> Vec<u8> {
 fn drawn(figure: &Figure, width: f64) -> (String, f64) {
     let mut pen = Pen::default();
     let across = width / figure.columns.max(1) as f64;
-    let mut top = pen.legend(&legend_entries(figure), width);
+    let mut top = pen.legend(legend(&figure.panels), width);
     for row in figure.panels.chunks(figure.columns.max(1)) {
         let rooms: Vec<Rooms> = row.iter().map(|panel| Rooms::new(panel, figure, across)).collect();
         let above = rooms.iter().map(|rooms| rooms.above).fold(0.0, f64::max);
@@ -201,19 +213,19 @@ fn shortened(name: &str, room: f64, size: f64) -> String {
 }
 
 /// One layer of each name, in the order in which they come.
-fn legend_entries(figure: &Figure) -> Vec<&Layer> {
-    let mut entries: Vec<&Layer> = Vec::new();
-    for layer in figure.panels.iter().flat_map(|panel| &panel.layers) {
-        if !layer.label.is_empty() && entries.iter().all(|entry| entry.label != layer.label) {
-            entries.push(layer);
-        }
-    }
-    entries
+fn legend(panels: &[Panel]) -> impl Iterator<Item = &Layer> {
+    let mut known = HashSet::new();
+    let layers = panels.iter().flat_map(|panel| &panel.layers);
+    layers.filter(move |layer| !layer.label.is_empty() && known.insert(&layer.label))
+}
+
+fn labels(panel: &Panel) -> Vec<&str> {
+    legend(slice::from_ref(panel)).map(|layer| layer.label.as_str()).collect()
 }
 
 impl Pen {
     /// Draws the legend in lines; returns where the first row of panels begins.
-    fn legend(&mut self, entries: &[&Layer], across: f64) -> f64 {
+    fn legend<'a>(&mut self, entries: impl Iterator<Item = &'a Layer>, across: f64) -> f64 {
         let left = 4.0;
         let (mut x, mut y) = (left, 11.0);
         for layer in entries {
@@ -225,7 +237,7 @@ impl Pen {
             self.label(Point::new(x + MARK + 3.0, y), LETTERS, "", Ink::Text, &layer.label);
             x += long + BETWEEN;
         }
-        if entries.is_empty() { 0.0 } else { y + 5.0 }
+        if x > left { y + 5.0 } else { 0.0 }
     }
 
     /// The mark of a layer in the legend, from this place to the right.
