@@ -3,7 +3,7 @@
 //! several channels, and velocity and displacement besides acceleration.
 
 use super::error::RecordFileError;
-use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit_of, words};
+use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit, unit_of, words};
 use crate::inputs::words::is_vertical;
 use crate::records::{HeaderPga, Origin, ReadOptions, RecordedMotion};
 
@@ -103,9 +103,9 @@ impl Channel<'_> {
         line: usize,
         options: &ReadOptions,
     ) -> Result<RecordedMotion, RecordFileError> {
-        let unit = unit_of(after(announcement, "units=").unwrap_or(""), line)?;
+        let unit = unit(Some(unit_of(after(announcement, "units=").unwrap_or(""), line)?), options, line)?;
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
-        let dt_s = time_step(step.or(options.dt_s), line)?;
+        let dt_s = time_step(step, options, line)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let peak = peak.map(|peak| peak.abs() * unit.si);

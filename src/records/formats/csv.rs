@@ -2,7 +2,7 @@
 //! units, time steps and quantities; options of the user must not contradict them.
 
 use super::error::RecordFileError;
-use super::header::{azimuth_of, expect_step, expect_unit, first_number, given_unit, time_step};
+use super::header::{self, azimuth_of, expect_step, first_number, time_step};
 use crate::inputs::words::{is_vertical, joined};
 use crate::inputs::{Grid, Heading};
 use crate::motion::measures::peak;
@@ -147,12 +147,11 @@ impl Samples<'_> {
             return Err(RecordFileError::Count { announced: 2, found: samples.len() });
         }
         let unit = self.unit(heading)?;
-        let dt_s = time_step(options.dt_s.or(found), line)?;
-        expect_step(options.dt_s, found.unwrap_or(dt_s), line)?;
+        let dt_s = time_step(found, options, line)?;
         let (name, direction) = (Some(&*heading.text).filter(|text| !text.is_empty()), direction(heading));
         let component = direction.or(name).map(str::to_string);
         let origin = Origin { component, azimuth_deg: direction.and_then(azimuth_of), ..Origin::default() };
-        Ok(RecordedMotion::new(dt_s, samples, unit, origin))
+        Ok(RecordedMotion::new(options.dt_s.unwrap_or(dt_s), samples, unit, origin))
     }
 
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
@@ -168,11 +167,10 @@ impl Samples<'_> {
                 let expected = "one of acceleration, such as cm/s2, without a factor, or --unit";
                 Err(RecordFileError::value(line, "unit", &heading.text, expected))
             }
-            None => given_unit(options, line),
             Some(unit) if unit.quantity != Quantity::Acceleration => {
                 Err(RecordFileError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
             }
-            Some(unit) => expect_unit(options.unit, unit, line).map(|()| unit),
+            found => header::unit(found, options, line),
         }
     }
 

@@ -2,8 +2,7 @@
 
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, field, given_unit, header_pga, number_field, numbers, samples, time_step, unit_of,
-    words,
+    after, azimuth_of, field, header_pga, number_field, numbers, samples, time_step, unit, unit_of, words,
 };
 use crate::records::{Origin, ReadOptions, RecordedMotion};
 use crate::units::Unit;
@@ -25,13 +24,10 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     {
         return Err(RecordFileError::NotAcceleration { line, found: kind.to_string() });
     }
-    let unit = match field(header, "UNITS:") {
-        Some((line, text)) => unit_of(text, line)?,
-        None => given_unit(options, end)?,
-    };
+    let units = field(header, "UNITS:").map(|(line, text)| unit_of(text, line));
+    let unit = unit(units.transpose()?, options, end)?;
     let step = number_field(header, "SAMPLING_INTERVAL_S:");
-    let (line, step) = step.map_or((end, options.dt_s), |(line, dt_s)| (line, Some(dt_s)));
-    let dt_s = time_step(step, line)?;
+    let dt_s = time_step(step.map(|(_, dt_s)| dt_s), options, step.map_or(end, |(line, _)| line))?;
     let expected = "the number of samples, such as 'NDATA: 18904'";
     let (_, announced) =
         number_field(header, "NDATA:").ok_or(RecordFileError::missing(end, "NDATA", expected))?;

@@ -10,21 +10,25 @@ const SAME_STEP: f64 = 0.01;
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
-/// Checks the time step (s) that a file says on a line, or the user.
-pub fn time_step(dt_s: Option<f64>, line: usize) -> Result<f64, RecordFileError> {
-    let field = "time step";
-    match dt_s {
-        None => Err(RecordFileError::missing(
-            line,
-            field,
-            "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005",
-        )),
-        Some(dt_s) if dt_s > 0.0 && dt_s <= LONGEST_STEP_S => Ok(dt_s),
-        Some(dt_s) => {
-            let found = format!("{dt_s} s");
-            Err(RecordFileError::value(line, field, &found, "one above 0 s and up to 10 s"))
-        }
+/// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
+pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64, RecordFileError> {
+    let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
+    let missing = RecordFileError::missing(line, "time step", expected);
+    let dt_s = found.or(options.dt_s).ok_or(missing)?;
+    if !(dt_s > 0.0 && dt_s <= LONGEST_STEP_S) {
+        let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
+        return Err(RecordFileError::value(line, "time step", &found, expected));
     }
+    expect_step(options.dt_s, dt_s, line)
+}
+
+/// Checks that a time step (s) is the given one.
+pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
+    let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
+    other.map_or(Ok(dt_s), |given| {
+        let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
+        Err(RecordFileError::Contradiction { line, field: "time step", found, given })
+    })
 }
 
 /// Reads the unit of acceleration at the start of a text on a line; more text may follow.
@@ -35,25 +39,12 @@ pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
     unit.ok_or_else(|| RecordFileError::value(line, "unit", text, expected))
 }
 
-/// Returns the given unit, for a file without one.
-pub fn given_unit(options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
+/// Returns the unit that a file says on a line, else the given one, which must not contradict it.
+pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
     let expected = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
-    options.unit.ok_or(RecordFileError::missing(line, "unit", expected))
-}
-
-/// Checks that a file has no other time step (s) than the given one.
-pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<(), RecordFileError> {
-    let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
-    other.map_or(Ok(()), |given| {
-        let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
-        Err(RecordFileError::Contradiction { line, field: "time step", found, given })
-    })
-}
-
-/// Checks that a file has no other unit than the given one.
-pub fn expect_unit(given: Option<Unit>, unit: Unit, line: usize) -> Result<(), RecordFileError> {
-    let other = given.filter(|given| unit.si != given.si);
-    other.map_or(Ok(()), |given| {
+    let unit = found.or(options.unit).ok_or(RecordFileError::missing(line, "unit", expected))?;
+    let other = options.unit.filter(|given| unit.si != given.si);
+    other.map_or(Ok(unit), |given| {
         let (found, given) = (unit.name.to_string(), given.name.to_string());
         Err(RecordFileError::Contradiction { line, field: "unit", found, given })
     })

@@ -4,9 +4,10 @@
 use super::error::RecordFileError;
 use super::header::{
     after, azimuth_of, field, first_number, header_pga, leading_number, number_field, numbers, samples,
-    time_step, unit_of, words,
+    time_step, unit, words,
 };
 use crate::records::{Origin, ReadOptions, RecordedMotion};
+use crate::units::Unit;
 
 /// Largest number of header lines.
 const HEADER: usize = 40;
@@ -23,8 +24,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let end = memo.ok_or(missing(HEADER, "Memo.", "it at the end of the header"))?;
     let header = &lines[..end];
     let hertz = number_field(header, "Sampling Freq(Hz)").map(|(line, hertz)| (line, 1.0 / hertz));
-    let (line, step) = hertz.map_or((end, options.dt_s), |(line, dt_s)| (line, Some(dt_s)));
-    let dt_s = time_step(step, line)?;
+    let dt_s = time_step(hertz.map(|(_, dt_s)| dt_s), options, hertz.map_or(end, |(line, _)| line))?;
     let scale = field(header, "Scale Factor");
     let (line, text) = scale.ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;
     let counts = after(text, "/").and_then(first_number).filter(|counts| *counts != 0.0);
@@ -38,7 +38,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let counts = samples(lines, end + 1, (duration_s / dt_s).round(), numbers)?;
     let mean = counts.iter().sum::<f64>() / counts.len() as f64;
     let gal = counts.into_iter().map(|count| (count - mean) * scale).collect();
-    let unit = unit_of("gal", line)?;
+    let unit = unit(Unit::parse("gal"), options, line)?;
     let direction = field(header, "Dir.").map_or("", |(_, direction)| direction);
     // KiK-net numbers the directions in the borehole 1 to 3, those at the surface 4 to 6.
     let number = direction.parse().ok().filter(|number: &usize| (1..=6).contains(number));

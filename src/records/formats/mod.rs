@@ -54,8 +54,6 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     };
     for motion in &mut motions {
         motion.format = format.as_str();
-        header::expect_step(options.dt_s, motion.dt_s, 1)?;
-        header::expect_unit(options.unit, motion.unit, 1)?;
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga

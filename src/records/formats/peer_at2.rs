@@ -3,8 +3,8 @@
 
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, first_number, given_unit, header_pga, leading_number, numbers, samples, time_step,
-    unit_of, words,
+    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, time_step, unit, unit_of,
+    words,
 };
 use crate::records::{Origin, ReadOptions, RecordedMotion};
 use crate::units::Unit;
@@ -36,12 +36,15 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let missing = RecordFileError::missing;
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
     let (header, counts) = (&lines[..at], lines[at]);
-    let unit = unit(header, options)?;
+    expect_acceleration(header)?;
+    let stated = header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number)));
+    let line = stated.map_or(3, |(_, line)| line);
+    let unit = unit(stated.map(|(text, line)| unit_of(text, line)).transpose()?, options, line)?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
     let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
-    let dt_s = time_step(named(counts, "DT").or(second).or(options.dt_s), at + 1)?;
+    let dt_s = time_step(named(counts, "DT").or(second), options, at + 1)?;
     let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
@@ -76,13 +79,11 @@ fn named(counts: &str, key: &str) -> Option<f64> {
     first_number(value.strip_prefix(['=', ':'])?)
 }
 
-/// Finds the unit in the header. The first two lines are the database and the record.
-fn unit(header: &[&str], options: &ReadOptions) -> Result<Unit, RecordFileError> {
+/// Refuses a header of another quantity. Its first two lines are the database and the record.
+fn expect_acceleration(header: &[&str]) -> Result<(), RecordFileError> {
     let mut others = header.iter().zip(1..).skip(2);
     let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
-    if let Some((text, line)) = other {
-        return Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() });
-    }
-    let stated = header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number)));
-    stated.map_or_else(|| given_unit(options, 3), |(text, line)| unit_of(text, line))
+    other.map_or(Ok(()), |(text, line)| {
+        Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() })
+    })
 }
