@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
 use super::shared::responses;
@@ -51,16 +51,12 @@ pub struct FitPex {
 }
 
 /// Where two planes meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Transition(Option<f64>);
-
-impl Serialize for Transition {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self.0 {
-            Some(im4) => serializer.serialize_f64(im4),
-            None => serializer.serialize_str("found"),
-        }
-    }
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Transition {
+    Found,
+    #[serde(untagged)]
+    At(f64),
 }
 
 impl FromStr for Transition {
@@ -68,8 +64,8 @@ impl FromStr for Transition {
 
     fn from_str(text: &str) -> Result<Transition, String> {
         match text.parse() {
-            Ok(im4) if im4 > 1.0 => Ok(Transition(Some(im4))),
-            _ if text == "found" => Ok(Transition(None)),
+            Ok(im4) if im4 > 1.0 => Ok(Transition::At(im4)),
+            _ if text == "found" => Ok(Transition::Found),
             _ => Err(format!("expected an IM4 above 1, such as {}, or found", paper::TRANSITION)),
         }
     }
@@ -87,10 +83,11 @@ impl Stage for FitPex {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut groups = responses::read(&self.input)?;
         let bar = context.bar(groups.len());
+        let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
         let (mut fits, mut calibrations, mut sds) = (Vec::new(), Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, self.transition.0, self.confidence, self.all));
+            fits.extend(fit_demand(cases, transition, self.confidence, self.all));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
             sds.push(sd_of_one_plane(cases));

@@ -82,21 +82,23 @@ impl Partition {
 
 /// A table open for reading, by several threads if needed.
 pub struct Table {
-    pub(super) files: Vec<TableFile>,
+    files: Vec<TableFile>,
     /// Rows to read; all of them without a partition.
     rows: Range<usize>,
 }
 
-pub(super) struct TableFile {
-    pub(super) path: Arc<Path>,
-    pub(super) metadata: ArrowReaderMetadata,
+struct TableFile {
+    path: Arc<Path>,
+    metadata: ArrowReaderMetadata,
+    /// Which partition it is, and the key that all partitions of its table share; none of a whole table.
+    part: Option<(Partition, String)>,
 }
 
 /// Rows of one row group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowGroup {
-    pub(super) file: usize,
-    pub(super) group: usize,
+    file: usize,
+    group: usize,
     /// Rows within the row group.
     pub rows: Range<usize>,
     /// First row, counted in the file.
@@ -108,7 +110,7 @@ impl Table {
     pub fn open(path: &Path) -> Result<Table, TableError> {
         let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
         let mut files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
-        files.sort_by_cached_key(|file| file.partition().map(|partition| partition.index));
+        files.sort_by_key(|file| file.part.as_ref().map(|(part, _)| part.index));
         if path.is_dir()
             && let Some(problem) = unlike_partitions(&files)
         {
@@ -125,8 +127,8 @@ impl Table {
         };
         let file = wanted.file_of(path)?;
         let table = Table::open(&file)?;
-        match table.files[0].partition().filter(|made| made.of != wanted.of) {
-            Some(made) => Err(TableError::table(&file, format!("partition {made}; expected {wanted}"))),
+        match table.files[0].part.as_ref().filter(|(made, _)| made.of != wanted.of) {
+            Some((made, _)) => Err(TableError::table(&file, format!("partition {made}; expected {wanted}"))),
             None => Ok(table),
         }
     }
@@ -211,7 +213,7 @@ impl Table {
         wanted: &dyn Fn(&str) -> bool,
         batch_size: usize,
     ) -> Result<ParquetRecordBatchReader, TableError> {
-        let TableFile { path, metadata } = &self.files[group.file];
+        let TableFile { path, metadata, .. } = &self.files[group.file];
         let schema = metadata.parquet_schema();
         let roots = schema.root_schema().get_fields().iter().enumerate();
         let roots = roots.filter(|(_, root)| wanted(root.name())).map(|(place, _)| place);
@@ -248,7 +250,11 @@ impl TableFile {
                 let problem = format!("two columns are called '{}'; leave out one", field.name());
                 Err(TableError::table(&path, problem))
             }
-            None => Ok(TableFile { path: path.into(), metadata }),
+            None => {
+                let made = Provenance::from_footer(metadata.metadata());
+                let part = made.and_then(|made| Some((made.partition()?.parse().ok()?, made.whole())));
+                Ok(TableFile { path: path.into(), metadata, part })
+            }
         }
     }
 
@@ -258,16 +264,6 @@ impl TableFile {
 
     fn name(&self) -> Cow<'_, str> {
         self.path.file_name().unwrap_or_default().to_string_lossy()
-    }
-
-    /// Returns which partition it is; none if it is a whole table.
-    fn partition(&self) -> Option<Partition> {
-        Provenance::from_footer(self.metadata.metadata())?.partition()?.parse().ok()
-    }
-
-    /// Returns the key that all partitions of its table share.
-    fn whole(&self) -> Option<String> {
-        Provenance::from_footer(self.metadata.metadata()).map(|made| made.whole())
     }
 }
 
@@ -317,23 +313,23 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     if files.is_empty() {
         return Some("a folder without Parquet files".to_string());
     }
-    let parts: Vec<Option<Partition>> = files.iter().map(TableFile::partition).collect();
-    let first = parts.iter().position(Option::is_some)?;
-    let (of, whole) = (parts[first]?.of, files[first].whole());
-    let is_other =
-        |place: &usize| parts[*place].is_none_or(|part| part.of != of) || files[*place].whole() != whole;
-    if let Some(other) = (0..files.len()).find(is_other) {
+    let first = files.iter().find(|file| file.part.is_some())?;
+    let (Partition { of, .. }, whole) = first.part.as_ref()?;
+    let is_like =
+        |file: &TableFile| file.part.as_ref().is_some_and(|(part, key)| part.of == *of && key == whole);
+    if let Some(other) = files.iter().find(|file| !is_like(file)) {
         return Some(format!(
             "{} and {} are no parts of one table: they were made by other options, of other files or by another \
              program",
-            files[first].name(),
-            files[other].name()
+            first.name(),
+            other.name()
         ));
     }
-    let mut all = (0..of).map(|index| Partition { index, of });
-    match all.find(|part| !parts.contains(&Some(*part))) {
+    let parts: Vec<Partition> = files.iter().flat_map(|file| Some(file.part.as_ref()?.0)).collect();
+    let mut all = (0..*of).map(|index| Partition { index, of: *of });
+    match all.find(|part| !parts.contains(part)) {
         Some(part) => Some(format!("partition {part} is missing; make it with --partition {part}")),
-        None if files.len() > of => {
+        None if files.len() > *of => {
             Some(format!("{} files; expected the {of} partitions of one table", files.len()))
         }
         None => None,

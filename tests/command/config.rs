@@ -50,6 +50,7 @@ fn mistakes_on_the_command_line_are_named() {
         ("evaluate --width 1 --height 2 --pga 0.3 --period-sd 0.2", vec!["--period"]),
         ("evaluate --width 1 --height 2 --pga 0.3 --ground-floor 1", vec!["--ground-floor"]),
         ("evaluate --width 1 --height 2 --years 30", vec!["--hazard"]),
+        ("evaluate --width 1 --height 2 --model paper", vec!["--fits"]),
         ("evaluate --structures - --hazard -", vec!["--structures", "--hazard", "stdin"]),
     ] {
         let code = if call.contains("out.parquet") { 1 } else { 2 };

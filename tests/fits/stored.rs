@@ -103,6 +103,4 @@ fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     assert!(error(&recorded).ends_with("no fits of recorded, only of csgm, pulse"));
     let limit = ModelArgs { limit_state: 0.3, ..pulses };
     assert!(error(&limit).ends_with("run fit-pex --limit-state 0.1,0.3"), "{}", error(&limit));
-    let paper = ModelArgs { fits: None, model: ModelName::Paper, ..args(&folder) };
-    assert!(error(&paper).contains("--model paper needs --fits"));
 }

@@ -44,7 +44,7 @@ pub struct ModelArgs {
     #[arg(long, value_name = "KIND")]
     pub suite: Option<Kind>,
     /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
-    #[arg(long, default_value = "calibrated")]
+    #[arg(long, default_value = "calibrated", requires_if("paper", "fits"))]
     pub model: ModelName,
     /// Limit state, as demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
@@ -79,15 +79,11 @@ impl ModelArgs {
 
     /// Reads the fits, if there are any.
     pub fn read(&self) -> anyhow::Result<Models> {
-        let is_paper = self.model == ModelName::Paper;
-        if is_paper && self.fits.is_none() {
-            return Err(UsageError::because("--model paper needs --fits, the folder of fit-pex and fit-pro"));
-        }
         fn read<R: Row>(folder: Option<&FitsFolder>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
         let fits = self.fits.as_ref();
-        let for_paper = fits.filter(|_| is_paper);
+        let for_paper = fits.filter(|_| self.model == ModelName::Paper);
         let overturning: Vec<Calibration> = read(fits, "pro.calibration.parquet")?;
         // What stood and what fell tells nothing of demands.
         let with_demand = fits.filter(|_| !overturning.iter().all(Calibration::is_of_outcomes));
