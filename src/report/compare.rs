@@ -101,13 +101,10 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
     Figure::new("compared", "Before and after", 1, 0.0, panel.into_iter().collect()).explained(caption)
 }
 
-/// The page of two evaluations.
-pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
-    let pairs = pairs(before, after);
+/// The page of two evaluations; none where they have no object with an answer in common.
+pub fn page(before: &Evaluation, after: &Evaluation) -> Option<Page> {
+    let pairs = Some(pairs(before, after)).filter(|pairs| !pairs.is_empty())?;
     let (when, target) = (&before.when, before.target.or(after.target));
-    if pairs.is_empty() {
-        return Page::default();
-    }
     let is_same = before.hazard_key == after.hazard_key;
     let hazards =
         if is_same { before.hazard.clone() } else { format!("{}; {}", before.hazard, after.hazard) };
@@ -115,7 +112,7 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
     let cancels = format!("The limits of a ratio leave out uncertainty that both rates share.{velocity}");
     let rated: Vec<&Rated> = pairs.iter().map(|pair| pair.after).collect();
     let [file_before, file_after] = [before, after].map(Evaluation::file);
-    Page {
+    Some(Page {
         title: match &pairs[..] {
             [pair] => format!("{}, before and after", pair.before.object.name().unwrap_or("One object")),
             _ => format!("{}, before and after", number::counted(pairs.len(), "object")),
@@ -128,7 +125,7 @@ pub fn page(before: &Evaluation, after: &Evaluation) -> Page {
         notes: others(before, after, &pairs),
         figures: vec![figure(&pairs, when, target)],
         ..Page::default()
-    }
+    })
 }
 
 /// What has become of one object, or of all, and which are above the target still.

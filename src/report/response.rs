@@ -4,6 +4,7 @@ use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Words};
 use super::figures::common::called;
 use super::figures::envelope;
 use super::page::Page;
+use super::pen::round;
 use super::text::{escape, file_words, literal, words};
 use crate::number;
 use crate::rocking::{SolverEvent, Structure};
@@ -184,13 +185,12 @@ fn moving(response: &Trace, id: usize) -> String {
     let (ground, height) = (high + 40.0, high + 70.0);
     // A block turns about the corner on the side to which it leans.
     let turns =
-        turns.iter().map(|degrees| format!("{} {} 0", short(*degrees, 2), short(half.copysign(*degrees), 1)));
+        turns.iter().map(|degrees| format!("{} {} 0", round(*degrees), round(half.copysign(*degrees))));
     let turns = turns.collect::<Vec<_>>().join(";");
-    let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", short(seconds, 2));
+    let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", round(seconds));
     let name = escape(&format!("{}, moving", words(&response.title())));
     let (end, below) = (width - 20.0, ground + 15.0);
-    let [edge, top, wide, tall, centre] =
-        [-half, -high, 2.0 * half, high, -0.5 * high].map(|at| short(at, 1));
+    let [edge, top, wide, tall, centre] = [-half, -high, 2.0 * half, high, -0.5 * high].map(round);
     format!(
         "<svg class=\"moving\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
          <path d=\"M20 {ground:.1}H{:.0}\" stroke=\"var(--muted)\" stroke-width=\"1.2\"/>\n\
@@ -220,11 +220,4 @@ fn turns(response: &Trace, Range { low, high }: Range) -> Vec<f64> {
         (alpha * response.0[at].theta_over_alpha).clamp(-90.0, 90.0)
     };
     (0..=pictures as i32).map(turn).collect()
-}
-
-/// A number without zeros at its end.
-fn short(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".to_string() } else { text.to_string() }
 }

@@ -412,7 +412,7 @@ fn what_is_changed_comes_first_and_is_named() {
     let mut after = before.clone();
     after.rows[2].object.width_m = Some(0.6);
     after.rows[2].row.p_overturning = limited(0.002);
-    let page = compare::page(&before, &after);
+    let page = compare::page(&before, &after).unwrap();
     assert!(page.tables[0].rows.len() == 1 && page.tables[0].rows[0][0].contains("me\\*2"));
     assert!(
         page.tables[0].rows[0][1].replace('\u{a0}', " ").contains("0.50 × 1.90 m → 0.60"),

@@ -1,25 +1,22 @@
 //! report: one page and its figures, of all tables in a folder.
 
-mod figures;
 mod page;
 mod tables;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::number::counted;
+use crate::pipeline::Stage;
 use crate::pipeline::cache::changed;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
-use crate::pipeline::{Stage, UsageError};
 use crate::report::{DPI, Figure, Page, png, svg};
-use crate::table::TableError;
-use crate::table::marks::is_ours;
+use crate::table::file;
 use crate::table::provenance::Provenance;
 use tables::Tables;
 
@@ -50,7 +47,7 @@ impl Report {
     fn page(&self) -> PathBuf {
         let first = split_lists(&self.input).into_iter().next().unwrap_or_default();
         match &self.out {
-            Some(out) => out.to_path_buf(),
+            Some(out) => out.with_extension("html"),
             None if first.is_dir() => first.join("report.html"),
             None => first.with_file_name("report.html"),
         }
@@ -59,37 +56,20 @@ impl Report {
 
 impl Stage for Report {
     fn inputs(&self) -> Vec<Read> {
-        // Partitions stand in folders in the folder.
-        let folders = |path: &Path| {
-            let below = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
-            let mut folders: Vec<PathBuf> = below.filter(|path| path.is_dir()).collect();
-            folders.sort_unstable();
-            [vec![path.to_path_buf()], folders].concat()
-        };
-        vec![Read::new("in", split_lists(&self.input).iter().flat_map(|path| folders(path)))]
+        let paths = split_lists(&self.input).into_iter().flat_map(|path| {
+            // Partitions stand in folders in the folder.
+            let entries = file::entries(&path).into_iter().flatten();
+            std::iter::once(path).chain(entries.filter(|entry| entry.is_dir())).collect::<Vec<_>>()
+        });
+        vec![Read::new("in", paths)]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
         vec![self.page()]
     }
 
-    fn check(&self) -> anyhow::Result<()> {
-        let page = self.page();
-        if page.extension().is_none_or(|ending| ending != "html") {
-            let page = page.display();
-            return Err(UsageError::because(format!(
-                "out is {page}; expected the name of a page, such as report.html"
-            )));
-        }
-        Ok(())
-    }
-
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let paths = split_lists(&self.input);
-        if let Some(missing) = paths.iter().find(|path| !path.exists()) {
-            bail!("{}: no such file or folder; expected tables of other commands", missing.display());
-        }
-        let mut tables = Tables::read(&paths)?;
+        let mut tables = Tables::read(&split_lists(&self.input))?;
         let (whole, figures) = page::page(&mut tables)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
@@ -99,7 +79,7 @@ impl Stage for Report {
             figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
         let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();
         let former = Provenance::read(&page).ok().flatten().map(|made| made.further).unwrap_or_default();
-        write_figures(&page, &files, &former, context)?;
+        files.par_iter().try_for_each(|(path, content)| context.write_file(path, content))?;
         made.further = hashes(&page, &files);
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
         let title = self.title.clone().unwrap_or(whole.title);
@@ -116,7 +96,6 @@ impl Stage for Report {
 }
 
 type Files = Vec<(PathBuf, Vec<u8>)>;
-type Hashes = BTreeMap<String, String>;
 
 fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::Result<Files> {
     let svg = svg(figure, &made.json());
@@ -125,21 +104,8 @@ fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::R
     Ok(files.map(|(ending, content)| (stem.with_added_extension(ending), content)).to_vec())
 }
 
-/// Writes the files of the figures, unless one is there that neither the `former` page has written nor
-/// rockfrag.
-fn write_figures(page: &Path, files: &Files, former: &Hashes, context: &Context) -> anyhow::Result<()> {
-    for (path, content) in files {
-        let there = std::fs::read(path).map(|there| (path.clone(), there)).into_iter().collect();
-        let is_known = hashes(page, &there).iter().all(|(name, hash)| former.get(name) == Some(hash));
-        if !context.common.force && !is_known && !is_ours(path, content) {
-            return Err(TableError::not_ours(path).into());
-        }
-    }
-    files.par_iter().try_for_each(|(path, content)| Ok(context.replace(path, content)?))
-}
-
 /// The hashes of files by their names beside the page.
-fn hashes(page: &Path, files: &Files) -> Hashes {
+fn hashes(page: &Path, files: &Files) -> BTreeMap<String, String> {
     let folder = page.parent().unwrap_or(Path::new(""));
     let name = |path: &Path| path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
     files.iter().map(|(path, content)| (name(path), blake3::hash(content).to_hex().to_string())).collect()

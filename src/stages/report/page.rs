@@ -3,13 +3,13 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::figures;
 use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::keyword::Keyword;
 use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
-use crate::report::figures::common::{by, called, name, scaled_label};
+use crate::report::figures::common::{by, called, name, rocked, scaled_label};
+use crate::report::figures::*;
 use crate::report::text::{literal, minus};
 use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
 use crate::rocking::{Outcome, Structure};
@@ -28,6 +28,10 @@ const MOST_NAMED: usize = 4;
 const OF_RATES: &[&str] = &["map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
+
+/// The most pairs of suite and structure that are drawn, and structures in one panel.
+const MOST_GROUPS: usize = 24;
+const MOST_STRUCTURES: usize = 6;
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
@@ -48,7 +52,7 @@ evaluate: Annual rates integrate the probabilities of the universal surface over
 
 /// The page of all tables, and all their figures, of which the page shows some.
 pub fn page(tables: &mut Tables) -> anyhow::Result<(Page, Vec<Figure>)> {
-    let others = figures::all(tables)?;
+    let others = figures(tables)?;
     let mut head = head(tables)?;
     head.figures.retain(|figure| !figure.panels.is_empty());
     let all = [head.figures.clone(), others.clone()].concat();
@@ -82,18 +86,58 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Page, Vec<Figure>)> {
     Ok((Page { sections, ..head }, all))
 }
 
+/// Draws all figures; what is too much to draw is left out.
+fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
+    let rocking: Vec<&Cases> = tables.groups.iter().filter(|cases| rocked(cases).next().is_some()).collect();
+    let groups = &rocking[..rocking.len().min(MOST_GROUPS)];
+    if groups.len() < rocking.len() {
+        let names: Vec<String> = rocking[groups.len()..].iter().map(|cases| name(cases)).collect();
+        let names = names.join(", ");
+        tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
+    }
+    let suites: Vec<Vec<&Cases>> = by(groups.iter().copied(), |cases| &cases.suite)
+        .iter()
+        .flat_map(|suite| suite.chunks(MOST_STRUCTURES).map(<[_]>::to_vec))
+        .collect();
+    let (motions, fits) = (tables.motions()?, &tables.fits);
+    let mut fitted: Vec<&Cases> = groups.to_vec();
+    fitted.retain(|cases| power_laws(fits, cases).iter().any(Option::is_some));
+    let stripes = tables.rows(Kind::Stripes)?;
+    let mut figures = vec![
+        ida(&tables.rows(Kind::CapacityFits)?, &tables.rows(Kind::Capacities)?, &stripes),
+        hybrids(fits, &suites),
+        maps(fits, &suites),
+        validation(&tables.rows(Kind::Reliability)?),
+        ranking(&tables.rows(Kind::Ranking)?),
+        motion(&motions),
+        similarity(&tables.groups, &motions)?,
+        planes(fits, groups),
+        exceedance(fits, &suites),
+        overturning(fits, &suites),
+        demand(groups),
+        quality(fits, &fitted),
+    ];
+    figures.extend(fitted.iter().map(|cases| regressions(fits, cases)));
+    figures.retain(|figure| !figure.panels.is_empty());
+    Ok(figures)
+}
+
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
 fn head(tables: &Tables) -> anyhow::Result<Page> {
     let Tables { evaluations, compared, traces, fragilities, groups, .. } = tables;
-    let mut head = match tables.comparison() {
-        Some([before, after]) => compare::page(before, after),
+    let compared_page = match &evaluations[..] {
+        [before, after] if tables.are_files => compare::page(before, after),
+        _ => None,
+    };
+    let mut head = match compared_page {
+        Some(page) => page,
         None if !evaluations.is_empty() => pages::page(&Evaluation::joined(evaluations)),
         None if !compared.is_empty() => Page {
             title: "The paper's fragility curves, reproduced".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
             sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
-            tables: vec![planes(compared)],
+            tables: vec![published_planes(compared)],
             ..Page::default()
         },
         None if !traces.is_empty() => return Ok(response::page(traces)),
@@ -160,7 +204,7 @@ fn cell(row: &Value, field: &str) -> String {
 }
 
 /// Table II: published over ours.
-fn planes(compared: &[Comparison]) -> Table {
+fn published_planes(compared: &[Comparison]) -> Table {
     let mut rows = Vec::new();
     for plane in table_two(compared) {
         let [structure, suite] = [&plane.of.structure, &plane.of.suite].map(|name| literal(name));

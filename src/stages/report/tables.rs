@@ -7,7 +7,6 @@ use crate::hazard::{Fragility, FragilityPoint};
 use crate::keyword::keywords;
 use crate::paper;
 use crate::report::answers::Evaluation;
-use crate::report::compare;
 use crate::report::figures::Fits;
 use crate::report::response::Trace;
 use crate::rocking::Outcome;
@@ -123,7 +122,7 @@ pub struct Tables {
     /// What is not shown, and why.
     pub left_out: Vec<String>,
     /// Whether files were given, in an order that means something, rather than a folder.
-    are_files: bool,
+    pub are_files: bool,
 }
 
 impl Tables {
@@ -236,12 +235,6 @@ impl Tables {
     /// The keys of the files that an option of the stage has read.
     fn inputs(&self, kind: Kind, flag: &str) -> Vec<String> {
         self.of(kind).filter_map(|item| item.input(flag)).collect()
-    }
-
-    /// Two evaluations of objects of the same names: before and after, in the order of the files.
-    pub fn comparison(&self) -> Option<[&Evaluation; 2]> {
-        let [before, after] = &self.evaluations[..] else { return None };
-        (self.are_files && !compare::pairs(before, after).is_empty()).then_some([before, after])
     }
 
     /// The tables of a kind.
