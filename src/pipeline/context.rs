@@ -85,7 +85,7 @@ impl Plan {
     /// Returns the keys of the outputs.
     pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
         let outputs = self.outputs.iter().enumerate();
-        outputs.map(|(place, path)| (resolved(path), self.output(place).key()))
+        outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))
     }
 }
 

@@ -127,7 +127,7 @@ impl Table {
         };
         let file = wanted.file_of(path)?;
         let table = Table::open(&file)?;
-        match table.files[0].part.as_ref().filter(|(made, _)| made.of != wanted.of) {
+        match table.files[0].part.as_ref().filter(|(made, _)| *made != wanted) {
             Some((made, _)) => Err(TableError::table(&file, format!("partition {made}; expected {wanted}"))),
             None => Ok(table),
         }
@@ -315,9 +315,8 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     }
     let first = files.iter().find(|file| file.part.is_some())?;
     let (Partition { of, .. }, whole) = first.part.as_ref()?;
-    let is_like =
-        |file: &TableFile| file.part.as_ref().is_some_and(|(part, key)| part.of == *of && key == whole);
-    if let Some(other) = files.iter().find(|file| !is_like(file)) {
+    let is_other = |file: &&TableFile| file.part.as_ref().is_none_or(|(_, key)| key != whole);
+    if let Some(other) = files.iter().find(is_other) {
         return Some(format!(
             "{} and {} are no parts of one table: they were made by other options, of other files or by another \
              program",

@@ -73,7 +73,7 @@ pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
     if is_table(path)
         && let Ok(Some(made)) = Provenance::read(path)
     {
-        (file.key, file.whole) = (made.key(), made.partition().map(|_| made.whole()));
+        file.key = made.key_of_content();
         return Ok(file);
     }
     let mut hasher = blake3::Hasher::new();

@@ -54,9 +54,6 @@ pub struct InputFile {
     pub name: String,
     /// The key of its content.
     pub key: String,
-    /// If it is a part of a table, the key of the whole.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub whole: Option<String>,
     #[serde(skip)]
     pub path: PathBuf,
     /// When it was last changed, if that tells anything.
@@ -107,17 +104,20 @@ impl Provenance {
         self.arguments.get("partition")?.as_str()
     }
 
-    /// Returns the key that all parts of one table share.
+    /// Returns the key that all parts of one table share: of how many parts, not of which.
     pub fn whole(&self) -> String {
-        let options: Vec<_> = self.arguments.iter().filter(|(flag, _)| *flag != "partition").collect();
-        let inputs = self.inputs.iter().map(|(flag, files)| {
-            let files = files.iter().map(|InputFile { name, key, whole, .. }| match whole {
-                Some(whole) => whole.clone(),
-                None => format!("{name} {key}"),
-            });
-            (flag, files.collect::<Vec<_>>())
-        });
-        hash(&serde_json::json!([self.stage, self.program, options, inputs.collect::<Vec<_>>()]))
+        let mut options = self.arguments.clone();
+        if let Some(Value::String(part)) = options.get_mut("partition") {
+            part.drain(..part.find('/').unwrap_or_default());
+        }
+        let files = self.inputs.iter().flat_map(|(flag, files)| files.iter().map(move |file| (flag, file)));
+        let keys: Vec<_> = files.map(|(flag, file)| (flag, file.key.split(' ').next())).collect();
+        hash(&serde_json::json!([self.stage, self.program, options, keys]))
+    }
+
+    /// Returns the key by which other stages know the file: of a part the key of the whole, and which it is.
+    pub fn key_of_content(&self) -> String {
+        self.partition().map_or_else(|| self.key(), |part| format!("{} {part}", self.whole()))
     }
 
     /// Returns the key of what was read under a flag.

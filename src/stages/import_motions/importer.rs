@@ -15,7 +15,7 @@ use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::records::processing::{ImportedMotion, NamedRecord, Processing};
 use crate::records::rotation::pairs;
-use crate::records::{ReadOptions, RecordedMotion, read_records};
+use crate::records::{ReadOptions, read_records};
 use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
@@ -93,17 +93,17 @@ impl Importer {
         Ok(pairs.into_iter().map(|pair| Work::Pair(pair.map(|at| components[at].2.clone()))).collect())
     }
 
-    /// What a component is that is not to be imported. A column that was chosen is.
-    fn left_out(&self, motion: &RecordedMotion) -> Option<&'static str> {
-        let is_vertical = motion.origin.is_vertical() && !self.vertical && self.reading.column.is_none();
-        let vertical = is_vertical.then_some("vertical component");
-        motion.is_in_borehole.then_some("borehole component").or(vertical)
-    }
-
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, NotImported>> {
         let file = match work {
             Work::File(file) => file,
-            Work::Pair(pair) => return vec![self.import_pair(pair)],
+            Work::Pair(pair) => {
+                let both =
+                    pair.each_ref().map(|(file, index)| self.read(file).into_iter().flatten().nth(*index));
+                // That a file has changed meanwhile is told in the end.
+                let [Some(first), Some(second)] = both else { return Vec::new() };
+                let imported = self.processing.import_pair([first, second]);
+                return vec![imported.map_err(|error| refusal(&pair[0].0.path, &error))];
+            }
         };
         let records = self.read(file);
         let several = records.len() > 1;
@@ -116,20 +116,11 @@ impl Importer {
         imported.collect()
     }
 
-    fn import_pair(&self, pair: &[(File, usize); 2]) -> Result<Vec<ImportedMotion>, NotImported> {
-        let [first, second] = pair.each_ref().map(|(file, index)| {
-            let record = self.read(file).into_iter().flatten().nth(*index);
-            record.ok_or_else(|| refusal(&file.path, &"changed while it was read; run again"))
-        });
-        self.processing.import_pair([first?, second?]).map_err(|error| refusal(&pair[0].0.path, &error))
-    }
-
     /// Reads the records of a file, or of those in an archive.
     fn read(&self, file: &File) -> Vec<Result<NamedRecord, NotImported>> {
-        let members = source::read(&file.path).map_err(|error| refusal(&file.path, &error));
-        let members = members.and_then(|bytes| unpack(bytes).map_err(|error| refusal(&file.path, &error)));
-        match members {
-            Err(refusal) => vec![Err(refusal)],
+        let bytes = source::read(&file.path).map_err(|error| error.to_string());
+        match bytes.and_then(|bytes| unpack(bytes).map_err(|error| error.to_string())) {
+            Err(reason) => vec![Err(refusal(&file.path, &reason))],
             Ok(members) => {
                 let files = file.unpacked(&members).into_iter().zip(&members);
                 files.flat_map(|(file, member)| self.read_one(&file, &member.bytes)).collect()
@@ -162,8 +153,12 @@ impl Importer {
             if !several && origin.azimuth_deg.is_none() && last != name && is_vertical(last) {
                 origin.component = Some(last.to_string());
             }
-            if let Some(what) = self.left_out(&motion) {
-                return Err(NotImported::LeftOut(what));
+            if motion.is_in_borehole {
+                return Err(NotImported::LeftOut("borehole component"));
+            }
+            // A column that was chosen is imported.
+            if motion.origin.is_vertical() && !self.vertical && self.reading.column.is_none() {
+                return Err(NotImported::LeftOut("vertical component"));
             }
             let samples = motion.acceleration_m_s2.len();
             if samples > LONGEST_MOTION {
