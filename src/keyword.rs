@@ -32,7 +32,7 @@ macro_rules! keywords {
         }
 
         impl std::str::FromStr for $type {
-            type Err = $crate::keyword::UnknownKeyword;
+            type Err = String;
 
             fn from_str(word: &str) -> Result<Self, Self::Err> {
                 $crate::keyword::parse(word)
@@ -48,20 +48,15 @@ macro_rules! keywords {
 }
 pub(crate) use keywords;
 
-/// An unknown word: the known ones, and the most similar of them.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct UnknownKeyword(String);
-
 /// Returns the variant of a word.
 ///
 /// # Errors
-/// If no variant has it, with the most similar word.
-pub fn parse<T: Keyword>(word: &str) -> Result<T, UnknownKeyword> {
+/// If no variant has it, with the known words and the most similar of them.
+pub fn parse<T: Keyword>(word: &str) -> Result<T, String> {
     let found = T::ALL.iter().find(|keyword| keyword.as_str() == word).copied();
     found.ok_or_else(|| {
         let known: Vec<&str> = T::ALL.iter().map(|keyword| keyword.as_str()).collect();
-        UnknownKeyword(format!("'{word}' is not one of {}{}", known.join(", "), hint(word, &known)))
+        format!("'{word}' is not one of {}{}", known.join(", "), hint(word, &known))
     })
 }
 

@@ -76,7 +76,7 @@ impl FromStr for Pair {
     fn from_str(text: &str) -> Result<Pair, String> {
         let (x, y) =
             text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
-        let [x, y] = [x, y].map(|name| keyword::parse(name.trim()).map_err(|unknown| unknown.to_string()));
+        let [x, y] = [x, y].map(|name| keyword::parse(name.trim()));
         match Pair(x?, y?) {
             Pair(x, y) if x == y => Err(format!("'{text}': expected two different measures")),
             pair => Ok(pair),

@@ -162,7 +162,7 @@ impl Object {
             }
             "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
             _ => {
-                let field: Field = name.parse().map_err(|unknown| format!("{unknown}"))?;
+                let field: Field = name.parse()?;
                 let value = field.parse_value(text).map_err(refuse)?;
                 if let Some(number) = self.number_mut(field) {
                     *number = Some(value);
