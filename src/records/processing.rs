@@ -47,10 +47,6 @@ pub enum ProcessingError {
     #[error("the motion is zero throughout; it cannot be scaled to a peak")]
     Zero,
     #[error(
-        "corner of the high-pass {corner_hz} Hz; expected less than half the sampling rate, {nyquist_hz} Hz"
-    )]
-    Corner { corner_hz: f64, nyquist_hz: f64 },
-    #[error(
         "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded \
          (--accept-implausible imports it anyway)"
     )]
@@ -179,10 +175,6 @@ impl Processing {
         let motion = &mut record.motion;
         self.baseline.remove_from(&mut motion.acceleration_m_s2);
         if let Some(corner_hz) = self.high_pass_hz {
-            let nyquist_hz = 0.5 / motion.dt_s;
-            if corner_hz >= nyquist_hz {
-                return Err(ProcessingError::Corner { corner_hz, nyquist_hz });
-            }
             high_pass(&mut motion.acceleration_m_s2, motion.dt_s, corner_hz);
         }
         let checks = [implausibility, incompleteness];
