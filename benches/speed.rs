@@ -4,7 +4,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use rockfrag::motion::{Design, Grid, MeasurePlan, MotionModel, Scenario, Suite, Synthesizer, Transforms};
+use rockfrag::motion::{Design, Grid, MeasurePlan, MotionModel, Scenario, Suite, Synthesizer};
 use rockfrag::rocking::{Problem, Record, Structure, reference, simulate_all};
 
 /// Combined motions of some samples of each of the 35 cells.
@@ -35,11 +35,10 @@ fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     let scenarios = scenarios(20);
     let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
-    let mut scratch = Transforms::default();
     let synthesis = median_us(scenarios.len(), || {
         for scenario in &scenarios {
             let motion = synthesizer.synthesize(scenario);
-            black_box(MeasurePlan::default().measure(&motion.combined, motion.dt_s, &mut scratch));
+            black_box(MeasurePlan::default().measure(&motion.combined, motion.dt_s));
         }
     });
     let structure = Structure::new("electrical-equipment", 2.5, 0.20, 0.92).expect("the paper's");

@@ -2,7 +2,7 @@
 
 use rockfrag::fragility::{Case, Cases, Cluster, Event, Measure, fit_curve};
 use rockfrag::motion::{
-    Design, Grid, IntensityMeasures, MeasurePlan, MotionModel, Peaks, Suite, Synthesizer, Transforms,
+    Design, Grid, IntensityMeasures, MeasurePlan, MotionModel, Peaks, Suite, Synthesizer,
 };
 use rockfrag::rocking::{Record, Structure, simulate};
 
@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut cases = Cases::new(Some("csgm"), cabinet.clone());
     for scenario in (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)) {
         let motion = synthesizer.synthesize(&scenario);
-        let of = MeasurePlan::default().measure(&motion.combined, motion.dt_s, &mut Transforms::default());
+        let of = MeasurePlan::default().measure(&motion.combined, motion.dt_s);
         let peaks = Peaks { pga_m_s2: of.pga_m_s2, pgv_m_s: of.pgv_m_s };
         let measures = IntensityMeasures::new(&cabinet, peaks, Some(scenario.tp_s), of.tm_s);
         let outcome = simulate(&cabinet, &Record::new(&motion.combined, motion.dt_s)?).outcome;

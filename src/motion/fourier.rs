@@ -1,57 +1,59 @@
 //! Fourier transforms of real series of even length.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Fourier transforms of real series of even lengths, each planned once.
-#[derive(Default)]
-pub struct Transforms {
-    planned: HashMap<usize, Planned>,
-    scratch: Vec<Complex64>,
-}
-
+/// The transforms of a length.
+#[derive(Clone)]
 struct Planned {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
-impl Transforms {
-    /// Plans the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and
-    /// the last digits would depend on the history of the thread.
-    fn planned(&mut self, samples: usize) -> (&Planned, &mut Vec<Complex64>) {
-        let planned = self.planned.entry(samples).or_insert_with(|| {
+/// Lengths whose transforms a thread keeps.
+const KEPT: usize = 64;
+
+thread_local! {
+    static PLANNED: RefCell<HashMap<usize, Planned>> = RefCell::default();
+}
+
+/// Returns the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and the
+/// last digits would depend on the history of the thread.
+fn planned(samples: usize) -> Planned {
+    PLANNED.with_borrow_mut(|known| {
+        if known.len() == KEPT && !known.contains_key(&samples) {
+            known.clear();
+        }
+        let plan = || {
             let mut planner = RealFftPlanner::new();
             Planned { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
-        });
-        let needed = planned.forward.get_scratch_len().max(planned.inverse.get_scratch_len());
-        self.scratch.resize(self.scratch.len().max(needed), Complex64::ZERO);
-        (planned, &mut self.scratch)
-    }
+        };
+        known.entry(samples).or_insert_with(plan).clone()
+    })
+}
 
-    /// Computes the `n / 2 + 1` Fourier coefficients of `n` samples; overwrites `samples`.
-    pub fn forward(&mut self, samples: &mut [f64]) -> Vec<Complex64> {
-        let (planned, scratch) = self.planned(samples.len());
-        let mut spectrum = vec![Complex64::ZERO; samples.len() / 2 + 1];
-        let done = planned.forward.process_with_scratch(samples, &mut spectrum, scratch);
-        debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
-        spectrum
-    }
+/// Computes the `n / 2 + 1` Fourier coefficients of `n` samples; overwrites `samples`.
+pub fn transform(samples: &mut [f64]) -> Vec<Complex64> {
+    let mut spectrum = vec![Complex64::ZERO; samples.len() / 2 + 1];
+    let done = planned(samples.len()).forward.process(samples, &mut spectrum);
+    debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+    spectrum
+}
 
-    /// Computes the samples of Fourier coefficients; overwrites `spectrum`.
-    pub fn inverse(&mut self, spectrum: &mut [Complex64], samples: &mut [f64]) {
-        // The mean and the Nyquist coefficient of a real series are real.
-        if let [first, .., last] = spectrum {
-            (first.im, last.im) = (0.0, 0.0);
-        }
-        let (planned, scratch) = self.planned(samples.len());
-        let done = planned.inverse.process_with_scratch(spectrum, samples, scratch);
-        debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
-        let scale = 1.0 / samples.len() as f64;
-        samples.iter_mut().for_each(|sample| *sample *= scale);
+/// Computes the samples of Fourier coefficients; overwrites `spectrum`.
+pub fn invert(spectrum: &mut [Complex64], samples: &mut [f64]) {
+    // The mean and the Nyquist coefficient of a real series are real.
+    if let [first, .., last] = spectrum {
+        (first.im, last.im) = (0.0, 0.0);
     }
+    let done = planned(samples.len()).inverse.process(spectrum, samples);
+    debug_assert!(done.is_ok(), "buffers have the lengths of the plan");
+    let scale = 1.0 / samples.len() as f64;
+    samples.iter_mut().for_each(|sample| *sample *= scale);
 }
 
 /// Returns the least even number of at least `n` without prime factors above 5, for fast transforms.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::fourier::{Transforms, even_smooth_at_least};
+use super::fourier::{even_smooth_at_least, transform};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
@@ -44,9 +44,9 @@ pub struct MotionMeasures {
 /// The measures to compute besides those of every motion.
 ///
 /// ```
-/// use rockfrag::motion::{MeasurePlan, Transforms};
+/// use rockfrag::motion::MeasurePlan;
 /// let plan = MeasurePlan { housner: true, sa_periods_s: vec![0.5] };
-/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01, &mut Transforms::default());
+/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01);
 /// assert_eq!((measured.pga_m_s2, measured.sa_m_s2.len()), (2.0, 1));
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -60,7 +60,7 @@ pub struct MeasurePlan {
 impl MeasurePlan {
     /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`. The squared acceleration is
     /// integrated exactly for lines between samples, everything else by trapezoids.
-    pub fn measure(&self, acceleration: &[f64], dt_s: f64, transforms: &mut Transforms) -> MotionMeasures {
+    pub fn measure(&self, acceleration: &[f64], dt_s: f64) -> MotionMeasures {
         let (mut velocity, mut displacement, mut squares, mut cav_m_s) = (0.0_f64, 0.0_f64, 0.0, 0.0);
         let (mut pgv_m_s, mut pgd_m) = (0.0, 0.0);
         // Running integral of the squared acceleration, m2/s3.
@@ -83,7 +83,7 @@ impl MeasurePlan {
             pga_m_s2: peak(acceleration),
             pgv_m_s,
             pgd_m,
-            tm_s: mean_period(acceleration, dt_s, transforms),
+            tm_s: mean_period(acceleration, dt_s),
             arias_m_s: 0.5 * PI / G_M_S2 * squares,
             cav_m_s,
             d5_75_s: d75 - d5,
@@ -137,12 +137,12 @@ pub fn velocity(acceleration: &[f64], dt_s: f64) -> Vec<f64> {
 /// Computes the mean period of Rathje et al. (1998), s: sum(C^2/f) / sum(C^2) of the Fourier amplitudes C of
 /// the acceleration from 0.25 to 20 Hz, without smoothing, padded with zeros to a frequency step of at most
 /// 0.05 Hz. None without amplitude in this band.
-pub fn mean_period(acceleration: &[f64], dt_s: f64, transforms: &mut Transforms) -> Option<f64> {
+pub fn mean_period(acceleration: &[f64], dt_s: f64) -> Option<f64> {
     let least = (1.0 / (FREQUENCY_STEP_HZ * dt_s)).ceil() as usize;
     let length = even_smooth_at_least(acceleration.len().max(least));
     let mut samples = acceleration.to_vec();
     samples.resize(length, 0.0);
-    let spectrum = transforms.forward(&mut samples);
+    let spectrum = transform(&mut samples);
 
     let step_hz = 1.0 / (length as f64 * dt_s);
     let first = (BAND_HZ.0 / step_hz).ceil() as usize;

@@ -32,7 +32,6 @@ mod synthesis;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, Grid};
 pub use floor::{Amplified, Floor};
-pub use fourier::Transforms;
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MotionMeasures};
 pub use peaks::{Peaks, judge_medians};

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::combine::{Difference, Epoch, combine};
-use super::fourier::{Complex64, Transforms, even_smooth_at_least};
+use super::fourier::{Complex64, even_smooth_at_least, invert, transform};
 use super::measures::velocity;
 use super::pulse::Pulse;
 use super::scenario::{Scenario, Suite};
@@ -92,8 +92,8 @@ impl Synthetic {
     }
 }
 
-/// Synthesizes motions, each independent of the motions before. Use one for each thread: it keeps transforms,
-/// and the values that scenarios of one magnitude and distance share.
+/// Synthesizes motions, each independent of the motions before. Use one for each thread: it keeps the values
+/// that scenarios of one magnitude and distance share.
 ///
 /// ```
 /// use rockfrag::motion::{MotionModel, Scenario, Suite, Synthesizer};
@@ -106,7 +106,6 @@ pub struct Synthesizer {
     /// Whether to compute the high frequencies, and the combined motion.
     high_frequency: bool,
     combined: bool,
-    transforms: Transforms,
     earthquake: Option<Earthquake>,
 }
 
@@ -148,7 +147,6 @@ impl Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
             combined: suites.contains(&Suite::Csgm),
             model,
-            transforms: Transforms::default(),
             earthquake: None,
         }
     }
@@ -166,10 +164,10 @@ impl Synthesizer {
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
             let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, samples);
-            spectrum = self.transforms.forward(&mut noise);
+            spectrum = transform(&mut noise);
             shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, samples), made.dt_s);
             if self.high_frequency {
-                self.transforms.inverse(&mut spectrum.clone(), &mut noise);
+                invert(&mut spectrum.clone(), &mut noise);
                 made.high_frequency = noise;
             }
         }
@@ -177,9 +175,9 @@ impl Synthesizer {
         made.pulse = pulse.sample(made.dt_s, made.epoch_s, samples);
         if self.combined {
             made.combined = made.pulse.clone();
-            let pulse_spectrum = self.transforms.forward(&mut made.combined);
+            let pulse_spectrum = transform(&mut made.combined);
             combine(&mut spectrum, &pulse_spectrum, self.model.difference);
-            self.transforms.inverse(&mut spectrum, &mut made.combined);
+            invert(&mut spectrum, &mut made.combined);
         }
         self.earthquake = Some(earthquake);
         made

@@ -10,7 +10,7 @@ use super::{Origin, RecordedMotion};
 use crate::keyword::keywords;
 use crate::motion::measures::peak;
 use crate::motion::pulse::largest_velocity;
-use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Suite, Transforms, measures};
+use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Suite, measures};
 use crate::number::significant;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::units::G_M_S2;
@@ -256,7 +256,7 @@ impl Processing {
             let acceleration_m_s2: Vec<f32> =
                 motion.acceleration_m_s2.iter().map(|&a| (scale * a) as f32).collect();
             let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-            let measures = self.plan.measure(&written, dt_s, &mut Transforms::default());
+            let measures = self.plan.measure(&written, dt_s);
             let (pga_g, pgv_m_s) = (measures.pga_m_s2 / G_M_S2, measures.pgv_m_s);
             let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
             if scale != 1.0 && is_too_strong && !self.accept_implausible {

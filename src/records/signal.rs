@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::keyword::keywords;
-use crate::motion::fourier::{Transforms, even_smooth_at_least};
+use crate::motion::fourier::{even_smooth_at_least, invert, transform};
 use crate::motion::measures::{peak, velocity};
 
 /// Order n of the high-pass, in each direction.
@@ -59,16 +59,15 @@ pub fn high_pass(samples: &mut [f64], dt_s: f64, corner_hz: f64) {
     let wanted = 1.5 * f64::from(HIGH_PASS_ORDER) / (corner_hz * dt_s);
     let pad = wanted.min(MOST_PADDING * record as f64).ceil() as usize;
     let length = even_smooth_at_least(record + 2 * pad);
-    let mut transforms = Transforms::default();
     let mut padded = vec![0.0; length];
     padded[pad..pad + record].copy_from_slice(samples);
-    let mut spectrum = transforms.forward(&mut padded);
+    let mut spectrum = transform(&mut padded);
     for (k, coefficient) in spectrum.iter_mut().enumerate() {
         // No gain at 0 Hz, where fc/f is infinite.
         let f = k as f64 / (length as f64 * dt_s);
         *coefficient *= 1.0 / (1.0 + (corner_hz / f).powi(2 * HIGH_PASS_ORDER));
     }
-    transforms.inverse(&mut spectrum, &mut padded);
+    invert(&mut spectrum, &mut padded);
     samples.copy_from_slice(&padded[pad..pad + record]);
 }
 

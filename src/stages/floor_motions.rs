@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::each;
 use super::shared::objects::field;
-use crate::motion::{Floor, MeasurePlan, MotionMeasures, Suite, Transforms};
+use crate::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
 use crate::object::Field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -78,12 +78,12 @@ impl Stage for FloorMotions {
         let no_rows = RecordBatch::new_empty(table.schema().clone());
         let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
         let none = Sampled { columns: none, motions: Vec::new() };
-        let schema = self.filter(none, &mut Transforms::default())?.schema();
+        let schema = self.filter(none)?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         each(
             &context.bar(table.rows()),
             parts(&table, |_| true, AT_ONCE),
-            |some, transforms| self.filter(some, transforms),
+            |some| self.filter(some),
             |some| Ok(writer.append(&some)?),
         )?;
         let summary =
@@ -95,7 +95,7 @@ impl Stage for FloorMotions {
 
 impl FloorMotions {
     /// The rows of the floor; measures are those of its motions, all other columns those of the ground.
-    fn filter(&self, ground: Sampled, transforms: &mut Transforms) -> anyhow::Result<RecordBatch> {
+    fn filter(&self, ground: Sampled) -> anyhow::Result<RecordBatch> {
         let Sampled { columns, motions } = ground;
         let floor = Floor { period_s: self.period, level: self.level };
         let schema = columns.rows.schema();
@@ -108,7 +108,7 @@ impl FloorMotions {
             let moved = floor.motion(&motion.acceleration_m_s2, motion.dt_s, self.damping);
             let moved: Vec<f32> = moved.iter().map(|&a| a as f32).collect();
             let written: Vec<f64> = moved.iter().map(|&a| f64::from(a)).collect();
-            measured.push(plan.measure(&written, motion.dt_s, transforms));
+            measured.push(plan.measure(&written, motion.dt_s));
             filtered.push(moved);
             floors.push(FloorRow {
                 suite: motion.suite.unwrap_or("record".to_string()) + Suite::ON_FLOOR,

@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
 use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
-use crate::motion::Transforms;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
@@ -134,7 +133,7 @@ impl Stage for Ida {
         each(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_of_motion, (ANALYSES / self.steps).clamp(1, MOTIONS)),
-            |some, scratch| self.analyse(&scan, &structures, some, scratch),
+            |some| self.analyse(&scan, &structures, some),
             |some| {
                 stripes.append(&some.stripes)?;
                 scanned.extend(some.scanned);
@@ -157,17 +156,11 @@ impl Stage for Ida {
 
 impl Ida {
     /// Scans each structure under each of some motions.
-    fn analyse(
-        &self,
-        scan: &Scan,
-        structures: &[&Structure],
-        some: Sampled,
-        scratch: &mut Transforms,
-    ) -> anyhow::Result<Analysed> {
+    fn analyse(&self, scan: &Scan, structures: &[&Structure], some: Sampled) -> anyhow::Result<Analysed> {
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in &some.motions {
             let record = motion.record()?;
-            let measures = Measures::new(motion, &record, scratch);
+            let measures = Measures::new(motion, &record);
             warned.extend(warnings(motion, &record));
             for &structure in structures {
                 let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {

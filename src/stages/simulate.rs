@@ -10,7 +10,6 @@ use serde::Serialize;
 
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
-use crate::motion::Transforms;
 use crate::number;
 use crate::number::listed;
 use crate::pipeline::Stage;
@@ -100,7 +99,7 @@ impl Stage for Simulate {
         each(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_of_motion, CHUNK),
-            |some, scratch| self.respond(some, &plan, scratch),
+            |some| self.respond(some, &plan),
             |some| {
                 for (structure, motion) in some.overturned {
                     let Overturning { count, named } = &mut overturning[structure];
@@ -179,7 +178,7 @@ impl Simulate {
     }
 
     /// Runs all structures on some motions, while these are at hand.
-    fn respond(&self, some: Sampled, plan: &Plan, scratch: &mut Transforms) -> anyhow::Result<Responded> {
+    fn respond(&self, some: Sampled, plan: &Plan) -> anyhow::Result<Responded> {
         let motions = some.motions;
         let records = motions.iter().map(Motion::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);
@@ -190,7 +189,7 @@ impl Simulate {
         let (mut rows, mut overturned) = (Vec::new(), Vec::new());
         let (mut traces, mut warned) = (Vec::new(), Warnings::default());
         for (motion, record) in pairs {
-            let measures = Measures::new(motion, record, scratch);
+            let measures = Measures::new(motion, record);
             let is_traced = self.trace.iter().any(|traced| *traced == ALL || *traced == motion.motion_id);
             let responded = plan.structures(motion).zip(&mut responses);
             for (index, (structure, response)) in responded.enumerate() {

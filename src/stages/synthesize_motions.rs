@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::inputs::Grid;
 use crate::motion::{
     Difference, Epoch, LONGEST_MOTION, MeasurePlan, MotionMeasures, MotionModel, Scenario, SiteAmplification,
-    StochasticModel, Suite, Synthesizer, Transforms,
+    StochasticModel, Suite, Synthesizer,
 };
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
@@ -130,17 +130,17 @@ impl Stage for SynthesizeMotions {
             },
             seed: self.seed,
         };
-        let pool = Pool::new(|| (Synthesizer::new(model.clone(), suites), Transforms::default()));
+        let pool = Pool::new(|| Synthesizer::new(model.clone(), suites));
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(table.rows());
         pipelined(
             together(scenarios, model.clone()),
             |some| {
                 bar.advance(some.len())?;
-                let synthesize = |scratch: &mut _| {
-                    some.iter().flat_map(|scenario| synthesize(scenario, suites, &plan, scratch)).collect()
-                };
-                let motions: Vec<SyntheticMotion> = pool.with(synthesize);
+                let motions: Vec<SyntheticMotion> = pool.with(|synthesizer| {
+                    let motions = some.iter().map(|one| synthesize(one, suites, &plan, synthesizer));
+                    motions.flatten().collect()
+                });
                 batch(&motions, &periods)
             },
             |batch| Ok(writer.append(&batch)?),
@@ -217,7 +217,7 @@ fn synthesize(
     scenario: &Scenario,
     suites: &[Suite],
     plan: &MeasurePlan,
-    (synthesizer, scratch): &mut (Synthesizer, Transforms),
+    synthesizer: &mut Synthesizer,
 ) -> Vec<SyntheticMotion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
@@ -229,7 +229,7 @@ fn synthesize(
             suite,
             dt_s,
             scenario: *scenario,
-            measures: plan.measure(&written, dt_s, scratch),
+            measures: plan.measure(&written, dt_s),
             acceleration_m_s2,
         }
     });

@@ -12,7 +12,7 @@ use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag::motion::{
     Design, Difference, Epoch, Grid, MeasurePlan, MotionModel, Pulse, Scenario, SiteAmplification, Suite,
-    Synthesizer, Synthetic, Transforms, measures,
+    Synthesizer, Synthetic, measures,
 };
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
@@ -76,11 +76,10 @@ fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) 
     let mut mean = [0.0; 3];
     for seed in 0..SEEDS {
         let model = MotionModel { seed, ..with_difference(difference) };
-        let mut scratch = Transforms::default();
         let mut synthesizer = Synthesizer::new(model, Suite::ALL);
         let of = |scenario: &Scenario| {
             let motion = synthesizer.synthesize(scenario);
-            MeasurePlan::default().measure(samples(&motion), motion.dt_s, &mut scratch)
+            MeasurePlan::default().measure(samples(&motion), motion.dt_s)
         };
         let all: Vec<_> = cell(mw, re_km, 100, seed).iter().map(of).collect();
         let of_seed = [

@@ -38,7 +38,7 @@ fn the_wavelet_has_unit_energy_and_four_vanishing_moments() {
 #[test]
 fn the_transform_is_the_square_of_the_coefficient_at_every_sample() {
     let both = [velocity(&PULSE, 0.1), vec![0.0; 4000]];
-    let mut transform = WaveletTransform::new(&both, DT, 5.0);
+    let transform = WaveletTransform::new(&both, DT, 5.0);
     for period_s in [0.3, 1.7, 5.0] {
         let (wavelet, squares) = (Wavelet::new(period_s, DT), transform.squares(period_s));
         for sample in [0, 17, 800, 3999] {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use rockfrag::motion::measures::velocity;
-use rockfrag::motion::{MeasurePlan, MotionMeasures, Transforms};
+use rockfrag::motion::{MeasurePlan, MotionMeasures};
 use rockfrag::records::pulses::{FittedPulse, PulseIndicator};
 use rockfrag::table::motions::Motion;
 
@@ -41,7 +41,7 @@ fn measures_are_those_of_eqsig_and_numpy() {
     assert_eq!(answers.len(), 24 * 15);
     for (motion_id, measure, value) in answers {
         let Motion { acceleration_m_s2, dt_s, .. } = &motions[&motion_id];
-        let measured = plan.measure(acceleration_m_s2, *dt_s, &mut Transforms::default());
+        let measured = plan.measure(acceleration_m_s2, *dt_s);
         let (ours, (share, amount)) = (ours(&measured, &measure), tolerance(&measure, *dt_s));
         assert!(
             (ours - value).abs() <= share * value + amount,

@@ -99,7 +99,7 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     let dt_s = dt_s * every as f64;
     let velocities: Vec<Vec<f64>> =
         velocities.iter().map(|velocity| velocity.iter().step_by(every).copied().collect()).collect();
-    let mut transform = WaveletTransform::new(&velocities, dt_s, longest);
+    let transform = WaveletTransform::new(&velocities, dt_s, longest);
     // Largest sum of squares at each period, and its sample.
     let mut scan = vec![(0.0, 0_i64); PERIODS];
     for (k, best) in scan.iter_mut().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::motion::fourier::{Complex64, Transforms, even_smooth_at_least};
+use crate::motion::fourier::{Complex64, even_smooth_at_least, invert, transform};
 
 /// Daubechies' scaling filter with four vanishing moments (Daubechies 1992, Table 6.1); its sum is sqrt 2.
 const FILTER: [f64; 8] = [
@@ -109,7 +109,6 @@ pub struct WaveletTransform {
     samples: usize,
     dt_s: f64,
     length: usize,
-    transforms: Transforms,
     spectra: Vec<Vec<Complex64>>,
 }
 
@@ -118,27 +117,26 @@ impl WaveletTransform {
     pub fn new(series: &[Vec<f64>], dt_s: f64, longest_s: f64) -> WaveletTransform {
         let samples = series.first().map_or(0, Vec::len);
         let length = even_smooth_at_least(samples + 2 * Wavelet::new(longest_s, dt_s).reach + 1);
-        let mut transforms = Transforms::default();
         let spectra = series.iter().map(|series| {
             let mut padded = series.clone();
             padded.resize(length, 0.0);
-            transforms.forward(&mut padded)
+            transform(&mut padded)
         });
-        WaveletTransform { samples, dt_s, length, spectra: spectra.collect(), transforms }
+        WaveletTransform { samples, dt_s, length, spectra: spectra.collect() }
     }
 
     /// Computes the sum over the series of squared coefficients of a wavelet at each sample.
-    pub fn squares(&mut self, period_s: f64) -> Vec<f64> {
+    pub fn squares(&self, period_s: f64) -> Vec<f64> {
         // The wavelet about the first sample; its first half wraps to the end.
         let Wavelet { values, reach, .. } = Wavelet::new(period_s, self.dt_s);
         let mut samples = vec![0.0; self.length];
         samples[..=reach].copy_from_slice(&values[reach..]);
         samples[self.length - reach..].copy_from_slice(&values[..reach]);
-        let kernel = self.transforms.forward(&mut samples);
+        let kernel = transform(&mut samples);
         let mut squares = vec![0.0; self.samples];
         for spectrum in &self.spectra {
             let product = kernel.iter().zip(spectrum).map(|(kernel, series)| kernel.conj() * series);
-            self.transforms.inverse(&mut product.collect::<Vec<_>>(), &mut samples);
+            invert(&mut product.collect::<Vec<_>>(), &mut samples);
             squares.iter_mut().zip(&samples).for_each(|(sum, value)| *sum += (self.dt_s * value).powi(2));
         }
         squares

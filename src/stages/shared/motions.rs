@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use rayon::prelude::*;
 
-use crate::motion::{IntensityMeasures, Peaks, Suite, Transforms, measures};
+use crate::motion::{IntensityMeasures, Peaks, Suite, measures};
 use crate::pipeline::context::Progress;
-use crate::pipeline::stream::{Pool, batches, pipelined};
+use crate::pipeline::stream::{batches, pipelined};
 use crate::records::implausibility::implausibility;
 use crate::rocking::{Record, Response, Structure};
 use crate::table::TableError;
@@ -22,10 +22,10 @@ const PARTS_A_THREAD: usize = 4;
 pub fn each<'a, T: Send>(
     bar: &Progress,
     parts: impl Iterator<Item = Part<'a>> + Send,
-    work: impl Fn(Sampled, &mut Transforms) -> anyhow::Result<T> + Sync,
+    work: impl Fn(Sampled) -> anyhow::Result<T> + Sync,
     mut sink: impl FnMut(T) -> anyhow::Result<()> + Send,
 ) -> anyhow::Result<()> {
-    let (mut known, pool) = (HashSet::new(), Pool::new(Transforms::default));
+    let mut known = HashSet::new();
     pipelined(
         batches(parts.map(anyhow::Ok), PARTS_A_THREAD * rayon::current_num_threads()),
         |part| {
@@ -33,7 +33,7 @@ pub fn each<'a, T: Send>(
                 let ids: Vec<String> = some.motions.iter().map(|motion| motion.motion_id.clone()).collect();
                 let path = some.columns.path.clone();
                 bar.advance(ids.len())?;
-                Ok((path, ids, pool.with(|scratch| work(some, scratch))?))
+                Ok((path, ids, work(some)?))
             });
             done.collect::<anyhow::Result<Vec<_>>>()
         },
@@ -59,7 +59,7 @@ pub struct Measures {
 }
 
 impl Measures {
-    pub fn new(motion: &Motion, record: &Record, scratch: &mut Transforms) -> Measures {
+    pub fn new(motion: &Motion, record: &Record) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let peaks = Peaks {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
@@ -67,7 +67,7 @@ impl Measures {
         };
         Measures {
             peaks,
-            tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s, scratch)),
+            tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s)),
             tp_s: motion.tp_s,
         }
     }
