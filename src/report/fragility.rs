@@ -101,7 +101,6 @@ fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
                 row.push(intensity_in_words(*over, failure.theta.value));
             }
         }
-        row.resize(heads.len(), String::new());
         rows.push(row);
     }
     Table::new(&heads, rows)

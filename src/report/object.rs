@@ -348,20 +348,16 @@ pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
     Some(format!("The 95 % limits cover uncertainty in {joined} only.").replace("eta", "restitution"))
 }
 
-/// The answer, and what it is with one thing changed.
+/// The answer, and what it is with one thing changed; under one motion there are no rates.
 fn numbers(evaluation: &Evaluation, rated: &Rated) -> Table {
-    let heads = ["", &evaluation.when, "95 % limits", "rate a year"];
-    // Under one motion there are no rates.
-    let shown = heads.len() - usize::from(rated.row.years.is_none());
-    let mut rows = Vec::new();
-    for State { name, p, per_year } in rated.states() {
-        rows.push(vec![name, PERCENT.value(p), PERCENT.span(p), RATE.value(per_year)][..shown].to_vec());
-    }
-    for Change { words, p, .. } in evaluation.portrait.changes.iter().skip(1) {
+    let states = rated.states().into_iter().map(|State { name, p, per_year }| {
+        let rate = rated.row.years.map_or(String::new(), |_| RATE.value(per_year));
+        vec![name, PERCENT.value(p), PERCENT.span(p), rate]
+    });
+    let changes = evaluation.portrait.changes.iter().skip(1).map(|Change { words, p, .. }| {
         let values: Vec<String> = p.iter().map(|p| PERCENT.value(*p)).collect();
         let limits: Vec<String> = p.iter().map(|p| PERCENT.span(*p)).collect();
-        rows.push(vec![format!("overturns: {words}"), values.join(", "), limits.join(", ")]);
-    }
-    rows.iter_mut().for_each(|row| row.resize(shown, String::new()));
-    Table::new(&heads[..shown], rows)
+        vec![format!("overturns: {words}"), values.join(", "), limits.join(", ")]
+    });
+    Table::new(&["", &evaluation.when, "95 % limits", "rate a year"], states.chain(changes).collect())
 }

@@ -48,7 +48,8 @@ pub struct Section {
     pub figures: Vec<Figure>,
 }
 
-/// Rows of cells; the first column has their names. A column in which nothing stands is not shown.
+/// Rows of cells, of which the last may be missing; the first column has their names. A column in which
+/// nothing stands is not shown.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     pub caption: String,

@@ -198,7 +198,7 @@ fn figures(count: usize) -> Vec<Figure> {
     vec![
         motion(motions),
         demand(&groups),
-        similarity(&all, motions).unwrap(),
+        similarity(&all, motions).unwrap_or_default(),
         regressions(&tables, &all[0]),
         quality(&tables, &groups),
         planes(&tables, &groups),

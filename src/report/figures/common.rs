@@ -34,6 +34,12 @@ impl Fits {
         let mut fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
         fits.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
     }
+
+    /// The regressions of the demand of some cases, of one form.
+    pub fn demand(&self, cases: &Cases, model: DemandModel) -> impl Iterator<Item = &DemandFit> {
+        let its = self.demand.iter().filter(|fit| fit.group() == cases.group());
+        its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
+    }
 }
 
 /// Letters of a name in a figure.
@@ -115,16 +121,6 @@ pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
 pub fn demands(cases: &Cases) -> impl Iterator<Item = (&Case, f64)> {
     let known = cases.all.iter().filter_map(|case| Some((case, case.outcome.demand()?)));
     known.filter(|(_, demand)| *demand > 0.0)
-}
-
-/// The regressions of the demand of some cases, of one form.
-pub fn demand_fits<'a>(
-    fits: &'a Fits,
-    cases: &Cases,
-    model: DemandModel,
-) -> impl Iterator<Item = &'a DemandFit> {
-    let its = fits.demand.iter().filter(|fit| fit.group() == cases.group());
-    its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
 }
 
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %

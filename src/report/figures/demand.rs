@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{DEMAND, Fits, compare, demand_fits, demands, label, name, rocked};
+use super::common::{DEMAND, Fits, compare, demands, label, name, rocked};
 use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_demand};
 use crate::keyword::Keyword;
 use crate::number;
@@ -55,7 +55,7 @@ pub fn demand(groups: &[&Cases]) -> Figure {
 /// The regression of the demand on each measure, ln EDP = ln a + b ln IM (Eq. 16), if there is one.
 pub fn power_laws<'a>(fits: &'a Fits, cases: &Cases) -> [Option<&'a DemandFit>; Measure::SCALAR.len()] {
     Measure::SCALAR.map(|measure| {
-        demand_fits(fits, cases, DemandModel::Univariate)
+        fits.demand(cases, DemandModel::Univariate)
             .find(|fit| fit.im_x == measure)
             .filter(|fit| fit.r2.is_some() && fit.beta.is_some())
     })

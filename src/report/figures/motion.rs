@@ -73,17 +73,13 @@ fn words(motion: &Motion) -> String {
 }
 
 /// Figure 5: the rotations of two structures in their own units and in dimensionless ones, under the motion
-/// in which the first rocks furthest without overturning.
-pub fn similarity(groups: &[Cases], motions: &[Motion]) -> anyhow::Result<Figure> {
+/// in which the first rocks furthest without overturning; if there are such.
+pub fn similarity(groups: &[Cases], motions: &[Motion]) -> Option<Figure> {
     let mut structures = groups.iter().map(|cases| &cases.structure);
-    let Some(first) = structures.next() else { return Ok(Figure::default()) };
-    let Some(second) = structures.find(|other| other.p_rad_s != first.p_rad_s) else {
-        return Ok(Figure::default());
-    };
+    let first = structures.next()?;
+    let second = structures.find(|other| other.p_rad_s != first.p_rad_s)?;
     let demands = motions.iter().filter_map(|motion| Some((safe_demand(first, motion)?, motion)));
-    let Some((_, motion)) = demands.max_by(|a, b| a.0.total_cmp(&b.0)) else {
-        return Ok(Figure::default());
-    };
+    let (_, motion) = demands.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let faster = second.p_rad_s / first.p_rad_s;
     let stronger = second.alpha_rad.tan() / first.alpha_rad.tan();
     let scaled: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
@@ -118,7 +114,7 @@ pub fn similarity(groups: &[Cases], motions: &[Motion]) -> anyhow::Result<Figure
         words(motion)
     );
     let figure = Figure::new("similarity", "Two similar responses", 2, 105.0, panels);
-    Ok(figure.explained(compare(&caption, "Figure 5")))
+    Some(figure.explained(compare(&caption, "Figure 5")))
 }
 
 /// The demand of a motion in safe rocking.
@@ -128,11 +124,11 @@ fn safe_demand(structure: &Structure, motion: &Motion) -> Option<f64> {
 }
 
 /// The rotation at each sample, rad, and in free rocking after them.
-fn rotations(structure: &Structure, samples: &[f64], dt_s: f64) -> anyhow::Result<Vec<f64>> {
-    let ended = with_tail(&Record::new(samples, dt_s)?, TAIL / structure.p_rad_s);
-    let (_, points) = trace(structure, &Record::new(&ended, dt_s)?);
+fn rotations(structure: &Structure, samples: &[f64], dt_s: f64) -> Option<Vec<f64>> {
+    let ended = with_tail(&Record::new(samples, dt_s).ok()?, TAIL / structure.p_rad_s);
+    let (_, points) = trace(structure, &Record::new(&ended, dt_s).ok()?);
     let samples = points.iter().filter(|point| point.solver_event.is_none());
-    Ok(samples.map(|point| point.theta_rad).collect())
+    Some(samples.map(|point| point.theta_rad).collect())
 }
 
 /// Cuts a series down to `most` values or fewer: to the least and the largest value of each of `most` / 2

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::common::{Fits, compare, demand_fits, demands, name};
+use super::common::{Fits, compare, demands, name};
 use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel};
@@ -11,7 +11,7 @@ use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel};
 pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
     let mut panels = Vec::new();
     for cases in groups {
-        let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
+        let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
         let [low, high] = planes[..] else { continue };
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
         panels.extend(high.range_low.map(|transition| panel(cases, transition, coefficients)));

@@ -1,6 +1,6 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
-use super::common::{Fits, by, called, compare, demand_fits, demands, label};
+use super::common::{Fits, by, called, compare, demands, label};
 use super::common::{observed_shares, ratio_bins, rocked};
 use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
 use crate::motion::IntensityMeasures;
@@ -125,7 +125,7 @@ fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
 }
 
 fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
-    let planes: Vec<&DemandFit> = demand_fits(fits, cases, DemandModel::Biplanar).collect();
+    let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
     let mut curves = Vec::new();
     for share in SHARES {
         let im3 = sample_quantile(im3.to_vec(), share);
@@ -142,7 +142,7 @@ fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec
         };
         curves.push((format!("IM3 at its {} % quantile", number::plain(100.0 * share)), curve(im4, p)));
     }
-    let alone = demand_fits(fits, cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
+    let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     curves.extend(alone.map(|fit| {
         let p = |im4: f64| fit.p_exceeding(&measures(im4, 1.0), fits.limit_state, CONFIDENCE);
         ("IM4 alone".to_string(), curve(equal_ratios(span.low, span.high, STEPS), p))

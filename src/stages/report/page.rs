@@ -110,7 +110,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         validation(&tables.rows(Kind::Reliability)?),
         ranking(&tables.rows(Kind::Ranking)?),
         motion(&motions),
-        similarity(&tables.groups, &motions)?,
+        similarity(&tables.groups, &motions).unwrap_or_default(),
         planes(fits, groups),
         exceedance(fits, &suites),
         overturning(fits, &suites),
