@@ -9,7 +9,7 @@ use super::object::facts;
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::literal;
-use crate::number::{self, Limited, OF_HUNDRED, PERCENT};
+use crate::number::{self, OF_HUNDRED, PERCENT};
 use crate::table::answers::Answer;
 
 /// The most objects that are drawn, and files whose expected numbers are shown.
@@ -176,8 +176,8 @@ fn answered(rated: &Rated, cell: String) -> String {
 
 /// The probability of overturning, or why there is no answer.
 fn overturns_in_words(rated: &Rated) -> String {
-    let p = Limited::value(rated.row.p_overturning.value);
-    if rated.is_answered() { p.value.map_or(String::new(), |_| OF_HUNDRED.value(p)) } else { reason(rated) }
+    let value = rated.row.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p));
+    if rated.is_answered() { value } else { reason(rated) }
 }
 
 /// The limits, or the range without a value.

@@ -273,32 +273,26 @@ pub fn page(evaluation: &Evaluation, rated: &Rated) -> Page {
     }
 }
 
-/// The object as it is; the change that helps most, nothing that is only measured; and another floor.
-fn tiles_of_changes(changes: &[Change], when: &str) -> Vec<Tile> {
-    let [as_it_is, others @ ..] = changes else { return Vec::new() };
-    let objects = others.iter().filter(|change| change.p.len() == 1);
-    let best = objects.min_by(|a, b| a.probability().total_cmp(&b.probability()));
-    let best = best.filter(|best| best.probability() < as_it_is.probability());
-    let moved = others.iter().find(|change| change.is_moved && best.is_none_or(|best| !best.is_moved));
-    let both = best
-        .map(|best| (best, ", which helps most".to_string()))
-        .into_iter()
-        .chain(moved.map(|moved| (moved, String::new())));
-    let own = [(as_it_is, format!(", {when}"))].into_iter();
-    own.chain(both)
-        .map(|(Change { words, p, .. }, more)| {
+/// The object as it is; the change that helps most, nothing that is only measured; another floor; and the
+/// motion that overturns it.
+fn tiles(Evaluation { when, portrait, .. }: &Evaluation) -> Vec<Tile> {
+    let mut tiles = Vec::new();
+    if let [as_it_is, others @ ..] = &portrait.changes[..] {
+        let objects = others.iter().filter(|change| change.p.len() == 1);
+        let best = objects.min_by(|a, b| a.probability().total_cmp(&b.probability()));
+        let best = best.filter(|best| best.probability() < as_it_is.probability());
+        let moved = others.iter().find(|change| change.is_moved && best.is_none_or(|best| !best.is_moved));
+        let more = [format!(", {when}"), ", which helps most".to_string(), String::new()];
+        for (change, more) in [Some(as_it_is), best, moved].into_iter().zip(more) {
+            let Some(Change { words, p, .. }) = change else { continue };
             let limits = PERCENT.limits(p[0], "95 % limits ");
-            Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{more} {limits}"))
-        })
-        .collect()
-}
-
-fn tiles(evaluation: &Evaluation) -> Vec<Tile> {
-    let Portrait { fragility, hazard, changes, .. } = &evaluation.portrait;
-    let mut tiles = tiles_of_changes(changes, &evaluation.when);
-    if let Some(fragility) = fragility {
-        let usual = hazard.as_ref().and_then(|hazard| Some((hazard.peak, hazard.usual().next()?)));
-        let site = usual.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
+            tiles.push(Tile::new(PERCENT.value(p[0]), format!("overturns: {words}{more} {limits}")));
+        }
+    }
+    if let Some(fragility) = &portrait.fragility {
+        let hazard = portrait.hazard.as_ref();
+        let site = hazard.and_then(|hazard| Some((hazard.peak, hazard.usual().next()?)));
+        let site = site.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
             let (intensity, symbol) = (number::significant(intensity, 2), peak.words().2);
             format!("; {intensity} {symbol} comes once in {}", years(period))
         });
@@ -317,9 +311,10 @@ fn sliding(object: &ObjectRow) -> Option<String> {
 /// What the answer rests on.
 pub fn facts(all: &[&Rated]) -> Vec<String> {
     let mut upstairs = all.iter().map(|rated| &rated.object).filter(|object| object.is_upstairs());
-    let building = upstairs.clone().next().map(|_| match upstairs.any(|object| object.floor.is_none()) {
-        true => "The building is taken as linear; 60 % up is at 60 % of its height.".to_string(),
-        false => "The building is taken as linear.".to_string(),
+    let building = upstairs.clone().next().map(|_| {
+        let percent = upstairs.any(|object| object.floor.is_none());
+        let percent = if percent { "; 60 % up is at 60 % of its height" } else { "" };
+        format!("The building is taken as linear{percent}.")
     });
     let model = all.first().and_then(|worst| model_in_words(&worst.object));
     let facts = [Some(ANGLES.to_string()), building, model, limits_in_words(all)];
@@ -337,10 +332,9 @@ pub fn model_in_words(object: &ObjectRow) -> Option<String> {
 
 /// What the limits cover.
 pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
-    let unknown: Vec<Part> =
-        all.iter().flat_map(|rated| rated.doubts.part_sds()).map(|(part, _)| part).collect();
-    let parts: Vec<&str> =
-        Part::ALL.iter().filter(|part| unknown.contains(part)).map(|part| part.words()).collect();
+    let unknown: Vec<(Part, f64)> = all.iter().flat_map(|rated| rated.doubts.part_sds()).collect();
+    let parts = Part::ALL.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
+    let parts: Vec<&str> = parts.map(|part| part.words()).collect();
     let joined = match parts.split_last()? {
         (only, []) => (*only).to_string(),
         (last, others) => format!("{} and {last}", others.join(", ")),
