@@ -1,6 +1,5 @@
 //! Concurrent reading, work and writing in order, in memory bounded by short queues.
 
-use std::sync::Mutex;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
@@ -59,27 +58,4 @@ pub fn batches<A, E: Into<anyhow::Error>>(
             batch => Some(batch.map_err(Into::into)),
         }
     })
-}
-
-/// A pool of scratch memory, at most one for each thread.
-pub struct Pool<T, F> {
-    idle: Mutex<Vec<T>>,
-    make: F,
-}
-
-impl<T, F: Fn() -> T> Pool<T, F> {
-    pub fn new(make: F) -> Pool<T, F> {
-        Pool { idle: Mutex::new(Vec::new()), make }
-    }
-
-    /// Lends scratch to `work`.
-    pub fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
-        let idle = self.idle.lock().ok().and_then(|mut idle| idle.pop());
-        let mut scratch = idle.unwrap_or_else(|| (self.make)());
-        let result = work(&mut scratch);
-        if let Ok(mut idle) = self.idle.lock() {
-            idle.push(scratch);
-        }
-        result
-    }
 }

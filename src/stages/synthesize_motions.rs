@@ -1,6 +1,7 @@
 //! synthesize-motions: the pulse, the high frequencies and their combination for every scenario.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use anyhow::Context as _;
 use clap::Args;
@@ -15,7 +16,7 @@ use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::paths::{Input, Output, Read, SiteInput, out_of_partition};
-use crate::pipeline::stream::{Pool, pipelined};
+use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{Partition, Table};
 use crate::table::{TableError, motions, rows};
@@ -130,17 +131,21 @@ impl Stage for SynthesizeMotions {
             },
             seed: self.seed,
         };
-        let pool = Pool::new(|| Synthesizer::new(model.clone(), suites));
+        // Of threads that are between two chunks.
+        let idle: Mutex<Vec<Synthesizer>> = Mutex::default();
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(table.rows());
         pipelined(
             together(scenarios, model.clone()),
             |some| {
                 bar.advance(some.len())?;
-                let motions: Vec<SyntheticMotion> = pool.with(|synthesizer| {
-                    let motions = some.iter().map(|one| synthesize(one, suites, &plan, synthesizer));
-                    motions.flatten().collect()
-                });
+                let kept = idle.lock().ok().and_then(|mut idle| idle.pop());
+                let mut synthesizer = kept.unwrap_or_else(|| Synthesizer::new(model.clone(), suites));
+                let motions = some.iter().flat_map(|one| synthesize(one, suites, &plan, &mut synthesizer));
+                let motions: Vec<SyntheticMotion> = motions.collect();
+                if let Ok(mut idle) = idle.lock() {
+                    idle.push(synthesizer);
+                }
                 batch(&motions, &periods)
             },
             |batch| Ok(writer.append(&batch)?),
