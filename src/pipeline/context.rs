@@ -200,21 +200,18 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table, unless one of another program is there.
-    pub fn write_file(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
-        match path.exists() && !self.common.force && !is_ours(path, content) {
-            true => Err(TableError::not_ours(path)),
-            false => self.replace(path, content),
+    /// Writes a file that is no table, unless one of another program is there. One with the same content stays
+    /// untouched.
+    pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
+        self.observed.expect_running()?;
+        if std::fs::read(path).is_ok_and(|there| there == content) {
+            return Ok(());
         }
-    }
-
-    /// Writes a file. One with the same content stays untouched.
-    pub fn replace(&self, path: &Path, content: &[u8]) -> Result<(), TableError> {
-        let is_there = std::fs::read(path).is_ok_and(|there| there == content);
-        if !is_there && self.observed.expect_running().is_ok() {
-            let written = Written::new(path, content)?;
-            locked(&self.written).push(written);
+        if path.exists() && !self.common.force && !is_ours(path, content) {
+            return Err(TableError::not_ours(path).into());
         }
+        let written = Written::new(path, content)?;
+        locked(&self.written).push(written);
         Ok(())
     }
 

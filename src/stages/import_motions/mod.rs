@@ -157,9 +157,9 @@ impl Stage for ImportMotions {
                     match result {
                         Err(why) => summary.leave_out(why),
                         Ok(imported) => {
-                            summary.add(&imported)?;
                             context.warn(imported.iter().flat_map(warnings).collect());
                             writer.append(&batch(&imported, &periods)?)?;
+                            summary.add(imported);
                         }
                     }
                 }

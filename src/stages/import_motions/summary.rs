@@ -21,15 +21,8 @@ pub enum NotImported {
 /// What was read, so that a wrong unit is seen.
 #[derive(Default)]
 pub struct Summary {
-    ids: HashSet<String>,
-    /// By the hashes of their contents.
-    files: HashMap<String, String>,
-    pulses: usize,
-    magnitudes: usize,
-    /// How many motions came of each format and unit.
-    kinds: BTreeMap<String, usize>,
-    pga_g: Vec<f64>,
-    pgv_m_s: Vec<f64>,
+    /// Without their samples.
+    motions: Vec<ImportedMotion>,
     /// How many components of each kind were left out.
     left_out: BTreeMap<&'static str, usize>,
     /// What is wrong with others.
@@ -37,24 +30,10 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Adds motions, which must differ from those before in their names and files.
-    pub fn add(&mut self, imported: &[ImportedMotion]) -> anyhow::Result<()> {
+    pub fn add(&mut self, imported: Vec<ImportedMotion>) {
         for motion in imported {
-            let ImportedMotion { motion_id: id, source_file: path, source_blake3, measures, .. } = motion;
-            let first = self.files.entry(source_blake3.clone()).or_insert_with(|| path.clone());
-            if first != path {
-                bail!("{path}: the same record as {first}; leave out one");
-            }
-            if !self.ids.insert(id.clone()) {
-                bail!("{path}: two motions are called '{id}'; rename the file");
-            }
-            self.pulses += usize::from(motion.pulse.tp_s.is_some());
-            self.magnitudes += usize::from(motion.origin.mw.is_some());
-            *self.kinds.entry(motion.kind.clone()).or_default() += 1;
-            self.pga_g.push(measures.pga_m_s2 / G_M_S2);
-            self.pgv_m_s.push(measures.pgv_m_s);
+            self.motions.push(ImportedMotion { acceleration_m_s2: Vec::new(), ..motion });
         }
-        Ok(())
     }
 
     pub fn leave_out(&mut self, why: NotImported) {
@@ -64,9 +43,20 @@ impl Summary {
         }
     }
 
-    /// Refuses a call without motions, or one that does not keep going beside what is wrong.
+    /// Refuses a call without motions, or of which two have one name or file, or one that does not keep going
+    /// beside what is wrong.
     pub fn expect_motions(&self, keep_going: bool) -> anyhow::Result<()> {
-        let (is_empty, left_out) = (self.pga_g.is_empty(), self.left_out());
+        let (mut ids, mut files) = (HashSet::new(), HashMap::new());
+        for ImportedMotion { motion_id: id, source_file: path, source_blake3, .. } in &self.motions {
+            let first = *files.entry(source_blake3).or_insert(path);
+            if first != path {
+                bail!("{path}: the same record as {first}; leave out one");
+            }
+            if !ids.insert(id) {
+                bail!("{path}: two motions are called '{id}'; rename the file");
+            }
+        }
+        let (is_empty, left_out) = (self.motions.is_empty(), self.left_out());
         if is_empty && self.refused.is_empty() {
             let found = if left_out.is_empty() { "no component" } else { &left_out };
             bail!("{found}; expected horizontal ones at the surface (--vertical imports vertical ones)");
@@ -85,22 +75,24 @@ impl Summary {
     }
 
     pub fn text(&self) -> String {
-        let kinds: Vec<String> = self.kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        self.motions.iter().for_each(|motion| *kinds.entry(&motion.kind).or_default() += 1);
+        let kinds: Vec<String> = kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
         let left_out = self.left_out();
         let left_out = if left_out.is_empty() { String::new() } else { format!("; {left_out} left out") };
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
-            counted(self.pga_g.len(), "motion"),
+            counted(self.motions.len(), "motion"),
             listed(&kinds, NAMED),
-            count(self.pulses),
-            count(self.magnitudes),
-            range(&self.pga_g),
-            range(&self.pgv_m_s)
+            count(self.motions.iter().filter(|motion| motion.pulse.tp_s.is_some()).count()),
+            count(self.motions.iter().filter(|motion| motion.origin.mw.is_some()).count()),
+            range(self.motions.iter().map(|motion| motion.measures.pga_m_s2 / G_M_S2)),
+            range(self.motions.iter().map(|motion| motion.measures.pgv_m_s))
         )
     }
 }
 
-fn range(values: &[f64]) -> String {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    format!("{} to {}", fixed(low, 3), fixed(values.iter().copied().fold(0.0, f64::max), 3))
+fn range(values: impl Iterator<Item = f64> + Clone) -> String {
+    let low = values.clone().fold(f64::INFINITY, f64::min);
+    format!("{} to {}", fixed(low, 3), fixed(values.fold(0.0, f64::max), 3))
 }
