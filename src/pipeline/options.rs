@@ -59,11 +59,20 @@ impl FromStr for Steps {
     }
 }
 
+/// Returns a parser of ascending numbers in a range; `expected` describes them.
+pub fn steps(
+    range: RangeInclusive<f64>,
+    expected: &'static str,
+) -> impl Fn(&str) -> Result<Steps, &'static str> + Clone {
+    move |text| {
+        let steps: Steps = text.parse()?;
+        if steps.0.iter().all(|value| range.contains(value)) { Ok(steps) } else { Err(expected) }
+    }
+}
+
 /// Parses periods of spectral accelerations, s.
 pub fn periods(text: &str) -> Result<Steps, &'static str> {
-    let steps: Steps = text.parse()?;
-    let is_within = steps.0.iter().all(|period| (0.01..=20.0).contains(period));
-    if is_within { Ok(steps) } else { Err("expected periods in s, from 0.01 to 20") }
+    steps(0.01..=20.0, "expected periods in s, from 0.01 to 20")(text)
 }
 
 /// Lines that are printed of a list.

@@ -9,10 +9,10 @@ use serde::Serialize;
 
 use crate::motion::{Design, Grid, Scenario};
 use crate::number::counted;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Steps, number};
+use crate::pipeline::options::{Steps, number, steps};
 use crate::pipeline::paths::{Output, Read};
-use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::table::rows;
 use crate::warning::{Warning, Warnings};
@@ -31,10 +31,12 @@ pub struct SampleScenarios {
           value_parser = number(1..=10_000_000_usize, "1 to 10,000,000"))]
     samples: usize,
     /// Moment magnitudes: first:last:step, or numbers separated by commas
-    #[arg(long, default_value = "5.5:7.5:0.5", value_name = "MW,...")]
+    #[arg(long, default_value = "5.5:7.5:0.5", value_name = "MW,...",
+          value_parser = steps(MAGNITUDES, "expected moment magnitudes from 1 to 9.9"))]
     mw: Steps,
     /// Distances, km: first:last:step, or numbers separated by commas
-    #[arg(long, default_value = "5:20:2.5", value_name = "KM,...")]
+    #[arg(long, default_value = "5:20:2.5", value_name = "KM,...",
+          value_parser = steps(DISTANCES_KM, "expected distances from 0 to 1000 km"))]
     re: Steps,
     /// How to sample each cell: lhs (Latin hypercube) or random
     #[arg(long, default_value = "lhs")]
@@ -58,16 +60,6 @@ impl Stage for SampleScenarios {
 
     fn outputs(&self) -> Vec<PathBuf> {
         vec![self.out.to_path_buf()]
-    }
-
-    fn check(&self) -> anyhow::Result<()> {
-        if !self.mw.0.iter().all(|mw| MAGNITUDES.contains(mw)) {
-            return Err(UsageError::because("mw: expected moment magnitudes from 1 to 9.9"));
-        }
-        if !self.re.0.iter().all(|re_km| DISTANCES_KM.contains(re_km)) {
-            return Err(UsageError::because("re: expected distances from 0 to 1000 km"));
-        }
-        Ok(())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

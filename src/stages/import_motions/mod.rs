@@ -15,7 +15,7 @@ use self::summary::Summary;
 use crate::inputs::About;
 use crate::motion::MeasurePlan;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Steps, number, periods};
+use crate::pipeline::options::{Steps, number, periods, steps};
 use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
@@ -38,7 +38,7 @@ const AT_ONCE: usize = 32;
     rockfrag import-motions records --keep-going --scale 0.5,1,2 --rotate strongest-pulse")]
 pub struct ImportMotions {
     /// Files and folders of records
-    #[arg(value_name = "FILE|DIR")]
+    #[arg(value_name = "FILE|DIR", required = true)]
     files: Vec<RecordsInput>,
     /// Motions to write
     #[arg(long, value_name = "FILE", default_value = "motions.parquet")]
@@ -71,7 +71,8 @@ pub struct ImportMotions {
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     rotate: Option<Direction>,
     /// Scale by these factors; each gives a separate motion
-    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"])]
+    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"],
+          value_parser = steps(f64::MIN_POSITIVE..=f64::MAX, "expected factors above 0"))]
     scale: Option<Steps>,
     /// Scale each motion to this PGA, g
     #[arg(long, value_name = "G", conflicts_with = "scale_pgv",
@@ -115,15 +116,8 @@ impl Stage for ImportMotions {
         vec![self.out.to_path_buf()]
     }
 
-    fn check(&self) -> anyhow::Result<()> {
-        if self.files.is_empty() {
-            return Err(UsageError::because("no files; expected files or folders of records"));
-        }
-        Ok(())
-    }
-
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let processing = self.processing()?;
+        let processing = self.processing();
         let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
         let about = about.map_err(|error| UsageError::because(error.to_string()))?;
@@ -184,18 +178,15 @@ fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBat
 }
 
 impl ImportMotions {
-    fn processing(&self) -> anyhow::Result<Processing> {
+    fn processing(&self) -> Processing {
         let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
-            (Some(factors), ..) if factors.0.iter().any(|factor| *factor <= 0.0) => {
-                return Err(UsageError::because("scale: expected factors above 0"));
-            }
             (Some(factors), ..) => Scaling::Factors(factors.0.clone()),
             (_, Some(pga_g), _) => Scaling::Pga(pga_g * G_M_S2),
             (_, _, Some(pgv_m_s)) => Scaling::Pgv(pgv_m_s),
             _ => Scaling::Factors(vec![1.0]),
         };
         let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
-        Ok(Processing {
+        Processing {
             baseline: self.baseline,
             high_pass_hz: self.high_pass,
             resample_s: self.resample,
@@ -204,6 +195,6 @@ impl ImportMotions {
             pulses: self.pulses,
             accept_implausible: self.accept_implausible,
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
-        })
+        }
     }
 }
