@@ -21,8 +21,8 @@ thread_local! {
     static PLANNED: RefCell<HashMap<usize, Planned>> = RefCell::default();
 }
 
-/// Returns the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and the
-/// last digits would depend on the history of the thread.
+/// Returns the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and
+/// the last digits would depend on the history of the thread.
 fn planned(samples: usize) -> Planned {
     PLANNED.with_borrow_mut(|known| {
         if known.len() == KEPT && !known.contains_key(&samples) {

@@ -200,8 +200,8 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table, unless one of another program is there. One with the same content stays
-    /// untouched.
+    /// Writes a file that is no table, unless one of another program is there. One with the same content
+    /// stays untouched.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         self.observed.expect_running()?;
         if std::fs::read(path).is_ok_and(|there| there == content) {

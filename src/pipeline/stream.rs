@@ -8,8 +8,8 @@ use rayon::prelude::*;
 /// Capacity of a queue between two steps.
 const QUEUE: usize = 2;
 
-/// Passes the items of each batch of `source` through `work`, on all threads, and what comes of them in order to
-/// `sink`. Source and sink each have their own thread. The first error ends all and is returned.
+/// Passes the items of each batch of `source` through `work`, on all threads, and what comes of them in order
+/// to `sink`. Source and sink each have their own thread. The first error ends all and is returned.
 pub fn pipelined<A: Send, B: Send>(
     source: impl Iterator<Item = anyhow::Result<Vec<A>>> + Send,
     work: impl Fn(A) -> anyhow::Result<B> + Sync,

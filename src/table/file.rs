@@ -318,8 +318,8 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     let is_other = |file: &&TableFile| file.part.as_ref().is_none_or(|(_, key)| key != whole);
     if let Some(other) = files.iter().find(is_other) {
         return Some(format!(
-            "{} and {} are no parts of one table: they were made by other options, of other files or by another \
-             program",
+            "{} and {} are no parts of one table: they were made by other options, of other files or by \
+             another program",
             first.name(),
             other.name()
         ));

@@ -20,9 +20,9 @@ use super::columns::Batch;
 use super::dictionary;
 use super::file::Table;
 
-/// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct in
-/// it. A value with its limits ([`crate::statistics::Limited`]) is named by its field; a part whose name begins
-/// with a low line continues that of its field.
+/// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct
+/// in it. A value with its limits ([`crate::statistics::Limited`]) is named by its field; a part whose name
+/// begins with a low line continues that of its field.
 pub trait Row: Serialize + DeserializeOwned + 'static {}
 
 impl<T: Serialize + DeserializeOwned + 'static> Row for T {}

@@ -17,8 +17,8 @@ use crate::warning::{Warning, Warnings};
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;
 
-/// Passes the motions of a table, in its parts, through `work` on all threads, and what comes of them in order to
-/// `sink`. They must have distinct names.
+/// Passes the motions of a table, in its parts, through `work` on all threads, and what comes of them in order
+/// to `sink`. They must have distinct names.
 pub fn each<'a, T: Send>(
     bar: &Progress,
     parts: impl Iterator<Item = Part<'a>> + Send,
