@@ -27,10 +27,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // PGA 0.5 g and PGV 0.6 m/s.
     let motion = Motion { pga_m_s2: Some(0.5 * G_M_S2), pgv_m_s: Some(0.6), mw: None, vs30_m_s: None };
-    let p = motion.probabilities(&subject).states.overturning;
-    println!(
-        "at 0.5 g and 0.6 m/s overturns with probability {:.3} ({:.3} to {:.3})",
-        p.value, p.low, p.high
-    );
+    if let Some(p) = motion.probabilities(&subject).states.overturning.estimate() {
+        println!(
+            "at 0.5 g and 0.6 m/s overturns with probability {:.3} ({:.3} to {:.3})",
+            p.value, p.low, p.high
+        );
+    }
     Ok(())
 }

@@ -68,19 +68,19 @@ impl<'a> GivenPeak<'a> {
         }
     }
 
-    /// Computes the probabilities of the limit states at an intensity; NaN where the model has none.
-    pub fn limit_states(&self, intensity: f64) -> LimitStates<f64> {
+    /// Computes the probabilities of the limit states at an intensity; none where the model has none.
+    pub fn limit_states(&self, intensity: f64) -> LimitStates<Option<f64>> {
         self.at_levels(intensity, &[Level::Estimate])[0]
     }
 
     /// Computes them with limits.
-    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Estimate> {
+    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Estimate>> {
         LimitStates::from_levels(&self.at_levels(intensity, &Level::with_limits(scenarios)))
     }
 
     /// Computes them at each level.
-    pub(crate) fn at_levels(&self, intensity: f64, levels: &[Level]) -> Vec<LimitStates<f64>> {
-        let mut means = vec![LimitStates::all(0.0); levels.len()];
+    pub(crate) fn at_levels(&self, intensity: f64, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
+        let mut means = vec![LimitStates::all(Some(0.0)); levels.len()];
         if self.peak == Peak::Pga && intensity < self.least_uplift_m_s2() {
             return means;
         }
@@ -95,7 +95,7 @@ impl<'a> GivenPeak<'a> {
                 }
             }
             for (mean, state) in means.iter_mut().zip(&states) {
-                *mean = mean.zip(*state, |sum, p| sum + weight * p);
+                *mean = mean.zip(*state, |sum, p| Some(sum? + weight * p?));
             }
         });
         means

@@ -30,10 +30,12 @@ impl Level {
     }
 }
 
-impl LimitStates<Estimate> {
+impl LimitStates<Option<Estimate>> {
     /// Joins probabilities at the [levels of an estimate with its limits](Level::with_limits).
-    pub(super) fn from_levels(states: &[LimitStates<f64>]) -> LimitStates<Estimate> {
-        let limits = states[1].zip(states[2], |low, high| (low, high));
-        states[0].zip(limits, |value, (low, high)| Estimate { value, low, high })
+    pub(super) fn from_levels(states: &[LimitStates<Option<f64>>]) -> LimitStates<Option<Estimate>> {
+        let limits = states[1].zip(states[2], Option::zip);
+        states[0].zip(limits, |value, limits| {
+            value.zip(limits).map(|(value, (low, high))| Estimate { value, low, high })
+        })
     }
 }

@@ -6,7 +6,7 @@ use super::on_floor::{self, Uplift};
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, Kind};
-use super::tree::{GivenRocking, Probabilities, UNKNOWN, independent_failure, p_no_rocking};
+use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures, Suite};
 use crate::number::counted;
 use crate::rocking::Structure;
@@ -200,8 +200,7 @@ impl Model {
 }
 
 /// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
-/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere. P_ex is NaN
-/// where no fit holds.
+/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &CurveFit,
@@ -213,9 +212,6 @@ pub fn paper_probabilities(
         let p_ro = overturning.probability(measures, confidence)?;
         let fit = demand.iter().find(|fit| fit.holds_at(measures.im4));
         let p_ex = fit.and_then(|fit| fit.p_exceeding(measures, limit_state, confidence));
-        Some(match p_ex {
-            Some(p_ex) => GivenRocking { p_ex, p_ro, p_failure: independent_failure(p_ro, p_ex) },
-            None => GivenRocking { p_ex: UNKNOWN, p_ro, p_failure: UNKNOWN },
-        })
+        Some(GivenRocking { p_ex, p_ro, p_failure: p_ex.map(|p_ex| independent_failure(p_ro, p_ex)) })
     })
 }

@@ -60,12 +60,12 @@ pub(super) struct OnFloor {
 }
 
 impl OnFloor {
-    pub fn new(floor: Floor, structure: &Structure, limit_state: f64) -> OnFloor {
+    pub fn new(floor: Floor, structure: &Structure, limit_state: Option<f64>) -> OnFloor {
         let ln_periods = (structure.p_rad_s * floor.period_s).ln();
         let [a, b, by_limit] = EXCEEDING;
         let narrow = [
             OVERTURNING[0] + OVERTURNING[1] * ln_periods,
-            a + by_limit * (limit_state / 0.1).ln() + b * ln_periods,
+            a + by_limit * limit_state.map_or(0.0, |limit| (limit / 0.1).ln()) + b * ln_periods,
         ];
         OnFloor { amplifier: floor.amplifier(), narrow }
     }

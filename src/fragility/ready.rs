@@ -6,7 +6,7 @@ use super::level::{Level, Scenarios};
 use super::model::{CONFIDENCE, Direction, Model, paper_probabilities};
 use super::on_floor::{FloorMotions, OnFloor};
 use super::surface::{AtIm4, Cut};
-use super::tree::{GivenRocking, LimitStates, Probabilities, UNKNOWN, p_failure_given_rocking};
+use super::tree::{GivenRocking, LimitStates, Probabilities, p_failure_given_rocking};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::Estimate;
@@ -27,13 +27,14 @@ impl Model {
                     let p_ro = overturning.probability(structure, measures, mw, scenarios)?;
                     let p_ex = exceeding.probability(structure, measures, mw, scenarios)?;
                     // What is not known of a structure moves both branches the same way.
-                    Some(GivenRocking { p_ex, p_ro, p_failure: p_ro.zip(p_ex, p_failure_given_rocking) })
+                    let p_failure = p_ro.zip(p_ex, p_failure_given_rocking);
+                    Some(GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) })
                 })
             }
             Model::Calibrated { floor: Some(_), .. } => {
                 let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
                 let ln_seconds = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
-                let mut states = [LimitStates::all(0.0); 3];
+                let mut states = [LimitStates::all(Some(0.0)); 3];
                 let direction = ReadyDirection::new(structure, self, mw);
                 direction.at(pga_m_s2).join(
                     ln_seconds,
@@ -41,7 +42,7 @@ impl Model {
                     &Level::with_limits(scenarios),
                     &mut states,
                 );
-                Probabilities::on_floor(LimitStates::from_levels(&states), ln_seconds.is_finite())
+                Probabilities::on_floor(LimitStates::from_levels(&states))
             }
             Model::Paper { demand, overturning, limit_state, .. } => {
                 paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE)
@@ -52,12 +53,15 @@ impl Model {
 
 impl Probabilities {
     /// Turns probabilities over the whole tree to those given rocking, which a floor may or may not cause.
-    fn on_floor(states: LimitStates<Estimate>, is_known: bool) -> Probabilities {
-        let rocking = states.rocking.value;
-        let [p_failure, p_ro] = [states.failure, states.overturning].map(|state| state.map(|p| p / rocking));
-        let p_ex = p_failure
-            .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
-        let given_rocking = (rocking > 0.0 && is_known).then_some(GivenRocking { p_ex, p_ro, p_failure });
+    fn on_floor(states: LimitStates<Option<Estimate>>) -> Probabilities {
+        let rocking = states.rocking.map_or(0.0, |p| p.value);
+        let known = states.failure.zip(states.overturning).filter(|_| rocking > 0.0);
+        let given_rocking = known.map(|(failure, overturning)| {
+            let [p_failure, p_ro] = [failure, overturning].map(|state| state.map(|p| p / rocking));
+            let p_ex = p_failure
+                .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
+            GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) }
+        });
         Probabilities { p_nr: 1.0 - rocking, given_rocking }
     }
 }
@@ -83,9 +87,10 @@ impl<'a> ReadyDirection<'a> {
         let by = match model {
             Model::Calibrated { overturning, exceeding, floor } => {
                 let branches = [overturning, exceeding].map(|calibration| calibration.branch(structure, mw));
-                let limit_state = exceeding.limit_state.unwrap_or(f64::NAN);
                 match floor {
-                    Some(floor) => By::Floor(branches, OnFloor::new(*floor, structure, limit_state)),
+                    Some(floor) => {
+                        By::Floor(branches, OnFloor::new(*floor, structure, exceeding.limit_state))
+                    }
                     None => By::Ground(branches),
                 }
             }
@@ -130,7 +135,7 @@ impl DirectionAtPga<'_> {
         ln_seconds: f64,
         motions: &mut Option<FloorMotions>,
         levels: &[Level],
-        joined: &mut [LimitStates<f64>],
+        joined: &mut [LimitStates<Option<f64>>],
     ) {
         let levels = joined.iter_mut().zip(levels);
         match self {
@@ -143,7 +148,8 @@ impl DirectionAtPga<'_> {
                 for (joined, level) in levels {
                     let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
                     let failure = p_failure_given_rocking(p_ro, p_ex);
-                    *joined = joined.or(LimitStates { rocking: 1.0, failure, overturning: p_ro });
+                    let states = LimitStates { rocking: 1.0, failure, overturning: p_ro };
+                    *joined = joined.or(states.known(ln_seconds));
                 }
             }
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
@@ -168,7 +174,7 @@ impl DirectionAtPga<'_> {
                         overturning += weight * p_ro;
                     }
                     let [failure, overturning] = [failure, overturning].map(|p: f64| p.min(rocking));
-                    *joined = joined.or(LimitStates { rocking, failure, overturning });
+                    *joined = joined.or(LimitStates { rocking, failure, overturning }.known(ln_seconds));
                 }
             }
             DirectionAtPga::Paper { model, ends, structure, pga_m_s2 } => {
@@ -180,12 +186,12 @@ impl DirectionAtPga<'_> {
                         _ => *model,
                     };
                     let tree = model.probabilities(structure, &measures, None, Scenarios::Many);
-                    let rocking = Estimate::exact(1.0 - tree.p_nr);
-                    let unknown = LimitStates { rocking, failure: UNKNOWN, overturning: UNKNOWN };
-                    *joined = joined.or(tree.limit_states().unwrap_or(unknown).map(|p| match level {
-                        Level::Low(_) => p.low,
-                        Level::High(_) => p.high,
-                        Level::Estimate | Level::Error { .. } => p.value,
+                    *joined = joined.or(tree.limit_states().map(|p| {
+                        p.map(|p| match level {
+                            Level::Low(_) => p.low,
+                            Level::High(_) => p.high,
+                            Level::Estimate | Level::Error { .. } => p.value,
+                        })
                     }));
                 }
             }
@@ -223,15 +229,15 @@ impl<'a> ReadyObject<'a> {
     }
 
     /// Returns the probabilities of the limit states under motions with these peaks, at each level.
-    pub fn limit_states(&self, peaks: Peaks, levels: &[Level]) -> Vec<LimitStates<f64>> {
-        let mut states = vec![LimitStates::all(0.0); levels.len()];
+    pub fn limit_states(&self, peaks: Peaks, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
+        let mut states = vec![LimitStates::all(Some(0.0)); levels.len()];
         let ln_seconds = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
         self.at(peaks.pga_m_s2).limit_states(ln_seconds, levels, &mut states);
         states
     }
 
     /// Returns them with limits.
-    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Estimate> {
+    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Estimate>> {
         LimitStates::from_levels(&self.limit_states(peaks, &Level::with_limits(scenarios)))
     }
 }
@@ -241,24 +247,31 @@ pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
 
 impl ObjectAtPga<'_> {
     /// Computes the probabilities of the limit states at each level under motions with this ln(PGV / PGA), s;
-    /// NaN where a model has none.
-    pub fn limit_states(&self, ln_seconds: f64, levels: &[Level], states: &mut [LimitStates<f64>]) {
+    /// none where a model has none.
+    pub fn limit_states(&self, ln_seconds: f64, levels: &[Level], states: &mut [LimitStates<Option<f64>>]) {
         let mut motions = None;
-        states.fill(LimitStates::all(0.0));
+        states.fill(LimitStates::all(Some(0.0)));
         for direction in &self.0 {
             direction.join(ln_seconds, &mut motions, levels, states);
-        }
-        if !ln_seconds.is_finite() {
-            for state in states.iter_mut().filter(|state| state.rocking != 0.0) {
-                *state = LimitStates { rocking: state.rocking, ..LimitStates::all(f64::NAN) };
-            }
         }
     }
 }
 
 impl LimitStates<f64> {
+    /// Of motions without a PGV only rocking is known.
+    fn known(self, ln_seconds: f64) -> LimitStates<Option<f64>> {
+        let states = self.map(Some);
+        if ln_seconds.is_finite() {
+            states
+        } else {
+            LimitStates { rocking: states.rocking, ..LimitStates::all(None) }
+        }
+    }
+}
+
+impl LimitStates<Option<f64>> {
     /// Joins the probabilities of independent events to those of either.
-    fn or(self, other: LimitStates<f64>) -> LimitStates<f64> {
-        self.zip(other, |a, b| a + b - a * b)
+    fn or(self, other: LimitStates<Option<f64>>) -> LimitStates<Option<f64>> {
+        self.zip(other, |a, b| a.zip(b).map(|(a, b)| a + b - a * b))
     }
 }

@@ -89,9 +89,6 @@ impl<T: Copy> LimitStates<T> {
     }
 }
 
-/// What no model gives: NaN.
-pub(super) const UNKNOWN: Estimate = Estimate::exact(f64::NAN);
-
 /// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
 /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
 /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
@@ -122,12 +119,12 @@ pub struct Probabilities {
 /// Probabilities given that the structure rocks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenRocking {
-    /// A demand above the limit state, in safe rocking.
-    pub p_ex: Estimate,
+    /// A demand above the limit state, in safe rocking; none where no plane is fitted.
+    pub p_ex: Option<Estimate>,
     /// Overturning.
     pub p_ro: Estimate,
     /// Failure, the one or the other (Eq. 12).
-    pub p_failure: Estimate,
+    pub p_failure: Option<Estimate>,
 }
 
 impl Probabilities {
@@ -138,15 +135,15 @@ impl Probabilities {
     }
 
     /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
-    /// None where a measure is missing.
-    pub fn limit_states(&self) -> Option<LimitStates<Estimate>> {
-        let rocking = Estimate::exact(1.0 - self.p_nr);
+    /// None where a measure is missing, or no plane is fitted.
+    pub fn limit_states(&self) -> LimitStates<Option<Estimate>> {
+        let rocking = Some(Estimate::exact(1.0 - self.p_nr));
         if self.p_nr == 1.0 {
-            return Some(LimitStates::all(rocking));
+            return LimitStates::all(rocking);
         }
-        let given = self.given_rocking?;
-        let [failure, overturning] =
-            [given.p_failure, given.p_ro].map(|given| given.map(|p| p_failure(self.p_nr, p)));
-        Some(LimitStates { rocking, failure, overturning })
+        let given = self.given_rocking;
+        let [failure, overturning] = [given.and_then(|given| given.p_failure), given.map(|given| given.p_ro)]
+            .map(|given| given.map(|given| given.map(|p| p_failure(self.p_nr, p))));
+        LimitStates { rocking, failure, overturning }
     }
 }

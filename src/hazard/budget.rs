@@ -13,13 +13,16 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Gathers how far a result falls and rises between the quantiles of each unknown.
-    pub fn new<T>(middle: &T, unknowns: &[Unknown<T>], result: impl Fn(&T) -> f64) -> Budget {
-        let (mut budget, middle) = (Budget::default(), result(middle));
+    /// Gathers how far a result falls and rises between the quantiles of each unknown; nothing where there is
+    /// none.
+    pub fn new<T>(middle: &T, unknowns: &[Unknown<T>], result: impl Fn(&T) -> Option<f64>) -> Budget {
+        let mut budget = Budget::default();
+        let Some(middle) = result(middle) else { return budget };
         for unknown in unknowns {
             // How many standard deviations the quantiles are from the median.
             let deviations = if unknown.part == Part::Hazard { 1.0 } else { Z_95 };
-            let off = [&unknown.low, &unknown.high].map(|end| (result(end) - middle) / deviations);
+            let Some((low, high)) = result(&unknown.low).zip(result(&unknown.high)) else { continue };
+            let off = [low, high].map(|end| (end - middle) / deviations);
             budget.add(unknown.part, [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]);
         }
         budget

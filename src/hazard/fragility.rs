@@ -27,7 +27,8 @@ use crate::statistics::{Estimate, Limited, least_squares, normal};
 /// assert!(fragility.overturning.theta.value.is_some_and(|pga| pga > 5.0));
 /// assert!(fragility.overturning.largest_error.is_some_and(|error| error < 0.1));
 /// for point in &fragility.points {
-///     assert!(point.p.overturning.value <= point.p.failure.value + 1e-12);
+///     let [overturning, failure] = [point.p.overturning.value.unwrap(), point.p.failure.value.unwrap()];
+///     assert!(overturning <= failure + 1e-12);
 /// }
 /// # Ok::<(), rockfrag::object::Reason>(())
 /// ```
@@ -66,8 +67,8 @@ pub struct Fragility {
 pub struct FragilityPoint {
     /// PGA (m/s2) or PGV (m/s).
     pub intensity: f64,
-    /// Shares of the motions of this intensity, with limits.
-    pub p: LimitStates<Estimate>,
+    /// Shares of the motions of this intensity, with limits; nothing of one where the model has none.
+    pub p: LimitStates<Limited>,
 }
 
 /// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
@@ -131,18 +132,11 @@ impl Site {
 
 impl Fragility {
     /// Takes a fragility by its points alone, such as those of a file: nothing is known between them, nor why
-    /// the limits are where they are.
+    /// the limits are where they are, nor the motion.
     pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
         let [failure, overturning] =
             [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
-        Fragility {
-            over,
-            points,
-            failure,
-            overturning,
-            errors: Budget::default(),
-            motion: Peaks { pga_m_s2: f64::NAN, pgv_m_s: f64::NAN },
-        }
+        Fragility { over, points, failure, overturning, errors: Budget::default(), motion: Peaks::default() }
     }
 
     fn new(motions: &Motions, subject: &Subject) -> Fragility {
@@ -157,16 +151,20 @@ impl Fragility {
         ends.extend(Unknown::from_fit_errors(&by_level));
         let values = &by_level[0];
         let budget = |k: usize, state: LimitState| {
-            Budget::new(values, &ends, |states: &Vec<LimitStates<f64>>| logit(states[k].get(state)))
+            Budget::new(values, &ends, |states: &Vec<LimitStates<Option<f64>>>| {
+                states[k].get(state).map(logit)
+            })
         };
         let points = intensities.iter().zip(values).enumerate().map(|(k, (&intensity, p))| {
             let [failure, overturning] = [LimitState::Failure, LimitState::Overturning]
-                .map(|state| budget(k, state).limit_probability(p.get(state), p.rocking, 0.0));
-            let rocking = Estimate::exact(p.rocking);
-            FragilityPoint { intensity, p: LimitStates { rocking, failure, overturning } }
+                .map(|state| Some(budget(k, state).limit_probability(p.get(state)?, p.rocking?, 0.0)));
+            let rocking = p.rocking.map(Estimate::exact);
+            let p = LimitStates { rocking, failure, overturning }.map(Limited::from);
+            FragilityPoint { intensity, p }
         });
         let points: Vec<FragilityPoint> = points.collect();
-        let median = values.iter().position(|p| p.overturning >= 0.5).unwrap_or(intensities.len() - 1);
+        let is_half = |p: &LimitStates<Option<f64>>| p.overturning.is_some_and(|p| p >= 0.5);
+        let median = values.iter().position(is_half).unwrap_or(intensities.len() - 1);
         Fragility {
             over: motions.peak,
             failure: Lognormal::new(&middle, &points, LimitState::Failure),
@@ -201,7 +199,8 @@ impl Lognormal {
         let end = points[points.len() - 1].intensity;
         let to = reaching(given, points, state, MOST_FITTED).unwrap_or(end);
         let intensities: Vec<f64> = equal_ratios(from, to, STEPS_FITTED).collect();
-        let p: Vec<f64> = intensities.iter().map(|im| given.limit_states(*im).get(state)).collect();
+        let p: Option<Vec<f64>> = intensities.iter().map(|im| given.limit_states(*im).get(state)).collect();
+        let Some(p) = p else { return lognormal };
         let x: Vec<f64> = intensities.iter().map(|intensity| intensity.ln()).collect();
         let z: Vec<f64> = p.iter().map(|p| normal::quantile(*p)).collect();
         let Ok(line) = least_squares(&[&x], &z) else { return lognormal };
@@ -221,7 +220,11 @@ pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
 }
 
 /// Computes the probabilities at each level and intensity.
-fn probabilities(given: &GivenPeak, intensities: &[f64], levels: &[Level]) -> Vec<Vec<LimitStates<f64>>> {
+fn probabilities(
+    given: &GivenPeak,
+    intensities: &[f64],
+    levels: &[Level],
+) -> Vec<Vec<LimitStates<Option<f64>>>> {
     let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_levels(*im, levels)).collect();
     (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()
 }
@@ -229,16 +232,22 @@ fn probabilities(given: &GivenPeak, intensities: &[f64], levels: &[Level]) -> Ve
 /// Finds the intensity from which on a probability is at least `level`, sought beside the first point that
 /// has it.
 fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, level: f64) -> Option<f64> {
-    let after = points.iter().position(|point| point.p.get(state).value >= level)?;
+    let reaches = |p: Option<f64>| p.is_some_and(|p| p >= level);
+    let after = points.iter().position(|point| reaches(point.p.get(state).value))?;
     let [low, high] = [after.saturating_sub(1), after].map(|k| points[k].intensity.ln());
-    Some(first(low, high, |ln| given.limit_states(ln.exp()).get(state) >= level).exp())
+    Some(first(low, high, |ln| reaches(given.limit_states(ln.exp()).get(state))).exp())
 }
 
 /// Finds the intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
-fn crossing(points: &[FragilityPoint], level: f64, of: impl Fn(&FragilityPoint) -> f64) -> Option<f64> {
-    let after = points.iter().position(|point| of(point) >= level)?;
+fn crossing(
+    points: &[FragilityPoint],
+    level: f64,
+    p: impl Fn(&FragilityPoint) -> Option<f64>,
+) -> Option<f64> {
+    let after = points.iter().position(|point| p(point).is_some_and(|p| p >= level))?;
     let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
-    let [a, b] = [of(low), of(high)].map(|p| normal::quantile(p.clamp(1e-12, 1.0 - 1e-12)));
+    let probit = |point| Some(normal::quantile(p(point)?.clamp(1e-12, 1.0 - 1e-12)));
+    let (Some(a), Some(b)) = (probit(low), probit(high)) else { return Some(high.intensity) };
     if b <= a {
         return Some(high.intensity);
     }

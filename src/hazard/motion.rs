@@ -6,7 +6,7 @@ use super::pgv_pga::PgvPgaRatio;
 use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, Limited};
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 ///
@@ -22,7 +22,7 @@ use crate::statistics::Estimate;
 /// let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
 /// // A motion of the ground of 0.3 g; its PGV is that of such motions.
 /// let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
-/// let p = motion.probabilities(&subject).states.overturning;
+/// let p = motion.probabilities(&subject).states.overturning.estimate().expect("it rocks, and has a PGV");
 /// assert!(p.low < p.value && p.value < p.high);
 /// # Ok::<(), rockfrag::object::Reason>(())
 /// ```
@@ -38,11 +38,11 @@ pub struct Motion {
     pub vs30_m_s: Option<f64>,
 }
 
-/// Probabilities of the limit states, with limits.
+/// Probabilities of the limit states, with limits; nothing of one where the model has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
-    pub states: LimitStates<Estimate>,
+    pub states: LimitStates<Limited>,
     /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.
     pub errors: Budget,
 }
@@ -68,7 +68,7 @@ impl Motion {
     /// Computes the probabilities for an object, averaged over the peak that is not known.
     pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
         if self.is_still() {
-            let states = LimitStates::all(Estimate::exact(0.0));
+            let states = LimitStates::all(Estimate::exact(0.0).into());
             return MotionProbabilities { states, errors: Budget::default() };
         }
         let directions = &subject.directions[..];
@@ -90,8 +90,9 @@ impl Motion {
         };
         let (_, failure) = known.limited(LimitState::Failure);
         let (errors, overturning) = known.limited(LimitState::Overturning);
+        let rocking = known.many.rocking;
         MotionProbabilities {
-            states: LimitStates { rocking: known.many.rocking, failure, overturning },
+            states: LimitStates { rocking, failure, overturning }.map(Limited::from),
             errors,
         }
     }
@@ -111,31 +112,35 @@ impl Motion {
 /// Probabilities for an object, and how well they are known.
 struct Known {
     /// With limits by the parameters of the model.
-    many: LimitStates<Estimate>,
+    many: LimitStates<Option<Estimate>>,
     /// With limits by these and by the standard deviation between earthquakes, tau.
-    one: LimitStates<Estimate>,
+    one: LimitStates<Option<Estimate>>,
     /// With each other unknown at its quantiles.
-    ends: Vec<Unknown<LimitStates<f64>>>,
+    ends: Vec<Unknown<LimitStates<Option<f64>>>>,
 }
 
 impl Known {
     fn new(
-        estimates: impl Fn(Scenarios) -> LimitStates<Estimate>,
-        ends: Vec<Unknown<LimitStates<f64>>>,
+        estimates: impl Fn(Scenarios) -> LimitStates<Option<Estimate>>,
+        ends: Vec<Unknown<LimitStates<Option<f64>>>>,
     ) -> Known {
         Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
     }
 
     /// Returns the errors of the logit of a probability, without tau, and the probability with limits by all.
-    fn limited(&self, state: LimitState) -> (Budget, Estimate) {
-        let values = self.many.map(|p| p.value);
-        let mut errors = Budget::new(&values, &self.ends, |states| logit(states.get(state)));
-        let [fit, in_all] = [self.many, self.one].map(|p| sd_of_limits(p.get(state)));
+    fn limited(&self, state: LimitState) -> (Budget, Option<Estimate>) {
+        let (values, [many, one]) =
+            (self.many.map(|p| p.map(|p| p.value)), [self.many, self.one].map(|p| p.get(state)));
+        let mut errors = Budget::new(&values, &self.ends, |states| states.get(state).map(logit));
+        let Some((many, one)) = many.zip(one) else { return (errors, None) };
+        let [fit, in_all] = [many, one].map(sd_of_limits);
         errors.add(Part::Fit, [fit, fit]);
         let tau = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
-        match values.get(state) {
-            p if p > 0.0 && p < 1.0 => (errors, errors.limit_probability(p, values.rocking, tau)),
-            _ => (errors, self.many.get(state)),
+        match (many.value, values.rocking) {
+            (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
+                (errors, Some(errors.limit_probability(p, rocking, tau)))
+            }
+            _ => (errors, Some(many)),
         }
     }
 }

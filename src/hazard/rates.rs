@@ -42,7 +42,15 @@ pub struct Rate {
     pub beyond: f64,
 }
 
+/// Fraction of a rate that stronger motions than the last may add before it is no value.
+const NEGLIGIBLE: f64 = 0.1;
+
 impl Rate {
+    /// Returns whether stronger motions than the last may add too much.
+    pub(super) fn is_open(&self) -> bool {
+        self.beyond > NEGLIGIBLE * self.value
+    }
+
     /// Returns it if no motion above the last intensity causes the event.
     pub fn least(&self) -> f64 {
         self.value - self.at_last
@@ -54,16 +62,16 @@ impl Rate {
     }
 }
 
-/// Integrates the probabilities given one peak over its hazard curve; NaN where the model has none.
-pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Rate> {
+/// Integrates the probabilities given one peak over its hazard curve; none where the model has none.
+pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
     OverCurve::new(given_peak, curve, &[Level::Estimate]).rates(0)
 }
 
 /// The probabilities of an object, at each level, at intensities that stand for all of a curve, and at its last
 /// one, which stands for those beyond.
 pub(super) struct OverCurve {
-    within: Vec<(Node, Vec<LimitStates<f64>>)>,
-    beyond: (Node, Vec<LimitStates<f64>>),
+    within: Vec<(Node, Vec<LimitStates<Option<f64>>>)>,
+    beyond: (Node, Vec<LimitStates<Option<f64>>>),
 }
 
 impl OverCurve {
@@ -75,26 +83,27 @@ impl OverCurve {
     }
 
     /// Returns the annual rates at a level, by its number.
-    pub fn rates(&self, level: usize) -> LimitStates<Rate> {
-        let mut sums = LimitStates::all(0.0);
+    pub fn rates(&self, level: usize) -> LimitStates<Option<Rate>> {
+        let mut sums = LimitStates::all(Some(0.0));
         for (node, states) in self.within.iter().chain([&self.beyond]) {
-            sums = sums.zip(states[level], |sum, p| sum + p * node.annual_rate);
+            sums = sums.zip(states[level], |sum, p| Some(sum? + p? * node.annual_rate));
         }
         let annual_rate = self.beyond.0.annual_rate;
-        sums.zip(self.beyond.1[level], |value, at_last| Rate {
-            value,
-            at_last: at_last * annual_rate,
-            beyond: (1.0 - at_last).max(0.0) * annual_rate,
+        sums.zip(self.beyond.1[level], |value, at_last| {
+            let (value, at_last) = value.zip(at_last)?;
+            let beyond = (1.0 - at_last).max(0.0) * annual_rate;
+            Some(Rate { value, at_last: at_last * annual_rate, beyond })
         })
     }
 
-    /// Finds the intensity above which half of the annual rate of overturning comes from.
+    /// Finds the intensity above which half of the annual rate of overturning comes from; the last where there
+    /// is no rate.
     pub fn median_intensity(&self) -> f64 {
-        let half = 0.5 * self.rates(0).overturning.value;
+        let half = self.rates(0).overturning.map_or(f64::INFINITY, |rate| 0.5 * rate.value);
         // A part lies half below its node, half above.
         let (mut before, mut below, mut last) = (0.0, 0.0, None);
         for (node, states) in &self.within {
-            let part = states[0].overturning * node.annual_rate;
+            let part = states[0].overturning.unwrap_or(0.0) * node.annual_rate;
             let at_node = below + 0.5 * part;
             let from = last.replace(node.intensity).unwrap_or(node.intensity);
             if at_node >= half {
@@ -113,18 +122,18 @@ pub(super) fn rates_over_pairs(
     mw: Option<f64>,
     bins: &[PairOfPeaks],
     levels: &[Level],
-) -> Vec<LimitStates<Rate>> {
+) -> Vec<LimitStates<Option<Rate>>> {
     let mut ready = ReadyObject::new(directions, mw);
-    let mut rates = vec![LimitStates::all(0.0); levels.len()];
+    let mut rates = vec![LimitStates::all(Some(0.0)); levels.len()];
     for bin in bins {
         let mw = bin.mw.or(mw);
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
         for (rate, states) in rates.iter_mut().zip(ready.limit_states(bin.peaks, levels)) {
-            *rate = rate.zip(states, |sum, p| sum + p * bin.annual_rate);
+            *rate = rate.zip(states, |sum, p| Some(sum? + p? * bin.annual_rate));
         }
     }
     let rates = rates.into_iter();
-    rates.map(|rate| rate.map(|value| Rate { value, at_last: 0.0, beyond: 0.0 })).collect()
+    rates.map(|rate| rate.map(|value| Some(Rate { value: value?, at_last: 0.0, beyond: 0.0 }))).collect()
 }

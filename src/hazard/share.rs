@@ -21,7 +21,7 @@ pub struct RateByIntensity {
 
 impl Site {
     /// Parts the annual rate of overturning by the intensity of the hazard, of pairs of peaks by PGA, into
-    /// bins of equal ratio.
+    /// bins of equal ratio; 0 where the model has no probability.
     pub fn rate_by_intensity(&self, subject: &Subject, bins: usize) -> RateByIntensity {
         match &self.hazard {
             Hazard::Curve(hazard) => {
@@ -29,7 +29,7 @@ impl Site {
                 let curve = self.integrated(hazard, &given, &[Level::Estimate]).curve;
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let mut parts = RateByIntensity::new(first, last, bins);
-                let probability = |intensity: f64| given.limit_states(intensity).overturning;
+                let probability = |intensity: f64| given.limit_states(intensity).overturning.unwrap_or(0.0);
                 for node in curve.nodes(&[&parts.edges[..], &given.breaks()].concat(), PANEL) {
                     parts.add(node.intensity, probability(node.intensity) * node.annual_rate);
                 }
@@ -44,7 +44,7 @@ impl Site {
                 for pair in pairs {
                     let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
                     let p = ready.limit_states(pair.peaks, &[Level::Estimate])[0].overturning;
-                    parts.add(pair.peaks.pga_m_s2, p * pair.annual_rate);
+                    parts.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
                 }
                 parts
             }

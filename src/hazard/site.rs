@@ -58,8 +58,6 @@ impl Hazard {
     }
 }
 
-/// Fraction of a rate that stronger motions than the last may add before it is no value.
-const NEGLIGIBLE: f64 = 0.1;
 /// The least annual rate whose logarithm the error budget takes: once in 1e12 years.
 const LEAST: f64 = 1e-12;
 /// The seed of the resamples of a count.
@@ -114,8 +112,8 @@ pub struct SiteRates {
 
 /// Rates with all at its median, and with each unknown at its quantiles.
 struct Varied {
-    rates: LimitStates<Rate>,
-    ends: Vec<Unknown<LimitStates<Rate>>>,
+    rates: LimitStates<Option<Rate>>,
+    ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
 }
 
 impl Site {
@@ -138,7 +136,7 @@ impl Site {
                     }),
                 );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
-                let motion = strongest.map_or(Peaks { pga_m_s2: 0.0, pgv_m_s: 0.0 }, |bin| bin.peaks);
+                let motion = strongest.map_or(Peaks::default(), |bin| bin.peaks);
                 varied.with_limits(motion, false)
             }
         }
@@ -156,7 +154,7 @@ impl Site {
                 Some(over.rates(0)).filter(|_| !ends_early)?
             }
         };
-        Some(rates.overturning.value).filter(|rate| !rate.is_nan())
+        Some(rates.overturning?.value)
     }
 
     /// Integrates the probabilities at these levels, the estimate first, over a curve, which is extrapolated if
@@ -164,14 +162,14 @@ impl Site {
     pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak, levels: &[Level]) -> Integrated {
         let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, levels));
         let [_, (last, _)] = curve.ends();
-        let overturning = over.rates(0).overturning;
-        let ends_early = last < strongest(hazard.peak) && overturning.beyond > NEGLIGIBLE * overturning.value;
-        if !(ends_early && self.extrapolate) {
-            return Integrated { curve, over, ends_early, beyond: None };
-        }
+        let known = over.rates(0).overturning;
+        let early = known.filter(|rate| last < strongest(hazard.peak) && rate.is_open());
+        let Some(known) = early.filter(|_| self.extrapolate) else {
+            return Integrated { curve, over, ends_early: early.is_some(), beyond: None };
+        };
         let curve = curve.extrapolated();
         let over = OverCurve::new(given, &curve, levels);
-        let beyond = Some(1.0 - overturning.least() / over.rates(0).overturning.value);
+        let beyond = over.rates(0).overturning.map(|rate| 1.0 - known.least() / rate.value);
         Integrated { curve, over, ends_early: false, beyond }
     }
 
@@ -245,20 +243,22 @@ pub(super) struct Integrated {
 impl Varied {
     /// Joins rates at the [levels of all errors of the models](Level::with_errors) with those at the other
     /// unknowns' quantiles.
-    fn new(by_level: Vec<LimitStates<Rate>>, mut ends: Vec<Unknown<LimitStates<Rate>>>) -> Varied {
+    fn new(
+        by_level: Vec<LimitStates<Option<Rate>>>,
+        mut ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
+    ) -> Varied {
         ends.extend(Unknown::from_fit_errors(&by_level));
         Varied { rates: by_level[0], ends }
     }
 
     /// Gives the rates their limits; `ends_early` where the hazard does so for values.
     fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
-        let rocking = self.rates.rocking;
-        let is_rocking_early = ends_early && rocking.beyond > NEGLIGIBLE * rocking.value;
+        let is_rocking_early = ends_early && self.rates.rocking.is_some_and(|rate| rate.is_open());
         SiteRates {
             rocking: self.limited(LimitState::Rocking, is_rocking_early),
             failure: self.limited(LimitState::Failure, ends_early),
             overturning: self.limited(LimitState::Overturning, ends_early),
-            errors: self.budget(|rates| rates.overturning.value),
+            errors: self.budget(LimitState::Overturning, |rate| rate.value),
             velocity: None,
             beyond: None,
             counted: None,
@@ -269,25 +269,22 @@ impl Varied {
 
     /// Gives one rate its limits.
     fn limited(&self, state: LimitState, ends_early: bool) -> Limited {
-        let (rate, rocking) = (self.rates.get(state), self.rates.rocking);
-        if rate.value.is_nan() {
+        let Some((rate, rocking)) = self.rates.get(state).zip(self.rates.rocking) else {
             return Limited::default();
-        }
-        if !ends_early {
-            let budget = self.budget(|rates| rates.get(state).value);
-            return budget.limit_rate(rate.value, rocking.value).into();
-        }
-        let (least, most) =
-            (self.budget(|rates| rates.get(state).least()), self.budget(|rates| rates.get(state).most()));
-        Limited {
-            value: None,
-            low: Some(least.limit_rate(rate.least(), rocking.most()).low),
-            high: Some(most.limit_rate(rate.most(), rocking.most()).high),
+        };
+        let limited = |at: fn(&Rate) -> f64| self.budget(state, at).limit_rate(at(&rate), rocking.most());
+        match ends_early {
+            false => self.budget(state, |rate| rate.value).limit_rate(rate.value, rocking.value).into(),
+            true => Limited {
+                value: None,
+                low: Some(limited(Rate::least).low),
+                high: Some(limited(Rate::most).high),
+            },
         }
     }
 
     /// Returns the standard deviations of ln of a rate.
-    fn budget(&self, rate: impl Fn(&LimitStates<Rate>) -> f64) -> Budget {
-        Budget::new(&self.rates, &self.ends, |rates| rate(rates).max(LEAST).ln())
+    fn budget(&self, state: LimitState, at: fn(&Rate) -> f64) -> Budget {
+        Budget::new(&self.rates, &self.ends, |rates| rates.get(state).map(|rate| at(&rate).max(LEAST).ln()))
     }
 }

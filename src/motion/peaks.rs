@@ -7,7 +7,7 @@ use crate::plausibility::{PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median}
 use crate::units::G_M_S2;
 
 /// The peaks of a ground motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Peaks {
     /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,

@@ -91,9 +91,9 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
 /// The curve of a limit state, in percent; with its limits if they are wanted.
 pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<Mark> {
     let (_, unit, _) = fragility.over.words();
-    let marks = fragility.points.iter().map(|point| {
+    let marks = fragility.points.iter().filter_map(|point| {
         let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
-        if has_limits { Mark::estimate(x, p) } else { Mark::new(x, p.value) }
+        Some(if has_limits { Mark::estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
     });
     marks.collect()
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
-use super::shared::objects::{StructureArgs, on_ground};
+use super::shared::objects::{StructureArgs, named, on_ground};
 use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
 use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
 use crate::fragility::{LimitStates, Peak};
@@ -90,7 +90,7 @@ impl Stage for Export {
             let (subject, warnings) = models.subject(object)?;
             let warnings = warnings.into_iter().chain(subject.structure_warnings());
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            Ok(self.function(id, object, &subject))
+            self.function(id, object, &subject)
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
@@ -135,11 +135,13 @@ impl Export {
 
     /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
     /// or nothing was ever recorded.
-    fn function(&self, id: &str, object: &Object, subject: &Subject) -> Function {
+    fn function(&self, id: &str, object: &Object, subject: &Subject) -> anyhow::Result<Function> {
         let model = &subject.directions[0].model;
         let general = SitesInGeneral { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
         let given_peak = general.given_peak(&subject.directions);
-        let reaching = |intensity: f64| given_peak.limit_states(intensity).map(|p| p.clamp(0.0, 1.0));
+        let reaching = |intensity: f64| {
+            given_peak.limit_states(intensity).map(|p| p.unwrap_or_default().clamp(0.0, 1.0))
+        };
         let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
         let uplift = given_peak.uplift().least;
         let most = strongest(self.over).max(2.0 * uplift);
@@ -152,16 +154,19 @@ impl Export {
         let mut most = LimitStates::all(0.0_f64);
         let mut probabilities = Vec::new();
         for &level in &levels {
+            if given_peak.limit_states(level).into_array().contains(&None) {
+                return Err(named(object, &"its fits have no probability of every motion"));
+            }
             most = most.zip(reaching(level), f64::max);
             probabilities.push(most);
         }
         let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
-        Function {
+        Ok(Function {
             id: format!("{id}_{}", self.over),
             description: format!("{}{directions}, by {}", object.name, model.words()),
             probabilities,
             end_of_data: end,
             levels,
-        }
+        })
     }
 }

@@ -98,15 +98,12 @@ fn validate(
     for Case { outcome, measures, mw, cluster, .. } in &cases.all {
         let Some(has_happened) = event.happened(*outcome, limit_state) else { continue };
         let predicted = model.probabilities(&cases.structure, measures, *mw, Scenarios::Many).given_rocking;
-        let Some(given) = predicted else { continue };
-        let p = match event {
-            Event::Overturning => given.p_ro,
+        let p = predicted.and_then(|given| match event {
+            Event::Overturning => Some(given.p_ro),
             Event::Exceeding => given.p_ex,
             Event::Rocking | Event::Failure => given.p_failure,
-        };
-        if p.value.is_nan() {
-            continue;
-        }
+        });
+        let Some(p) = p else { continue };
         outside |= model.warnings(&cases.structure, measures).contains(&Warning::Extrapolated);
         probabilities.push(p.value);
         happened.push(has_happened);

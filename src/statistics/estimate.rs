@@ -88,3 +88,9 @@ impl From<Estimate> for Limited {
         Limited { value: Some(value), low: Some(low), high: Some(high) }
     }
 }
+
+impl From<Option<Estimate>> for Limited {
+    fn from(estimate: Option<Estimate>) -> Limited {
+        estimate.map_or(Limited::default(), Limited::from)
+    }
+}

@@ -8,7 +8,7 @@ use rockfrag::statistics::normal;
 fn overturning(model: &Model, structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> [f64; 2] {
     let measures = IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None);
     let probabilities = model.probabilities(structure, &measures, Some(6.9), Scenarios::Many);
-    [probabilities.p_nr, probabilities.limit_states().unwrap().overturning.value]
+    [probabilities.p_nr, probabilities.limit_states().overturning.unwrap().value]
 }
 
 #[test]

@@ -111,7 +111,8 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
 fn curve(count: usize) -> Fragility {
     let point = |k: usize| FragilityPoint {
         intensity: 0.981 * (1 + k) as f64,
-        p: LimitStates { rocking: 1.0, failure: 0.5, overturning: 0.4 }.map(|p| Estimate::around(p, 0.1)),
+        p: LimitStates { rocking: 1.0, failure: 0.5, overturning: 0.4 }
+            .map(|p| Estimate::around(p, 0.1).into()),
     };
     Fragility::from_points(Peak::Pga, (0..count).map(point).collect())
 }

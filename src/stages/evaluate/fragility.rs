@@ -8,7 +8,7 @@ use crate::fragility::Peak;
 use crate::hazard::{Fragility, FragilityPoint, intensity_in_words};
 use crate::number::{aligned, significant};
 use crate::report::fragility::{cells, half_in_words};
-use crate::statistics::{Estimate, Limited};
+use crate::statistics::Limited;
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 use crate::units::G_M_S2;
 
@@ -34,17 +34,13 @@ pub fn curves(all: &[Answer<FragilityRow>]) -> Vec<CurveRow> {
                 structure: structure.clone(),
                 pga_g: (curve.over == Peak::Pga).then_some(intensity / G_M_S2),
                 pgv_m_s: (curve.over == Peak::Pgv).then_some(*intensity),
-                p_rocking: known(p.rocking),
-                p_failure: known(p.failure),
-                p_overturning: known(p.overturning),
+                p_rocking: p.rocking,
+                p_failure: p.failure,
+                p_overturning: p.overturning,
             });
         }
     }
     rows
-}
-
-fn known(p: Estimate) -> Limited {
-    if p.value.is_nan() { Limited::default() } else { p.into() }
 }
 
 /// The answer for all objects, in words.

@@ -13,7 +13,7 @@ use crate::hazard::{Budget, Motion, MotionProbabilities};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::number::{PERCENT, aligned, fixed, name, plain};
 use crate::object::Subject;
-use crate::statistics::{Estimate, Limited};
+use crate::statistics::Limited;
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::units::G_M_S2;
 
@@ -50,12 +50,12 @@ impl TreeRow {
         let row = TreeRow {
             pga_m_s2: motion.pga_m_s2,
             pgv_m_s: motion.pgv_m_s,
-            p_nr: Some(1.0 - rocking),
-            p_ex: p_ex.map(|given| over(1.0, given.p_ex)).unwrap_or_default(),
+            p_nr: rocking.map(|p| 1.0 - p),
+            p_ex: p_ex.and_then(|given| given.p_ex).into(),
             p_ro: over(rocking, states.overturning),
             p_f_r: over(rocking, states.failure),
-            p_f: over(1.0, states.failure).value,
-            states: states.map(|p| over(1.0, p)),
+            p_f: states.failure.value,
+            states,
         };
         (row, errors)
     }
@@ -73,10 +73,9 @@ impl TreeRow {
     }
 }
 
-/// A probability over that of the whole; none where that is 0.
-fn over(whole: f64, p: Estimate) -> Limited {
-    let share = |p: f64| Some(p / whole).filter(|p| p.is_finite());
-    Limited { value: share(p.value), low: share(p.low), high: share(p.high) }
+/// A probability over that of rocking; none where that is 0.
+fn over(rocking: Option<f64>, p: Limited) -> Limited {
+    rocking.filter(|rocking| *rocking > 0.0).map_or(Limited::default(), |rocking| p.map(|p| p / rocking))
 }
 
 impl Predicted for TreeRow {
@@ -153,14 +152,15 @@ fn uplift(object: &ObjectRow, tree: &TreeRow) -> String {
     if tree.pga_m_s2 == Some(0.0) || tree.pgv_m_s == Some(0.0) {
         return "does not rock: nothing moves it\n".to_string();
     }
-    let Some(pga_m_s2) = tree.pga_m_s2 else {
-        return format!("rocks with a probability of {}\n", PERCENT.one(1.0 - tree.p_nr.unwrap_or(f64::NAN)));
+    let Some((pga_m_s2, friction)) = tree.pga_m_s2.zip(object.friction) else {
+        let rocks = |p_nr| format!("rocks with a probability of {}\n", PERCENT.one(1.0 - p_nr));
+        return tree.p_nr.map_or(String::new(), rocks);
     };
     let floor = object.floor_period_s.zip(object.floor_level);
     let floor = floor.map(|(period_s, level)| Floor { period_s, level });
     let on_floor = floor.zip(tree.pgv_m_s);
     let pfa_m_s2 = on_floor.map(|(floor, pgv_m_s)| floor.peaks(Peaks { pga_m_s2, pgv_m_s }).pga_m_s2);
-    let times = pfa_m_s2.unwrap_or(pga_m_s2) / (object.friction.unwrap_or(f64::NAN) * G_M_S2);
+    let times = pfa_m_s2.unwrap_or(pga_m_s2) / (friction * G_M_S2);
     let rocks = if tree.rocks() { "rocks" } else { "does not rock" };
     let peak = if floor.is_some() { "the floor's peak acceleration" } else { "PGA" };
     format!("{rocks}: {peak} is {} times what uplifts it\n", fixed(times, if times > 10.0 { 0 } else { 1 }))

@@ -118,7 +118,7 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
 }
 
 fn when(rates: &RatesRow) -> String {
-    in_years(rates.years.unwrap_or(f64::NAN))
+    rates.years.map_or(String::new(), in_years)
 }
 
 /// The motion that codes design for, by the curve: who knows the site sees a wrong unit or column by it.

@@ -12,7 +12,6 @@ use crate::report::response::Trace;
 use crate::rocking::Outcome;
 use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
-use crate::statistics::{Estimate, Limited};
 use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
@@ -304,11 +303,11 @@ fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> 
     let mut all = Vec::new();
     for curve in rows::read::<CurveRow>(path)?.chunk_by(|a, b| a.structure == b.structure) {
         let points = curve.iter().map(|row| FragilityPoint {
-            intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or(f64::NAN),
+            intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or_default(),
             p: LimitStates {
-                rocking: estimate(row.p_rocking),
-                failure: estimate(row.p_failure),
-                overturning: estimate(row.p_overturning),
+                rocking: row.p_rocking,
+                failure: row.p_failure,
+                overturning: row.p_overturning,
             },
         });
         let over = if curve[0].pga_g.is_some() { Peak::Pga } else { Peak::Pgv };
@@ -318,11 +317,6 @@ fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> 
         all.push(Answer { object, row, ..Answer::default() });
     }
     Ok(all)
-}
-
-fn estimate(p: Limited) -> Estimate {
-    let [value, low, high] = [p.value, p.low, p.high].map(|p| p.unwrap_or(f64::NAN));
-    Estimate { value, low, high }
 }
 
 /// The first responses over time of a file.
