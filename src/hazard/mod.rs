@@ -11,6 +11,7 @@
 //! ratio     the rate after a change over that before
 //! share     the shares of a rate by intensity
 //! site      the rates of a structure at a site, with limits and warnings
+//! target    the base with which a rate is a target
 //! fragility the probabilities of an object over one peak, with limits
 //! ```
 
@@ -25,6 +26,7 @@ mod rates;
 mod ratio;
 mod share;
 mod site;
+mod target;
 
 pub use budget::Budget;
 pub use count::{CountedMotion, CountedRate, counted_rate};
@@ -36,6 +38,7 @@ pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
 pub use ratio::{RateByParts, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
+pub use target::{Base, Bases};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::fragility::{Direction, Kind, Peak};
-use crate::hazard::{Budget, Fragility, Lognormal, SiteRates, VelocitySource, probability_in_years};
+use crate::hazard::{
+    Base, Bases, Budget, Fragility, Lognormal, SiteRates, VelocitySource, probability_in_years,
+};
 use crate::keyword::Keyword;
 use crate::object::{Object, Part};
 use crate::statistics::Limited;
@@ -119,7 +121,7 @@ pub struct TargetBases {
 }
 
 impl RatesRow {
-    pub fn new(rates: &SiteRates, years: f64, bases: TargetBases) -> RatesRow {
+    pub fn new(rates: &SiteRates, years: f64, bases: Bases) -> RatesRow {
         let counted = rates.counted.as_ref();
         let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
         RatesRow {
@@ -136,7 +138,18 @@ impl RatesRow {
             share_extrapolated: rates.beyond,
             counted_motions: counted.map(|rate| rate.motions as i64),
             counted_per_year: counted.map(|rate| rate.annual_rate.into()).unwrap_or_default(),
-            bases,
+            bases: bases.into(),
+        }
+    }
+}
+
+impl From<Bases> for TargetBases {
+    fn from(Bases { by_estimate, by_limit }: Bases) -> TargetBases {
+        TargetBases {
+            target_width_m: by_estimate.and_then(Base::width),
+            target_width_m_high: by_limit.and_then(Base::width),
+            target_sides_m: by_estimate.and_then(Base::sides),
+            target_sides_m_high: by_limit.and_then(Base::sides),
         }
     }
 }

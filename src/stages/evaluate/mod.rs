@@ -5,7 +5,6 @@
 //! point        probabilities at a PGA, a PGV or both
 //! rates        annual rates at a site
 //! fragility    the intensities that half of the motions need, without a motion or over the hazard of a site
-//! target       the width of a base that meets a target
 //! pages        what pages show of the answers
 //! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
@@ -19,7 +18,6 @@ pub mod pages;
 mod point;
 mod rates;
 mod table;
-mod target;
 mod words;
 
 use std::path::{Path, PathBuf};
@@ -104,7 +102,7 @@ pub struct Evaluate {
           value_parser = number(PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
-    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = target::parse)]
+    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = parse_target)]
     target: Option<f64>,
     /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its
     /// site
@@ -256,7 +254,8 @@ impl Evaluate {
         let all = object::answers(&objects, models, self.explain, context, |object, subject| {
             let rates = site.rates(subject);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years);
-            let bases = target.map(|target| target::bases(object, models, &site, rates.overturning, target));
+            let joined = |object: &Object| Some(models.subject(object).ok()?.0);
+            let bases = target.map(|target| site.bases(object, &joined, rates.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
         })?;
@@ -376,6 +375,14 @@ impl Evaluate {
             context.write_file(&out, &content)?;
         }
         Ok(printed)
+    }
+}
+
+/// Parses a probability of overturning in the time of exposure, such as 1%.
+fn parse_target(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
+        Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(0.01 * percent),
+        _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
     }
 }
 
