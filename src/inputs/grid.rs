@@ -12,6 +12,7 @@ use super::numbers::{self, Evidence, Style, is_missing, is_number};
 use super::unpack::{Member, unpack};
 use super::words::words;
 use super::workbook;
+use crate::number::counted;
 use crate::source;
 use crate::units::Unit;
 
@@ -189,7 +190,7 @@ impl Grid {
         let texts: Vec<&str> = self.headings.iter().map(|heading| heading.text.as_str()).collect();
         match self.has_headings {
             true => format!("headings {}", texts.join(", ")),
-            false => format!("{} columns without headings", texts.len()),
+            false => format!("{} without headings", counted(texts.len(), "column")),
         }
     }
 

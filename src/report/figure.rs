@@ -83,15 +83,14 @@ pub enum Shape {
     Estimates,
 }
 
-/// A place over the axes; with limits if it is an estimate.
+/// A place over the axes; with limits if it is an estimate. What is NaN is not drawn: a line has a gap there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mark {
     pub x: f64,
     pub y: f64,
-    /// NaN where it has no limits.
     pub low: f64,
     pub high: f64,
-    /// Number of cases behind it, which its dot shows; NaN if unknown.
+    /// Number of cases behind it, which its dot shows.
     pub n: f64,
 }
 

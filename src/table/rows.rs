@@ -43,18 +43,21 @@ fn find_layout<R: Row>() -> Layout {
         .sequence_as_large_list(false)
         .enums_without_data_as_strings(true);
     let fields = Vec::<FieldRef>::from_type::<R>(options).expect("rows are flat structs");
-    let fields = fields.into_iter().map(|field| match field.data_type() {
-        // Words are texts.
-        DataType::Dictionary(_, texts) => {
-            Arc::new(Field::new(field.name(), (**texts).clone(), field.is_nullable()))
-        }
-        _ => field,
-    });
-    let fields: Vec<FieldRef> = fields.collect();
+    let fields: Vec<FieldRef> = fields.iter().map(with_texts).collect();
     let columns = fields.iter().flat_map(columns);
     let columns = columns.map(|column| dictionary::with_meaning(column.as_ref().clone()));
     let schema = Schema::new(columns.collect::<Vec<_>>());
     (fields, Arc::new(schema))
+}
+
+/// Takes the words of enums for texts.
+fn with_texts(field: &FieldRef) -> FieldRef {
+    let data_type = match field.data_type() {
+        DataType::Dictionary(_, texts) => (**texts).clone(),
+        DataType::Struct(parts) => DataType::Struct(parts.iter().map(with_texts).collect()),
+        _ => return field.clone(),
+    };
+    Arc::new(field.as_ref().clone().with_data_type(data_type))
 }
 
 fn columns(field: &FieldRef) -> Vec<FieldRef> {

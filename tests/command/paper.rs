@@ -161,6 +161,7 @@ fn every_file_has_its_schema() {
         "simulate --in out/motions.parquet --p 2.5 --alpha 0.2 --eta 0.92 --trace 1 --out out/one.parquet",
         "ida --in out/records.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out out/ida.parquet",
         "rank-ims --in out/responses.parquet --terms 1 --out out/ranking.parquet",
+        "report --in out/ida.parquet,out/ranking.parquet --out read.html",
     ] {
         succeed(folder, call);
     }

@@ -26,8 +26,9 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
         "SA(1.0)" => (Measure::Spectral, G_M_S2),
         name => return Err(InputError::missing(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
     };
-    exported(grid, "investigation_time")?;
-    let frequency = Frequency::ProbabilityIn(investigation_years(grid).unwrap_or(f64::NAN));
+    let unknown =
+        || InputError::missing("no years after investigation_time".to_string(), "the file as exported");
+    let frequency = Frequency::ProbabilityIn(investigation_years(grid).ok_or_else(unknown)?);
     let statistic = statistic(grid)?;
     if grid.lines.len() != 1 {
         return Err(InputError::missing(format!("curves of {} sites", grid.lines.len()), "the row of one"));

@@ -85,7 +85,8 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
             let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
             layers.push(Layer::line("regression", Ink::Data(1), line));
             let zeta = zeta(fit).map_or("none".to_string(), |zeta| number::significant(zeta, 3));
-            let [r2, beta] = [fit.r2, fit.beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
+            let [r2, beta] = [fit.r2, fit.beta]
+                .map(|value| value.map_or("-".to_string(), |value| number::fixed(value, 2)));
             title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
         }
         panels.push(Panel::new(&title, Axis::log(label(measure)), Axis::log(DEMAND), layers));

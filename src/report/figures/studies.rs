@@ -34,10 +34,7 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 }
 
 fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
-    let span = Range {
-        low: levels.first().copied().unwrap_or(f64::NAN),
-        high: levels.last().copied().unwrap_or(f64::NAN),
-    };
+    let span = Range::over(levels.iter().copied());
     let cases: Vec<_> = stripes
         .iter()
         .filter(|stripe| stripe.group() == fit.group())

@@ -191,8 +191,10 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
 
 fn cell(row: &Value, field: &str) -> String {
     match &row[field] {
-        Value::Number(count) if count.is_u64() => number::count(count.as_u64().unwrap_or(0) as usize),
-        Value::Number(value) => minus(number::significant(value.as_f64().unwrap_or(f64::NAN), 3)),
+        Value::Number(value) => match (value.as_u64(), value.as_f64()) {
+            (Some(count), _) => number::count(count as usize),
+            (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
+        },
         Value::String(name) if field == "structure" => literal(name),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
         Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.as_str() == text) => {
