@@ -258,7 +258,7 @@ impl ObjectAtPga<'_> {
 }
 
 impl LimitStates<f64> {
-    /// Of motions without a PGV only rocking is known.
+    /// Leaves what is known of motions without a PGV: whether it rocks.
     fn known(self, ln_seconds: f64) -> LimitStates<Option<f64>> {
         let states = self.map(Some);
         if ln_seconds.is_finite() {

@@ -7,9 +7,9 @@ use crate::statistics::{Limited, Range};
 /// The base of an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Base {
-    /// Of this width.
+    /// Has this width.
     Width(f64),
-    /// With both sides no less than this.
+    /// Has no side below this.
     Sides(f64),
 }
 
@@ -128,7 +128,7 @@ struct Search<'a> {
     /// Logarithms of the sides between which is searched.
     least: f64,
     most: f64,
-    /// That at which the search begins: of the object as it is, or the nearest one.
+    /// Where the search begins: the side of the object as it is, or the nearest one.
     start: f64,
     is_as_is: bool,
     known: Vec<Known>,

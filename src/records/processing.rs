@@ -66,7 +66,7 @@ pub struct ImportedMotion {
     pub source_blake3: String,
     pub scale: f64,
     pub dt_s: f64,
-    /// Of the samples as written.
+    /// Measures of the samples as written.
     pub measures: MotionMeasures,
     pub pulse: PulseColumns,
     /// Samples as written, m/s2.

@@ -48,7 +48,7 @@ pub enum Frequency {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
     pub at: usize,
-    /// Of values, in m/s2 or m/s.
+    /// Unit of its values, in m/s2 or m/s.
     pub unit: Option<f64>,
     pub frequency: Option<Frequency>,
     /// None where the heading names none: `Ground Motion (g)`, `AFE`.

@@ -257,7 +257,7 @@ impl Found {
 /// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
 /// not understood first.
 fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
-    let (of_curve, others): (Vec<&Column>, Vec<&Column>) =
+    let (curve, others): (Vec<&Column>, Vec<&Column>) =
         columns.iter().partition(|column| column.is_of_curve());
     let mut others = others.iter().map(|column| &grid.headings[column.at]);
     // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
@@ -273,7 +273,7 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
                         under pga_g and annual_rate_of_exceedance";
         return InputError::missing(found, expected);
     }
-    let mut values = of_curve.iter().filter(|column| column.unit.is_some());
+    let mut values = curve.iter().filter(|column| column.unit.is_some());
     let expected = if values.clone().any(|column| column.measure == Some(Measure::Other)) {
         "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
     } else if values.next().is_none() {

@@ -5,7 +5,6 @@ use crate::fragility::{Z_95, p_overturning};
 use crate::report::text::literal;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
 use crate::rocking::CapacityStatus;
-use crate::statistics::Range;
 use crate::statistics::numerics::equal_ratios;
 use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
@@ -34,7 +33,6 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 }
 
 fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
-    let span = Range::over(levels.iter().copied());
     let cases: Vec<_> = stripes
         .iter()
         .filter(|stripe| stripe.group() == fit.group())
@@ -46,7 +44,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
         .iter()
         .filter(|row| row.group() == fit.group())
         .filter_map(|row| match row.found.status {
-            CapacityStatus::Below => Some(row.found.overturning.unwrap_or(span.low)),
+            CapacityStatus::Below => row.found.overturning.or(levels.first().copied()),
             _ => row.found.overturning,
         })
         .collect();
@@ -56,11 +54,9 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
         steps.extend([k, k + 1].map(|k| Mark::new(x, k as f64 / fit.n.max(1) as f64)));
     }
     let mut curve = Vec::new();
-    if let Some((theta, beta)) = fit.theta.value.zip(fit.beta.value) {
-        curve.extend(
-            equal_ratios(span.low, span.high, STEPS)
-                .map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))),
-        );
+    if let (Some((theta, beta)), [low, .., high]) = (fit.theta.value.zip(fit.beta.value), levels) {
+        let x = equal_ratios(*low, *high, STEPS);
+        curve.extend(x.map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))));
     }
     let shares = shares.into_iter().step_by(every);
     let layers = vec![

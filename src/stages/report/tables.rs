@@ -304,11 +304,7 @@ fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> 
     for curve in rows::read::<CurveRow>(path)?.chunk_by(|a, b| a.structure == b.structure) {
         let points = curve.iter().map(|row| FragilityPoint {
             intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or_default(),
-            p: LimitStates {
-                rocking: row.p_rocking,
-                failure: row.p_failure,
-                overturning: row.p_overturning,
-            },
+            p: LimitStates { rocking: row.p_rocking, failure: row.p_failure, overturning: row.p_overturning },
         });
         let over = if curve[0].pga_g.is_some() { Peak::Pga } else { Peak::Pgv };
         let object = ObjectRow { structure: curve[0].structure.clone(), ..ObjectRow::default() };
