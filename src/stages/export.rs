@@ -155,7 +155,10 @@ impl Export {
         let mut probabilities = Vec::new();
         for &level in &levels {
             if given_peak.limit_states(level).into_array().contains(&None) {
-                return Err(named(object, &"its fits have no probability of every motion"));
+                return Err(named(
+                    object,
+                    &"its fits give no probability for some motions: fit more responses",
+                ));
             }
             most = most.zip(reaching(level), f64::max);
             probabilities.push(most);

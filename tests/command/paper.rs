@@ -147,6 +147,17 @@ fn columns(schema: &Schema) -> String {
 }
 
 #[test]
+fn fits_without_one_of_the_planes_are_not_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let responses = RUN.path().join("out/responses.parquet");
+    succeed(folder.path(), &format!("fit-pro --in {} --out pro.parquet", responses.display()));
+    let fit = format!("fit-pex --in {} --transition 1.001 --out pex.parquet", responses.display());
+    succeed(folder.path(), &fit);
+    let export = "export --to openquake --fits . --model paper --suite csgm --p 1 --alpha 0.15 --eta 0.92";
+    fail(folder.path(), export, 2, &["some motions"]);
+}
+
+#[test]
 fn every_file_has_its_schema() {
     let folder = RUN.path();
     let record = "time (s),acceleration (g)\n".to_string()
