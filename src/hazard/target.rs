@@ -57,9 +57,8 @@ const LEAST_FALL: f64 = 0.2;
 const USUAL_SLOPE: f64 = -0.27;
 const USUAL_BEND: f64 = 0.05;
 const SLOPES: Range = Range { low: -0.7, high: 0.3 };
-/// By how much ln of an upper limit by it is off at most; and so little that by the next slope it is right.
-const FAR: f64 = 0.5;
-const CLOSE: f64 = 0.1;
+/// By how little ln of an upper limit is off where by the next slope it is right.
+const CLOSE: f64 = 0.02;
 /// Annual rates count as no less.
 const LEAST: f64 = 1e-12;
 
@@ -131,6 +130,8 @@ struct Search<'a> {
     /// Where the search begins: the side of the object as it is, or the nearest one.
     start: f64,
     is_as_is: bool,
+    /// From here on the hazard ends too early for a rate.
+    early: f64,
     known: Vec<Known>,
 }
 
@@ -187,7 +188,18 @@ impl Search<'_> {
         let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
         let start = side.ln().clamp(least, most);
         let is_as_is = start == side.ln();
-        Some(Search { site, object, subject, base, least, most, start, is_as_is, known: Vec::new() })
+        Some(Search {
+            site,
+            object,
+            subject,
+            base,
+            least,
+            most,
+            start,
+            is_as_is,
+            early: f64::INFINITY,
+            known: Vec::new(),
+        })
     }
 
     fn subject(&self, ln_side: f64) -> Option<Subject> {
@@ -204,13 +216,16 @@ impl Search<'_> {
     fn ln_side(&mut self, ln_rate: f64, rough: f64) -> Option<f64> {
         for _ in 0..MOST_STEPS {
             let (free, enough) = self.next(ln_rate);
-            let (next, last) = (free.clamp(self.least, self.most), self.known.last().copied());
+            let (mut next, last) = (free.clamp(self.least, self.most), self.known.last().copied());
+            if next >= self.early {
+                next = 0.5 * (last?.ln_side + self.early);
+            }
             if last.is_some_and(|last| (next - last.ln_side).abs() < enough.max(rough)) {
-                return (free <= self.most + ACCURACY).then_some(next);
+                return (free <= next + ACCURACY).then_some(next);
             }
             match self.known_at(next) {
                 Some(known) => self.known.push(known),
-                None => self.most = 0.5 * (last?.ln_side + next),
+                None => self.early = next,
             }
         }
         None
@@ -240,18 +255,21 @@ impl Search<'_> {
     /// is no less than `least`, costs a tenth of its limits.
     fn by_limit(&mut self, known: &mut Option<Limit>, least: f64, ln_limit: f64) -> Option<f64> {
         let mut is_close = false;
-        for step in 0..MOST_STEPS {
+        for _ in 0..MOST_STEPS {
             let sought = known.map_or(ln_limit, |known| known.ln_rate_at(ln_limit));
-            let rough = if is_close { 0.0 } else { ROUGH_STEP };
-            let may_be = step == 0 && (least - FAR..least).contains(&sought);
-            let ln_side = self.ln_side(if may_be { least } else { sought }, rough)?;
             if is_close {
-                return Some(ln_side);
+                return self.ln_side(sought, 0.0);
             }
+            // Elsewhere the limit may be another than by its slope.
+            let ln_side = if sought < least { self.most } else { self.ln_side(sought, ROUGH_STEP)? };
             let Limited { value, high, .. } = self.site.rates(&self.subject(ln_side)?).overturning;
             let here = Limit::new(value?, high?);
+            let off = here.ln_rate + here.ln_margin - ln_limit;
+            if ln_side == self.most && off > 0.0 {
+                return None;
+            }
             self.known.push(Known { ln_side, ln_rate: here.ln_rate });
-            is_close = (here.ln_rate + here.ln_margin - ln_limit).abs() < CLOSE;
+            is_close = off.abs() < CLOSE;
             *known = Some(known.map_or(here, |before| here.after(before)));
         }
         None
