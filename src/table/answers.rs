@@ -18,8 +18,6 @@ pub struct Answer<R> {
     pub row: R,
     pub doubts: DoubtsRow,
     pub warnings: Vec<Warning>,
-    /// The model and the measures of the motion, if requested.
-    pub explained: String,
     /// Responses that the model was fitted to.
     pub responses: i64,
 }

@@ -8,10 +8,8 @@
 //! pages        what pages show of the answers
 //! table        probabilities at each intensity of a table
 //! words        an object, its model and its warnings in words
-//! explain      the model and the measures behind an answer
 //! ```
 
-mod explain;
 mod fragility;
 mod object;
 pub mod pages;
@@ -114,9 +112,6 @@ pub struct Evaluate {
     /// Continue the hazard curve with its last slope
     #[arg(long, requires = "hazard", group = "site")]
     extrapolate: bool,
-    /// Also print model, measures and other predictions
-    #[arg(long)]
-    explain: bool,
     /// text, csv or json
     #[arg(long, default_value = "text")]
     format: Format,
@@ -205,7 +200,7 @@ impl Evaluate {
         let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let objects = self.objects(Renames::new(&self.columns), models, context)?;
-        let all = object::answers(&objects, models, self.explain, context, |_, subject| {
+        let all = object::answers(&objects, models, context, |_, subject| {
             let (row, errors) = TreeRow::new(motion, subject);
             let motion = motion.peaks(&subject.directions[0].model);
             Prediction { row, errors, motion, warnings: Vec::new() }
@@ -230,7 +225,7 @@ impl Evaluate {
         }
         let objects = self.objects(renames, models, context)?;
         let general = SitesInGeneral { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
-        let all = object::answers(&objects, models, self.explain, context, |_, subject| {
+        let all = object::answers(&objects, models, context, |_, subject| {
             let at_site = site.as_ref().and_then(|site| site.fragility(subject));
             let fragility = at_site.unwrap_or_else(|| general.fragility(subject));
             let (errors, motion) = (fragility.errors, fragility.motion);
@@ -251,7 +246,7 @@ impl Evaluate {
         let mut renames = Renames::new(&self.columns);
         let site = self.site(&mut renames, context)?;
         let objects = self.objects(renames, models, context)?;
-        let all = object::answers(&objects, models, self.explain, context, |object, subject| {
+        let all = object::answers(&objects, models, context, |object, subject| {
             let rates = site.rates(subject);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years);
             let joined = |object: &Object| Some(models.subject(object).ok()?.0);

@@ -2,8 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::explain::explained;
-use crate::fragility::{Direction, Model};
+use crate::fragility::Model;
 use crate::hazard::Budget;
 use crate::motion::Peaks;
 use crate::object::{Object, Subject};
@@ -40,7 +39,6 @@ pub struct Prediction<R> {
 pub fn answers<R: Predicted>(
     objects: &[Object],
     models: &Models,
-    explain: bool,
     context: &Context,
     predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
@@ -59,22 +57,15 @@ pub fn answers<R: Predicted>(
         warnings.sort();
         warnings.dedup();
         let weaker = &subject.directions[0];
-        let Direction { structure, model } = weaker;
-        let explained = if explain {
-            explained(model, structure, predicted.motion, &predicted.errors)
-        } else {
-            String::new()
-        };
         Ok(Answer {
             object: ObjectRow::new(object, Some(weaker), models.args.limit_state),
             row: predicted.row,
             doubts: DoubtsRow::new(&warnings, &predicted.errors),
             warnings,
-            responses: match model {
+            responses: match &weaker.model {
                 Model::Calibrated { overturning, .. } => overturning.n,
                 Model::Paper { overturning, .. } => overturning.n,
             },
-            explained,
         })
     };
     // The first error in the order of the objects, whichever thread meets one first.

@@ -13,14 +13,13 @@ pub fn text<R>(
     tell: impl FnOnce(&Answer<R>) -> String,
     tell_list: impl FnOnce() -> String,
 ) -> String {
-    let text = match all {
+    match all {
         _ if all.iter().all(|answer| answer.object.p_rad_s.is_none()) => {
             all.iter().map(|answer| format!("{}: {}\n", answer.object.title(), brief(answer))).collect()
         }
         [answer] => tell(answer),
         _ => tell_list(),
-    };
-    text + &all.iter().map(|answer| answer.explained.as_str()).collect::<String>()
+    }
 }
 
 pub fn model(object: &ObjectRow) -> &str {
