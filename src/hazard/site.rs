@@ -2,16 +2,14 @@
 //! ends of its curve leave open.
 
 use super::budget::Budget;
-use super::count::{CountedMotion, CountedRate, counted_rate};
 use super::curve::HazardCurve;
 use super::motions::Motions;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{Cases, Direction, GivenPeak, Kind, Level, LimitState, LimitStates, Peak};
+use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::rocking::Outcome;
 use crate::statistics::Limited;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
@@ -60,8 +58,6 @@ impl Hazard {
 
 /// The least annual rate whose logarithm the error budget takes: once in 1e12 years.
 const LEAST: f64 = 1e-12;
-/// The seed of the resamples of a count.
-const SEED: u64 = 1;
 
 /// PGA (m/s2) or PGV (m/s) beyond which nothing was ever recorded: a curve that reaches it cannot end too
 /// early.
@@ -84,8 +80,6 @@ pub struct Site {
     pub vs30_m_s: Option<f64>,
     /// Whether to extrapolate a curve that ends too early.
     pub extrapolate: bool,
-    /// Responses in which to count overturning beside the rate; may be empty.
-    pub responses: Vec<Cases>,
 }
 
 /// Annual rates of an object, with 95 % limits; nothing of one where the model has no probability. Where the
@@ -103,8 +97,6 @@ pub struct SiteRates {
     pub velocity: Option<VelocitySource>,
     /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub beyond: Option<f64>,
-    /// The rate of overturning, counted among the responses.
-    pub counted: Option<CountedRate>,
     /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
     pub motion: Peaks,
     pub warnings: Vec<Warning>,
@@ -119,7 +111,7 @@ struct Varied {
 impl Site {
     /// Makes a site of which only the hazard is known.
     pub fn new(hazard: Hazard) -> Site {
-        Site { hazard, mw: None, vs30_m_s: None, extrapolate: false, responses: Vec::new() }
+        Site { hazard, mw: None, vs30_m_s: None, extrapolate: false }
     }
 
     /// Computes the annual rates of an object, with limits.
@@ -203,30 +195,10 @@ impl Site {
         SiteRates {
             velocity: Some(motions.velocity.source),
             beyond,
-            counted: self.count(&middle, &curve),
             warnings: warnings.into_iter().flatten().collect(),
             ..Varied::new((0..levels.len()).map(|level| over.rates(level)).collect(), ends)
                 .with_limits(motion, ends_early)
         }
-    }
-
-    /// Counts the rate of overturning among the responses of this structure to this kind of motion.
-    fn count(&self, given: &GivenPeak, curve: &HazardCurve) -> Option<CountedRate> {
-        let [Direction { structure, model }] = given.directions else { return None };
-        let cases = self.responses.iter().find(|cases| {
-            Kind::from_suite(cases.suite.as_deref()) == model.kind() && structure.is_like(&cases.structure)
-        })?;
-        let motions = cases.all.iter().map(|case| CountedMotion {
-            intensity: if given.peak == Peak::Pga { case.peaks.pga_m_s2 } else { case.peaks.pgv_m_s },
-            event: case.outcome == Outcome::Overturned,
-            cluster: case.cluster,
-        });
-        // Weaker motions uplift nothing.
-        let least = match given.peak {
-            Peak::Pga => structure.uplift_acceleration_m_s2(),
-            Peak::Pgv => given.uplift().least,
-        };
-        counted_rate(curve, least, motions.collect(), SEED)
     }
 }
 
@@ -261,7 +233,6 @@ impl Varied {
             errors: self.budget(LimitState::Overturning, |rate| rate.value),
             velocity: None,
             beyond: None,
-            counted: None,
             motion,
             warnings: Vec::new(),
         }

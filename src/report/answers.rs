@@ -1,7 +1,7 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
 use crate::fragility::Peak;
-use crate::hazard::{Fragility, HazardCurve, RateByIntensity, probability_in_years};
+use crate::hazard::{Fragility, HazardCurve, RateByIntensity};
 use crate::number::{self, Limited, PERCENT};
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 use crate::warning::UNNAMED;
@@ -208,24 +208,17 @@ pub struct State {
 }
 
 impl Answer<RatesRow> {
-    /// The limit states, each beyond those before; and overturning as counted in responses.
-    pub fn states(&self) -> Vec<State> {
+    /// The limit states, each beyond those before.
+    pub fn states(&self) -> [State; 3] {
         let row = &self.row;
         let too_far = format!("{}, or overturns", self.object.too_far());
         let [rocks, rocking_per_year] = [row.p_rocking, row.rocking_per_year].map(Limited::value);
-        let mut states: Vec<State> = [
+        [
             ("rocks", rocks, rocking_per_year),
             (&too_far, row.p_failure, row.failure_per_year),
             ("overturns", row.p_overturning, row.overturning_per_year),
         ]
         .map(|(name, p, per_year)| State { name: name.to_string(), p, per_year })
-        .into();
-        states.extend(row.counted_motions.zip(row.years).map(|(motions, years)| {
-            let (per_year, motions) = (row.counted_per_year, number::counted(motions as usize, "motion"));
-            let p = per_year.map(|rate| probability_in_years(rate, years));
-            State { name: format!("overturns, counted among {motions}"), p, per_year }
-        }));
-        states
     }
 
     /// The probability of overturning by which objects are sorted: where there is no value its upper end.

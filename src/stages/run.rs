@@ -69,11 +69,7 @@ pub fn files(
     let files = match stage {
         "simulate" | "ida" => vec![Some(("in", motions))],
         "rank-ims" if has("synthesize-motions") || has("import-motions") => vec![Some(("motions", motions))],
-        "evaluate" => {
-            let counts = has("simulate") && sections[stage].contains_key("hazard");
-            let responses = counts.then_some(("responses", "responses.parquet"));
-            vec![fits, responses, Some(("out", "evaluated.parquet"))]
-        }
+        "evaluate" => vec![fits, Some(("out", "evaluated.parquet"))],
         "export" => vec![fits, Some(("out", UNNAMED))],
         "validate" => vec![fits],
         _ => Vec::new(),

@@ -102,8 +102,6 @@ pub struct RatesRow {
     pub velocity_by: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub share_extrapolated: Option<f64>,
-    pub counted_motions: Option<i64>,
-    pub counted_per_year: Limited,
     pub bases: TargetBases,
 }
 
@@ -120,7 +118,6 @@ pub struct TargetBases {
 
 impl RatesRow {
     pub fn new(rates: &SiteRates, years: f64, bases: Bases) -> RatesRow {
-        let counted = rates.counted.as_ref();
         let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
         RatesRow {
             rocking_per_year: rocking,
@@ -134,8 +131,6 @@ impl RatesRow {
             is_range: overturning.low.map(|_| overturning.value.is_none()),
             velocity_by: rates.velocity,
             share_extrapolated: rates.beyond,
-            counted_motions: counted.map(|rate| rate.motions as i64),
-            counted_per_year: counted.map(|rate| rate.annual_rate.into()).unwrap_or_default(),
             bases: bases.into(),
         }
     }

@@ -179,12 +179,7 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
     assert_eq!(again.0, printed, "what is up to date is printed as before");
     assert!(again.1.lines().all(|line| !line.ends_with(" s")), "nothing runs again: {}", again.1);
     let cabinet = "--structure name=cabinet,width=0.8,height=2.2";
-    let counted = format!("--fits out {cabinet} --hazard hazard.csv --responses out/responses.parquet");
-    let row = &evaluated(folder.path(), &counted)[0];
-    let [low, value, high] = ["counted_per_year_low", "counted_per_year", "counted_per_year_high"]
-        .map(|column| number(row, column));
-    assert!(low <= value && value <= high);
-    assert!(number(row, "counted_motions") <= 60.0);
+    let row = &evaluated(folder.path(), &format!("--fits out {cabinet} --hazard hazard.csv"))[0];
     let all = evaluated(folder.path(), "--fits out --hazard hazard.csv");
     assert_eq!(all.len(), 1, "without a structure, all that are fitted");
     assert!(near(number(&all[0], "overturning_per_year"), number(row, "overturning_per_year"), 1e-12));

@@ -146,10 +146,6 @@ fn a_pipeline_of_a_list_goes_on_past_what_does_not_rock_on_the_ground() {
     let (printed, warned) = succeed(folder.path(), "run");
     assert!(["Autoclave", "Bookcase", "Upstairs"].iter().all(|name| printed.contains(name)), "{printed}");
     assert!(warned.contains("Autoclave, Upstairs: left out"), "{warned}");
-    // A response is to one component of a motion: with a depth there is no count, and an answer.
-    let deep = "name,width (m),depth (m),height (m)\nBookcase,0.4,0.5,2.0\n";
-    std::fs::write(folder.path().join("structures.csv"), deep).unwrap();
-    assert!(succeed(folder.path(), "run").1.contains("with a depth"));
     // What cannot be right is still refused, and so is a list of which nothing rocks.
     std::fs::write(folder.path().join("wrong.csv"), "name,width,height\nA,0.4,2\nB,40,2\n").unwrap();
     fail(folder.path(), "simulate --in out/motions.parquet --structures wrong.csv", 2, &["'B'", "width"]);

@@ -26,16 +26,14 @@ use serde::Serialize;
 
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{PlaceArgs, StructureArgs, named};
-use super::shared::responses;
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use crate::inputs::{Rename, Renames, hazard};
 use crate::motion::Peaks;
-use crate::number::listed;
 use crate::object::{Object, Restitution};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{AnswersOutput, Input, Read, RowsInput, SheetInput, split_lists};
+use crate::pipeline::paths::{AnswersOutput, Read, RowsInput, SheetInput, split_lists};
 use crate::pipeline::{Stage, UsageError};
 use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::records::implausibility::rarity;
@@ -45,7 +43,7 @@ use crate::table::answers::{Answer, FragilityRow, RatesRow};
 use crate::table::frame::{self, Format};
 use crate::table::rows;
 use crate::units::G_M_S2;
-use crate::warning::{UNNAMED, Warning, Warnings};
+use crate::warning::Warning;
 
 use self::object::{Predicted, Prediction};
 use self::point::TreeRow;
@@ -104,11 +102,8 @@ pub struct Evaluate {
     target: Option<f64>,
     /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its
     /// site
-    #[arg(long, value_name = "PEAK", conflicts_with_all = ["in", "pga", "pgv", "target", "responses", "extrapolate"])]
+    #[arg(long, value_name = "PEAK", conflicts_with_all = ["in", "pga", "pgv", "target", "extrapolate"])]
     over: Option<Peak>,
-    /// Responses to count overturning in, beside the rate
-    #[arg(long, value_name = "FILE", requires = "hazard", group = "site")]
-    responses: Option<Input>,
     /// Continue the hazard curve with its last slope
     #[arg(long, requires = "hazard", group = "site")]
     extrapolate: bool,
@@ -135,7 +130,6 @@ impl Stage for Evaluate {
         vec![
             Read::new("in", self.input.iter().map(|path| &**path)),
             Read::new("hazard", split_lists(&self.hazard)),
-            Read::new("responses", self.responses.iter().map(|path| &**path)),
             self.model.input(),
             self.structures.input(),
         ]
@@ -254,9 +248,6 @@ impl Evaluate {
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
         })?;
-        if let Some(path) = &self.responses {
-            context.warn(expect_counted(&all, &site, path)?);
-        }
         let page = || {
             let portrait = pages::portrait(&objects, models, Some(&site), self.years)?;
             Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), context.made()) }))
@@ -276,19 +267,12 @@ impl Evaluate {
             _ if self.ratio.or(self.vs30).is_some() => {
                 return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
             }
-            Hazard::Joint(_) if self.extrapolate || self.responses.is_some() => {
-                let option = if self.extrapolate { "extrapolate" } else { "responses" };
-                return Err(UsageError::because(format!("{option}: expected a hazard curve of one peak")));
+            Hazard::Joint(_) if self.extrapolate => {
+                return Err(UsageError::because("extrapolate: expected a hazard curve of one peak"));
             }
             _ => {}
         }
-        Ok(Site {
-            hazard,
-            mw: self.magnitude,
-            vs30_m_s: self.vs30,
-            extrapolate: self.extrapolate,
-            responses: self.responses.as_deref().map_or(Ok(Vec::new()), responses::read_of_ground)?,
-        })
+        Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30, extrapolate: self.extrapolate })
     }
 
     /// Returns the given structures, or all fitted ones.
@@ -403,22 +387,4 @@ fn shown(rows: &[RecordBatch], format: Format) -> anyhow::Result<String> {
         whole.vstack_mut(&frame::from_batch(more)?)?;
     }
     frame::show(&whole, format)
-}
-
-/// Checks that responses were of an object; a warning where all have a depth, for they are to one component.
-fn expect_counted(all: &[Answer<RatesRow>], site: &Site, responses: &Path) -> anyhow::Result<Warnings> {
-    if all.iter().any(|answer| answer.row.counted_motions.is_some()) {
-        return Ok(Warnings::default());
-    }
-    if all.iter().all(|answer| answer.object.p_rad_s.is_none() || answer.object.depth_m.is_some()) {
-        return Ok([(Warning::NotCounted, UNNAMED.to_string())].into_iter().collect());
-    }
-    let mut names: Vec<&str> = site.responses.iter().map(|cases| &*cases.structure.name).collect();
-    names.sort_unstable();
-    names.dedup();
-    anyhow::bail!(
-        "{}: responses of {}; expected those of this structure to motions of its kind, some of which uplift it",
-        responses.display(),
-        listed(&names, 8)
-    )
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::keyword::Keyword;
-use crate::motion::{IntensityMeasures, Peaks, Suite};
+use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::counted;
 use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
@@ -30,18 +30,6 @@ pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<
 /// come.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
     read_with(path, None)
-}
-
-/// Reads responses to motions of the ground.
-pub fn read_of_ground(path: &Path) -> anyhow::Result<Vec<Cases>> {
-    let all = read(path)?;
-    match all.iter().any(|cases| Suite::is_floor(cases.suite.as_deref())) {
-        true => {
-            let problem = "responses to motions of a floor; expected those of the ground";
-            Err(TableError::table(path, problem).into())
-        }
-        false => Ok(all),
-    }
 }
 
 /// Reads responses with candidate measures.
