@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::number::significant;
+use crate::number::{plain, significant};
 use crate::plausibility::{PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median};
 use crate::units::G_M_S2;
 
@@ -33,8 +33,9 @@ impl Peaks {
         match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
             true => Ok(()),
             false => Err(format!(
-                "PGV/PGA is {} s; expected 0.005 to 3 s, of PGA in g and PGV in m/s: a wrong unit?",
-                significant(ratio_s, 3)
+                "PGA is {} g and PGV {} m/s; expected PGV/PGA of 0.005 to 3 s (PGA in m/s2): a wrong unit?",
+                plain(self.pga_m_s2 / G_M_S2),
+                plain(self.pgv_m_s)
             )),
         }
     }

@@ -144,6 +144,9 @@ fn slips_are_refused_or_warned() {
         (&format!("{BLOCK} --hazard sign.csv"), 1, vec!["sign.csv", "1.8"]),
         (&format!("{BLOCK} --hazard hazard.csv --pga 0.5 --pgv 0.6"), 2, vec!["--hazard", "--pga"]),
         (&format!("{BLOCK} --pga 0.5 --pgv 0.6 --out answer.txt"), 2, vec!["answer.txt"]),
+        (&format!("{BLOCK} --pga 0 --pgv 0.6"), 2, vec!["PGA is 0 g", "0.6 m/s"]),
+        // Before anything is read.
+        ("--in missing.csv --out page.html", 2, vec!["page.html", ".parquet"]),
         ("--pga 0.5 --pgv 0.6", 2, vec!["--width"]),
         (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
         (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["over", "pgv"]),

@@ -125,6 +125,9 @@ pub struct Evaluate {
     place: PlaceArgs,
 }
 
+/// Endings of pages and figures.
+const DRAWN: [&str; 3] = ["html", "svg", "png"];
+
 impl Stage for Evaluate {
     fn inputs(&self) -> Vec<Read> {
         vec![
@@ -141,11 +144,15 @@ impl Stage for Evaluate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        if let Some(out) = self.out.as_deref().filter(|out| out.extension().is_none()) {
-            let (out, expected) = (out.display(), AnswersOutput::KIND.formats.join(", ."));
-            return Err(UsageError::because(format!(
-                "out is {out}; expected a name that ends in .{expected}"
-            )));
+        if let Some(out) = &self.out {
+            let mut formats = AnswersOutput::KIND.formats.to_vec();
+            // A page or figure is of objects.
+            formats.retain(|ending| self.input.is_none() || !DRAWN.contains(ending));
+            if !formats.iter().any(|ending| out.extension().is_some_and(|found| found == *ending)) {
+                let (out, expected) = (out.display(), formats.join(", ."));
+                let problem = format!("out is {out}; expected a name that ends in .{expected}");
+                return Err(UsageError::because(problem));
+            }
         }
         if self.pga.or(self.pgv).is_some() {
             self.motion()?;
@@ -160,10 +167,7 @@ impl Stage for Evaluate {
             let (rows, text) = table::evaluate(self, path, &mut renames, &models, context)?;
             renames.expect_used()?;
             let printed = self.printed(&rows, text)?;
-            self.write(&rows, printed, context, || {
-                let problem = "out: a page or figure is of objects, not of a table";
-                Err(UsageError::because(problem))
-            })
+            self.write(&rows, printed, context, || Ok(Page::default()))
         } else if self.pga.or(self.pgv).is_some() {
             self.under_motion(&self.motion()?, &models, context)
         } else if self.hazard.is_empty() || self.over.is_some() {
