@@ -38,7 +38,7 @@ pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
 pub use ratio::{RateByParts, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
-pub use target::{Base, Bases};
+pub use target::{Base, Bases, SLENDERNESSES, SearchEnd};
 
 /// Computes the probability of one or more events in `years`, of events that come at this annual rate
 /// independently of each other (Poisson): 1 - exp(-rate years).

@@ -1,8 +1,12 @@
 //! The base with which the rate of overturning of an object is a target: all else of the object the same.
 
+use argmin::core::{CostFunction, Error, Executor};
+use argmin::solver::brent::BrentRoot;
+
 use super::site::Site;
+use crate::keyword::keywords;
 use crate::object::{Object, Subject};
-use crate::statistics::{Limited, Range};
+use crate::statistics::Limited;
 
 /// The base of an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,11 +17,11 @@ pub enum Base {
     Sides(f64),
 }
 
-/// Bases that meet a target; none where none within the domain of the surface does.
+/// Bases that meet a target; none of an object without width and height.
 ///
 /// ```
 /// use rockfrag::fragility::{Kind, Peak};
-/// use rockfrag::hazard::{Hazard, HazardCurve, Site};
+/// use rockfrag::hazard::{Base, Hazard, HazardCurve, Site};
 /// use rockfrag::object::{Object, Subject};
 ///
 /// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
@@ -27,7 +31,8 @@ pub enum Base {
 /// let rate = site.rates(&subject(&cabinet).expect("it rocks")).overturning;
 /// // Once in 10,000 years.
 /// let bases = site.bases(&cabinet, &subject, rate, 1e-4);
-/// let [by_estimate, by_limit] = [bases.by_estimate, bases.by_limit].map(|base| base.and_then(|base| base.width()));
+/// let width = |base: Option<Base>| base.and_then(Base::width);
+/// let [by_estimate, by_limit] = [bases.by_estimate, bases.by_limit].map(width);
 /// assert!(0.5 < by_estimate.unwrap() && by_estimate < by_limit);
 /// # Ok::<(), rockfrag::hazard::HazardError>(())
 /// ```
@@ -37,35 +42,34 @@ pub struct Bases {
     pub by_estimate: Option<Base>,
     /// The upper limit of the rate is.
     pub by_limit: Option<Base>,
+    /// What ended the search where it found no base.
+    pub end: Option<SearchEnd>,
+}
+
+keywords! {
+    /// What has no rate for wider bases.
+    pub enum SearchEnd {
+        /// The domain of the model.
+        Model = "model",
+        /// The hazard curve.
+        Hazard = "hazard",
+    }
 }
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
-const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Relative accuracy of a side.
-const ACCURACY: f64 = 2e-5;
-/// Steps of ln side after which the next is right to that: by a fall that is assumed, by the line through two
-/// sides, by the parabola through three.
-const LAST_STEPS: [f64; 3] = [ACCURACY, 5e-4, 1e-3];
-/// Such a step of a side at which limits are computed, which tell the rate there too.
-const ROUGH_STEP: f64 = 0.02;
-const MOST_STEPS: usize = 40;
-/// By how much ln rate falls with ln side, about, where a search begins; and the least fall that it trusts.
-const USUAL_FALL: f64 = 5.0;
-const LEAST_FALL: f64 = 0.2;
-/// By how much ln of the upper limit over the rate changes with ln rate, about, and this slope with it; and the
-/// slopes that are trusted.
-const USUAL_SLOPE: f64 = -0.27;
-const USUAL_BEND: f64 = 0.05;
-const SLOPES: Range = Range { low: -0.7, high: 0.3 };
-/// By how little ln of an upper limit is off where by the next slope it is right.
-const CLOSE: f64 = 0.02;
+pub const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
+/// Accuracy of ln of a side, and of ln of a rate.
+const ACCURACY: f64 = 1e-4;
+const RATE_ACCURACY: f64 = 5e-4;
+/// ln of a rate falls with ln of a side by more than this, by 5 or so: steps by it go a little too far.
+const FALL: f64 = 3.0;
 /// Annual rates count as no less.
 const LEAST: f64 = 1e-12;
 
 impl Site {
     /// Finds the bases with which the annual rate of overturning is a target, at the same height, rule of eta
-    /// and relative offset: of another width, else with both sides changed. `rate` is that of the object as it
-    /// is, `subject` joins an object with its models.
+    /// and relative offset: of another width, else with both sides changed. `rate` is that of the object as
+    /// it is, `subject` joins an object with its models.
     pub fn bases(
         &self,
         object: &Object,
@@ -73,24 +77,25 @@ impl Site {
         rate: Limited,
         target: f64,
     ) -> Bases {
-        let (ln_target, mut bases) = (target.ln(), Bases::default());
-        let own = rate.value.zip(rate.high).map(|(value, high)| Limit::new(value, high));
-        let mut limit = own;
+        let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
+        let mut bases = Bases::default();
         for base in [Base::Width, Base::Sides] {
-            let Some(mut search) = Search::new(self, object, subject, base) else { continue };
-            let widest = search.known_at(search.most);
-            // A wider base is no help where the depth is what is too small.
-            if widest.is_some_and(|widest| widest.ln_rate > ln_target) {
-                continue;
+            if bases.by_limit.is_none()
+                && let Some([least, start, most]) = sides(object, base)
+            {
+                let search = Search { site: self, object, subject, base, target, least, most };
+                let estimate = search.ln_side(start, Site::overturning);
+                let limit = estimate.and_then(|ln_side| {
+                    // The limit is as far above the rate as it is now, or so.
+                    let mut near = (ln_side + ln_margin / FALL).min(most);
+                    if search.excess(near, Site::overturning).is_err() {
+                        near = search.last_known(ln_side, near);
+                    }
+                    search.ln_side(near, upper_limit)
+                });
+                let [estimate, by_limit] = [estimate, limit].map(|side| side.ok().map(|ln| base(ln.exp())));
+                bases = Bases { by_estimate: bases.by_estimate.or(estimate), by_limit, end: limit.err() };
             }
-            let own = own.filter(|_| search.is_as_is);
-            let own = own.map(|Limit { ln_rate, .. }| Known { ln_side: search.start, ln_rate });
-            search.known.extend(widest.into_iter().chain(own));
-            let as_ln = |ln_side: f64| base(ln_side.exp());
-            bases.by_estimate = bases.by_estimate.or_else(|| search.ln_side(ln_target, 0.0).map(as_ln));
-            let least = widest.map_or(f64::NEG_INFINITY, |widest| widest.ln_rate);
-            bases.by_limit =
-                bases.by_limit.or_else(|| search.by_limit(&mut limit, least, ln_target).map(as_ln));
         }
         bases
     }
@@ -118,171 +123,106 @@ impl Base {
     }
 }
 
+/// Returns ln of the least side, of the side as it is, or nearest to that, and of the most; none of both
+/// sides without a depth.
+fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
+    let shape = &object.shape;
+    let (width, height) = shape.width.zip(shape.height)?;
+    let side = match base(width) {
+        Base::Width(width) => width,
+        Base::Sides(width) => shape.depth?.min(width),
+    };
+    let centre_height = shape.centre_height.unwrap_or(0.5 * height);
+    let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
+    let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
+    Some([least, side.ln().clamp(least, most), most])
+}
+
 /// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
 struct Search<'a> {
     site: &'a Site,
     object: &'a Object,
     subject: &'a dyn Fn(&Object) -> Option<Subject>,
     base: fn(f64) -> Base,
-    /// Logarithms of the sides between which is searched.
+    target: f64,
     least: f64,
     most: f64,
-    /// Where the search begins: the side of the object as it is, or the nearest one.
-    start: f64,
-    is_as_is: bool,
-    /// From here on the hazard ends too early for a rate.
-    early: f64,
-    known: Vec<Known>,
 }
 
-/// ln of the annual rate at ln of a side.
-#[derive(Clone, Copy)]
-struct Known {
-    ln_side: f64,
-    ln_rate: f64,
-}
+/// A rate at a site; none where the hazard ends too early for it.
+type Rate = fn(&Site, &Subject) -> Option<f64>;
 
-/// ln of an annual rate, and of its upper limit over it, which is almost straight in the former.
-#[derive(Clone, Copy)]
-struct Limit {
-    ln_rate: f64,
-    ln_margin: f64,
-    slope: f64,
-}
-
-impl Limit {
-    fn new(value: f64, high: f64) -> Limit {
-        let ln_rate = value.max(LEAST).ln();
-        Limit { ln_rate, ln_margin: high.max(LEAST).ln() - ln_rate, slope: USUAL_SLOPE }
-    }
-
-    /// Returns it with the slope by another limit and this.
-    fn after(self, other: Limit) -> Limit {
-        let step = self.ln_rate - other.ln_rate;
-        let slope = (self.ln_margin - other.ln_margin) / step + 0.5 * USUAL_BEND * step;
-        if slope.is_finite() { Limit { slope: SLOPES.held(slope), ..self } } else { self }
-    }
-
-    /// Returns ln of the rate whose upper limit is this.
-    fn ln_rate_at(&self, ln_limit: f64) -> f64 {
-        self.ln_rate + (ln_limit - self.ln_rate - self.ln_margin) / (1.0 + self.slope)
-    }
+fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
+    let Limited { value, high, .. } = site.rates(subject).overturning;
+    value.and(high)
 }
 
 impl Search<'_> {
-    /// Begins a search; none over both sides of an object without a depth.
-    fn new<'a>(
-        site: &'a Site,
-        object: &'a Object,
-        subject: &'a dyn Fn(&Object) -> Option<Subject>,
-        base: fn(f64) -> Base,
-    ) -> Option<Search<'a>> {
-        let shape = &object.shape;
-        let (width, height) = shape.width.zip(shape.height)?;
-        let side = match base(width) {
-            Base::Width(width) => width,
-            Base::Sides(width) => shape.depth?.min(width),
-        };
-        let centre_height = shape.centre_height.unwrap_or(0.5 * height);
-        let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
-        let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
-        let start = side.ln().clamp(least, most);
-        let is_as_is = start == side.ln();
-        Some(Search {
-            site,
-            object,
-            subject,
-            base,
-            least,
-            most,
-            start,
-            is_as_is,
-            early: f64::INFINITY,
-            known: Vec::new(),
-        })
+    /// Computes ln of a rate over the target.
+    fn excess(&self, ln_side: f64, rate: Rate) -> Result<f64, SearchEnd> {
+        let resized = (self.base)(ln_side.exp()).under(self.object);
+        let subject = (self.subject)(&resized).ok_or(SearchEnd::Model)?;
+        let rate = rate(self.site, &subject).ok_or(SearchEnd::Hazard)?;
+        Ok((rate.max(LEAST) / self.target).ln())
     }
 
-    fn subject(&self, ln_side: f64) -> Option<Subject> {
-        (self.subject)(&(self.base)(ln_side.exp()).under(self.object))
-    }
-
-    fn known_at(&self, ln_side: f64) -> Option<Known> {
-        let rate = self.site.overturning(&self.subject(ln_side)?)?;
-        Some(Known { ln_side, ln_rate: rate.max(LEAST).ln() })
-    }
-
-    /// Finds ln of the side at which ln rate is this; no better than by one more step if that is less than
-    /// `rough`. Where the hazard ends too early for the rate of a wide object, the search ends there.
-    fn ln_side(&mut self, ln_rate: f64, rough: f64) -> Option<f64> {
-        for _ in 0..MOST_STEPS {
-            let (free, enough) = self.next(ln_rate);
-            let (mut next, last) = (free.clamp(self.least, self.most), self.known.last().copied());
-            if next >= self.early {
-                next = 0.5 * (last?.ln_side + self.early);
+    /// Finds ln of the first side, outwards from one, at which the rate is the target, by steps, and between
+    /// the last two by Brent's method; the least side if the rate is below the target even there.
+    fn ln_side(&self, start: f64, rate: Rate) -> Result<f64, SearchEnd> {
+        let (mut side, mut off) = (start, self.excess(start, rate)?);
+        let (mut edge, mut end) = (if off > 0.0 { self.most } else { self.least }, SearchEnd::Model);
+        let mut step = off / FALL;
+        while off.abs() > RATE_ACCURACY {
+            let mut next = if step.abs() < (edge - side).abs() { side + step } else { edge };
+            if next == side {
+                return if off > 0.0 { Err(end) } else { Ok(side) };
             }
-            if last.is_some_and(|last| (next - last.ln_side).abs() < enough.max(rough)) {
-                return (free <= next + ACCURACY).then_some(next);
+            let there = self.excess(next, rate).or_else(|early| {
+                (edge, end) = (self.last_known(side, next), early);
+                next = edge;
+                self.excess(next, rate)
+            })?;
+            if (there > 0.0) != (off > 0.0) {
+                return Bracket { search: self, rate, ends: [(side, off), (next, there)] }.root().ok_or(end);
             }
-            match self.known_at(next) {
-                Some(known) => self.known.push(known),
-                None => self.early = next,
-            }
+            (side, off, step) = (next, there, 2.0 * step);
         }
-        None
+        Ok(side)
     }
 
-    /// Returns ln of the side at which ln rate is this by what is known, and the step below which it is right.
-    fn next(&self, ln_rate: f64) -> (f64, f64) {
-        let by_line = |last: &Known, fall: f64| last.ln_side + (last.ln_rate - ln_rate) / fall;
-        match &self.known[..] {
-            [] => (self.start, 0.0),
-            [last] => (by_line(last, USUAL_FALL), LAST_STEPS[0]),
-            [.., before, last] => {
-                let fall = (before.ln_rate - last.ln_rate) / (last.ln_side - before.ln_side);
-                let by_line = by_line(last, fall.max(LEAST_FALL));
-                let step = (by_line - last.ln_side).abs();
-                match self.known.last_chunk().map(|three| parabola(three, ln_rate)) {
-                    Some(by_parabola) if (by_parabola - by_line).abs() < 0.5 * step => {
-                        (by_parabola, LAST_STEPS[2])
-                    }
-                    _ => (by_line, LAST_STEPS[1]),
-                }
-            }
+    /// Finds the last side with a rate on the way from one that has a rate to one that has none.
+    fn last_known(&self, mut side: f64, mut beyond: f64) -> f64 {
+        while (beyond - side).abs() > ACCURACY {
+            let middle = 0.5 * (side + beyond);
+            *(if self.excess(middle, Site::overturning).is_ok() { &mut side } else { &mut beyond }) = middle;
         }
-    }
-
-    /// Finds ln of the side at which ln of the upper limit is this, from a limit that is known. The rate, which
-    /// is no less than `least`, costs a tenth of its limits.
-    fn by_limit(&mut self, known: &mut Option<Limit>, least: f64, ln_limit: f64) -> Option<f64> {
-        let mut is_close = false;
-        for _ in 0..MOST_STEPS {
-            let sought = known.map_or(ln_limit, |known| known.ln_rate_at(ln_limit));
-            if is_close {
-                return self.ln_side(sought, 0.0);
-            }
-            // Elsewhere the limit may be another than by its slope.
-            let ln_side = if sought < least { self.most } else { self.ln_side(sought, ROUGH_STEP)? };
-            let Limited { value, high, .. } = self.site.rates(&self.subject(ln_side)?).overturning;
-            let here = Limit::new(value?, high?);
-            let off = here.ln_rate + here.ln_margin - ln_limit;
-            if ln_side == self.most && off > 0.0 {
-                return None;
-            }
-            self.known.push(Known { ln_side, ln_rate: here.ln_rate });
-            is_close = off.abs() < CLOSE;
-            *known = Some(known.map_or(here, |before| here.after(before)));
-        }
-        None
+        side
     }
 }
 
-/// Finds ln of the side at ln of a rate by the parabola of the former over the latter through three points.
-fn parabola(points: &[Known; 3], ln_rate: f64) -> f64 {
-    let weight = |k: usize| {
-        let others = points.iter().enumerate().filter(|(other, _)| *other != k);
-        others
-            .map(|(_, other)| (ln_rate - other.ln_rate) / (points[k].ln_rate - other.ln_rate))
-            .product::<f64>()
-    };
-    (0..3).map(|k| weight(k) * points[k].ln_side).sum()
+/// Two sides with excesses of different signs.
+struct Bracket<'a> {
+    search: &'a Search<'a>,
+    rate: Rate,
+    ends: [(f64, f64); 2],
+}
+
+impl Bracket<'_> {
+    fn root(self) -> Option<f64> {
+        let solver = BrentRoot::new(self.ends[0].0, self.ends[1].0, ACCURACY);
+        let search =
+            Executor::new(self, solver).timer(false).configure(|state| state.target_cost(RATE_ACCURACY));
+        search.run().ok()?.state.take_best_param()
+    }
+}
+
+impl CostFunction for Bracket<'_> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, ln_side: &f64) -> Result<f64, Error> {
+        let known = self.ends.iter().find(|(end, _)| end == ln_side);
+        let excess = known.map_or_else(|| self.search.excess(*ln_side, self.rate), |(_, off)| Ok(*off));
+        excess.map_err(|end| Error::msg(end.to_string()))
+    }
 }

@@ -1,9 +1,9 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
 use crate::fragility::Peak;
-use crate::hazard::{Fragility, HazardCurve, RateByIntensity};
+use crate::hazard::{Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
 use crate::number::{self, Limited, PERCENT};
-use crate::table::answers::{Answer, ObjectRow, RatesRow};
+use crate::table::answers::{Answer, ObjectRow, RatesRow, TargetBases};
 use crate::warning::UNNAMED;
 
 use super::text::literal;
@@ -184,12 +184,14 @@ pub fn in_years(years: f64) -> String {
 }
 
 /// The base of an object that a search for a target found: of this width, or with both sides no less than
-/// this.
-pub fn base_in_words(object: &ObjectRow, width: Option<f64>, sides: Option<f64>) -> Option<String> {
+/// this. To the millimetre, never below.
+fn base_in_words(object: &ObjectRow, width: Option<f64>, sides: Option<f64>) -> Option<String> {
     let least = sides.unwrap_or(0.0);
     let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
-    let depth = object.depth_m.map(|depth| format!(" × {:.2}", depth.max(least)));
-    Some(format!("{width:.2}{} m", depth.unwrap_or_default()))
+    // What is given in millimetres stays.
+    let up = |side_m: f64| number::length((1e3 * side_m - 1e-6).ceil() / 1e3);
+    let depth = object.depth_m.map(|depth| format!(" × {}", up(depth.max(least))));
+    Some(format!("{}{} m", up(width), depth.unwrap_or_default()))
 }
 
 /// Said of an object that could rock, but has no rate.
@@ -233,15 +235,36 @@ impl Answer<RatesRow> {
 
     /// Whether it meets a target, or what base would.
     pub fn about_target(&self, target: f64) -> String {
-        let (row, words) = (&self.row, PERCENT.one(target));
-        let base = base_in_words(&self.object, row.bases.target_width_m, row.bases.target_sides_m);
-        match base {
+        let words = PERCENT.one(target);
+        match self.base() {
             _ if self.meets(target) => format!("It meets the target of {words}."),
-            Some(base) => {
-                format!("A base of {} would meet the target of {words}.", base)
+            Some(base) => format!("A base of {base} would meet the target of {words}."),
+            None => {
+                let why = self.why_no_base();
+                format!("No base meets the target of {words}: {why}. Anchored, it would not rock.")
             }
-            None => format!("No wider base meets the target of {words}; anchored, it would not rock."),
         }
+    }
+
+    /// Why no base meets the target, or none by the upper limit.
+    pub fn why_no_base(&self) -> String {
+        match self.row.bases.target_end {
+            None => "its width and height are not known".to_string(),
+            Some(SearchEnd::Model) => format!("the model ends at a slenderness of {}", SLENDERNESSES[1]),
+            Some(SearchEnd::Hazard) => "the hazard curve ends too early (--extrapolate)".to_string(),
+        }
+    }
+
+    /// The base that meets the target, if there is one.
+    pub fn base(&self) -> Option<String> {
+        let TargetBases { target_width_m, target_sides_m, .. } = self.row.bases;
+        base_in_words(&self.object, target_width_m, target_sides_m)
+    }
+
+    /// The same by the upper limit.
+    pub fn base_by_limit(&self) -> Option<String> {
+        let TargetBases { target_width_m_high, target_sides_m_high, .. } = self.row.bases;
+        base_in_words(&self.object, target_width_m_high, target_sides_m_high)
     }
 
     pub fn meets(&self, target: f64) -> bool {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::answers::{BANDS, Evaluation, Expected, Rated, base_in_words};
+use super::answers::{BANDS, Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::figures::common::by;
 use super::object::facts;
@@ -188,8 +188,7 @@ fn limits(rated: &Rated) -> String {
 
 /// The base with which an object meets the target, if there is one.
 fn base(rated: &Rated, target: Option<f64>) -> String {
-    let bases = &rated.row.bases;
-    match base_in_words(&rated.object, bases.target_width_m, bases.target_sides_m) {
+    match rated.base() {
         _ if target.is_some_and(|target| rated.meets(target)) => "meets it".to_string(),
         None if target.is_some() && rated.is_answered() => "none".to_string(),
         base => base.unwrap_or_default().replace(' ', "\u{a0}"),

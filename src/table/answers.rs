@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::fragility::{Direction, Kind, Peak};
 use crate::hazard::{
-    Base, Bases, Budget, Fragility, Lognormal, SiteRates, VelocitySource, probability_in_years,
+    Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
 use crate::keyword::Keyword;
 use crate::object::{Object, Part};
@@ -114,6 +114,7 @@ pub struct TargetBases {
     pub target_width_m_high: Option<f64>,
     pub target_sides_m: Option<f64>,
     pub target_sides_m_high: Option<f64>,
+    pub target_end: Option<SearchEnd>,
 }
 
 impl RatesRow {
@@ -137,12 +138,13 @@ impl RatesRow {
 }
 
 impl From<Bases> for TargetBases {
-    fn from(Bases { by_estimate, by_limit }: Bases) -> TargetBases {
+    fn from(Bases { by_estimate, by_limit, end }: Bases) -> TargetBases {
         TargetBases {
             target_width_m: by_estimate.and_then(Base::width),
             target_width_m_high: by_limit.and_then(Base::width),
             target_sides_m: by_estimate.and_then(Base::sides),
             target_sides_m_high: by_limit.and_then(Base::sides),
+            target_end: end,
         }
     }
 }

@@ -83,8 +83,15 @@ fn the_base_for_a_target_meets_it() {
     let by_width = row(&format!("{} --target 1%", wider(0.6)));
     // Where the depth is too small, both sides meet the target.
     let by_both = row("--width 0.5 --depth 0.4 --height 1.9 --target 0.5%");
-    let bases: [(_, _, _, &dyn Fn(f64) -> String); 2] =
-        [(&by_width, "target_width_m", 0.01, &wider), (&by_both, "target_sides_m", 0.005, &larger)];
+    // Where a wider base has no rate, its limit is met before.
+    let high = |width: f64| format!("--width {width} --height 6");
+    let by_high = row(&format!("{} --target 1%", high(1.0)));
+    assert!(near(number(&by_high, "target_width_m_high"), 2.03, 0.01));
+    let bases: [(_, _, _, &dyn Fn(f64) -> String); 3] = [
+        (&by_width, "target_width_m", 0.01, &wider),
+        (&by_both, "target_sides_m", 0.005, &larger),
+        (&by_high, "target_width_m", 0.01, &high),
+    ];
     for (answer, base, target, resized) in bases {
         assert!(number(answer, base) > 0.3);
         for limit in ["", "_high"] {
@@ -97,7 +104,37 @@ fn the_base_for_a_target_meets_it() {
     // Where the width is enough, the depth stays.
     let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
     assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
-    assert!(row("--width 0.2 --height 2.2 --target 1e-7%")["target_width_m"].is_null());
+}
+
+#[test]
+fn a_search_for_a_base_says_what_ends_it() {
+    for (object, by_estimate, by_limit, end) in [
+        ("--width 1 --height 6 --target 1%", true, true, None),
+        ("--width 0.5 --height 1.9 --magnitude 6.5 --target 0.1%", true, false, Some("hazard")),
+        ("--width 0.06 --height 0.2 --target 1%", true, false, Some("model")),
+        ("--width 0.2 --height 2.2 --target 1e-7%", false, false, Some("hazard")),
+        ("--width 0.2 --height 2.2 --target 1e-7% --extrapolate", false, false, Some("model")),
+        ("--p 2 --alpha 0.2 --eta 0.9 --target 1%", false, false, None),
+    ] {
+        let row = row(object);
+        let is_found = ["target_width_m", "target_width_m_high"].map(|base| row[base].is_f64());
+        assert_eq!(is_found, [by_estimate, by_limit], "{object}: {row}");
+        assert_eq!(row.get("target_end").map(Value::as_str), Some(end), "{object}");
+    }
+}
+
+#[test]
+fn a_base_that_is_printed_meets_the_target() {
+    let folder = folder(&[]);
+    let block = |width: &str| format!("--width {width} --height 1.5");
+    let call = format!("evaluate {} --target 1% --out page.html {HAZARD}", block("0.3"));
+    let (text, _) = succeed(folder.path(), &call);
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    for (printed, before) in [(text, "Base for 1.0 % in 50 years: "), (page, "A base of ")] {
+        let width = printed.split(before).nth(1).and_then(|base| base.split(' ').next()).unwrap();
+        let p = number(&row(&block(width)), "p_overturning");
+        assert!(p <= 0.01 && near(p, 0.01, 0.02), "{before}{width}: {p}");
+    }
 }
 
 const HOSPITAL: &str = "\

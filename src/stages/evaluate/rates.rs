@@ -7,9 +7,9 @@ use super::words::{about_buildings, friction, line, model, model_of_all, mostly_
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, PeakHazard, Site, VelocitySource};
 use crate::number::{self, PERCENT, RATE, aligned, count, name, period, plain, significant};
-use crate::report::answers::{Expected, NO_RATE, State, base_in_words, in_years};
+use crate::report::answers::{Expected, NO_RATE, State, in_years};
 use crate::statistics::Limited;
-use crate::table::answers::{Answer, ObjectRow, RatesRow};
+use crate::table::answers::{Answer, RatesRow};
 use crate::units::G_M_S2;
 
 impl Predicted for RatesRow {
@@ -29,7 +29,7 @@ fn tell(answer: &Answer<RatesRow>, site: &Site, target: Option<f64>) -> String {
     for State { name, p, per_year } in answer.states() {
         lines.push(vec![name, RATE.value(per_year), PERCENT.value(p), PERCENT.limits(p, "")]);
     }
-    let widths = target.map_or(String::new(), |target| words_of_target(object, rates, target));
+    let widths = target.map_or(String::new(), |target| words_of_target(answer, target));
     format!(
         "{}: {}\n{}{}{widths}By {}{}.\n{}",
         object.title(),
@@ -59,25 +59,19 @@ fn expected_number(all: &[Answer<RatesRow>]) -> Option<String> {
 }
 
 /// The bases that meet a target, or why none does.
-fn words_of_target(object: &ObjectRow, rates: &RatesRow, target: f64) -> String {
-    let (target, years) = (PERCENT.one(target), when(rates));
-    if rates.overturning_per_year.value.is_none() {
-        return format!("No width for {target} {years}: the hazard curve ends too early (--extrapolate).\n");
-    }
-    let depth = object.depth_m.filter(|_| rates.bases.target_width_m.is_none()).map(|depth| {
+fn words_of_target(answer: &Answer<RatesRow>, target: f64) -> String {
+    let (rates, why_none) = (&answer.row, answer.why_no_base());
+    let target = format!("{} {}", PERCENT.one(target), when(rates));
+    let Some(base) = answer.base() else { return format!("No base reaches {target}: {why_none}.\n") };
+    let depth = answer.object.depth_m.filter(|_| rates.bases.target_width_m.is_none()).map(|depth| {
         let depth = number::length(depth);
-        format!("No width reaches {target} {years}: it then falls over its depth ({depth} m).\n")
+        format!("No width reaches {target}: it then falls over its depth ({depth} m).\n")
     });
-    let by_limit = base_in_words(object, rates.bases.target_width_m_high, rates.bases.target_sides_m_high);
-    match (base_in_words(object, rates.bases.target_width_m, rates.bases.target_sides_m), depth) {
-        (None, Some(depth)) => depth,
-        (None, None) => format!("No width below its height reaches {target} {years}.\n"),
-        (Some(by_estimate), depth) => format!(
-            "{}Base for {target} {years}: {by_estimate}; {} by the upper limit.\n",
-            depth.unwrap_or_default(),
-            by_limit.unwrap_or("none".to_string())
-        ),
-    }
+    let by_limit = match answer.base_by_limit() {
+        Some(base) => format!("{base} by the upper limit"),
+        None => format!("none by the upper limit: {why_none}"),
+    };
+    format!("{}Base for {target}: {base}; {by_limit}.\n", depth.unwrap_or_default())
 }
 
 fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Option<&Path>) -> String {
@@ -86,7 +80,8 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
     let width = target.map(|target| format!("base for {}", PERCENT.one(target)));
     let headings = ["rocks", "overturns", "once in years", &years, "", "friction"];
     let headings: Vec<&str> = headings.into_iter().chain(width.as_deref()).collect();
-    let table = table(&headings, all, out, |Answer { object, row: rates, .. }| {
+    let table = table(&headings, all, out, |answer| {
+        let (object, rates) = (&answer.object, &answer.row);
         let mut cells = vec![
             RATE.value(Limited::value(rates.rocking_per_year)),
             RATE.value(rates.overturning_per_year),
@@ -95,9 +90,7 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
             PERCENT.limits(rates.p_overturning, ""),
             friction(object),
         ];
-        let base = base_in_words(object, rates.bases.target_width_m, rates.bases.target_sides_m)
-            .unwrap_or("-".to_string());
-        cells.extend(target.map(|_| base));
+        cells.extend(target.map(|_| answer.base().unwrap_or("-".to_string())));
         cells
     });
     let (name, how_often) = (name(&worst.object.structure), how_often(&worst.row, site));
