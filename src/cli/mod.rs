@@ -79,13 +79,16 @@ pub fn command() -> Command {
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
-/// Leaves the options that the examples of a command do not use to `--help`.
+/// The options that `-h` shows; `--help` shows all.
+const USUAL: &str = "about all author candidate column depth dt eta fits from hazard height in keep-going \
+                     level limit-state magnitude measure motions mw name out over pairs partition period \
+                     pex pga pgv pro re rotate sa samples scale seed site structure structures suite \
+                     target terms title to trace unit vs30 width";
+
 fn with_short_help(command: Command) -> Command {
-    let examples = words(command.get_after_help());
-    let used: Vec<&str> = examples.split_whitespace().collect();
     command.mut_args(|arg| {
-        let is_used = arg.get_long().is_none_or(|flag| used.contains(&&*format!("--{flag}")));
-        arg.hide_short_help(!is_used)
+        let is_usual = arg.get_long().is_none_or(|flag| USUAL.split(' ').any(|usual| usual == flag));
+        arg.hide_short_help(!is_usual)
     })
 }
 
