@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use rockfrag::inputs::{Grid, objects};
-use rockfrag::keyword::Keyword;
+use rockfrag::keyword::VariantArray;
 use rockfrag::records::{Format, ReadOptions, read_records};
 use rockfrag::rocking::Record;
 use rockfrag::units::Unit;
@@ -17,7 +17,7 @@ fuzz_target!(|bytes: &[u8]| {
         }
         let _ = objects::in_rows(&grid, &[], &objects::Common::default());
     }
-    let formats = Format::ALL.iter().copied().map(Some).chain([None]);
+    let formats = Format::VARIANTS.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];
     let options = ReadOptions {
         format: formats.cycle().nth(usize::from(first & 7)).flatten(),

@@ -3,7 +3,6 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rockfrag::fragility::{beta, mu};
-use rockfrag::keyword::Keyword;
 use rockfrag::object::{Object, structure_warnings};
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::implausibility::implausibility;
@@ -77,9 +76,9 @@ pub fn simulate_motion<'py>(
     let of_ground = |value: fn(&Ground) -> f64| bytes(py, ground.iter().map(value));
     result.set_item("ground_acceleration", of_ground(|ground| ground.acceleration_m_s2))?;
     result.set_item("ground_velocity", of_ground(|ground| ground.velocity_m_s))?;
-    let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.as_str())));
+    let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.to_string())));
     result.set_item("events", events.collect::<Vec<_>>())?;
-    result.set_item("outcome", OutcomeWord::from(response.outcome).as_str())?;
+    result.set_item("outcome", OutcomeWord::from(response.outcome).to_string())?;
     result.set_item("demand", response.outcome.demand())?;
     result.set_item("impacts", response.impacts)?;
     result.set_item("p", structure.p_rad_s)?;
@@ -122,7 +121,7 @@ pub fn fit_curve<'py>(
     let probit = match probit {
         Ok(probit) => probit,
         Err(status) => {
-            result.set_item("status", status.as_str())?;
+            result.set_item("status", status.to_string())?;
             return Ok(result);
         }
     };
@@ -133,7 +132,7 @@ pub fn fit_curve<'py>(
     };
     let three = |Estimate { value, low, high }: Estimate| [value, low, high];
     let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };
-    result.set_item("status", status.as_str())?;
+    result.set_item("status", status.to_string())?;
     result.set_item("theta", three(estimate(mu(b)).map(f64::exp)))?;
     result.set_item("beta", three(estimate(beta(b))))?;
     result.set_item("coefficients", b)?;

@@ -2,7 +2,7 @@
 
 use super::FragilityModel;
 use crate::fragility::{LimitState, Peak};
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::report::text::escape;
 use crate::units::{CM_PER_M, G_M_S2};
 
@@ -13,7 +13,7 @@ pub fn discrete(model: &FragilityModel) -> String {
         Peak::Pga => ("PGA", G_M_S2),
         Peak::Pgv => ("PGV", 1.0 / CM_PER_M),
     };
-    let meanings = LimitState::ALL.iter().zip(&model.limit_states);
+    let meanings = LimitState::VARIANTS.iter().zip(&model.limit_states);
     let meanings = meanings.map(|(state, meaning)| format!("{state}: {meaning}"));
     let mut description: Vec<String> = meanings.collect();
     let mut tables = String::new();
@@ -24,7 +24,7 @@ pub fn discrete(model: &FragilityModel) -> String {
         let levels = numbers(function.levels.iter().map(|level| level / unit));
         tables += &format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">\n");
         tables += &format!("      <imls imt=\"{imt}\" noDamageLimit=\"{low}\">{levels}</imls>\n");
-        for state in LimitState::ALL {
+        for state in LimitState::VARIANTS {
             let poes = numbers(function.probabilities.iter().map(|p| p.get(*state)));
             tables += &format!("      <poes ls=\"{state}\">{poes}</poes>\n");
         }
@@ -41,7 +41,7 @@ pub fn discrete(model: &FragilityModel) -> String {
 "#,
         model.id,
         escape(&description.join(". ")),
-        LimitState::ALL.iter().map(LimitState::to_string).collect::<Vec<_>>().join(" "),
+        LimitState::VARIANTS.iter().map(LimitState::to_string).collect::<Vec<_>>().join(" "),
     )
 }
 

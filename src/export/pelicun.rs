@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::{FragilityModel, Function, GAP};
 use crate::fragility::{LimitState, Peak};
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::units::G_M_S2;
 
 const COMMON: [&str; 6] =
@@ -33,8 +33,8 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut names = COMMON.map(str::to_string).to_vec();
-    for state in LimitState::ALL {
-        names.extend(STATE.map(|name| format!("{}-{name}", state.as_str())));
+    for state in LimitState::VARIANTS {
+        names.extend(STATE.map(|name| format!("{state}-{name}")));
     }
     writer.write_record(names)?;
     let (name, unit_name, unit) = demand(model.peak);
@@ -47,9 +47,9 @@ pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
         let tables = match model.peak {
             Peak::Pga => {
                 row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
-                &LimitState::ALL[1..]
+                &LimitState::VARIANTS[1..]
             }
-            Peak::Pgv => LimitState::ALL,
+            Peak::Pgv => LimitState::VARIANTS,
         };
         for state in tables {
             let table = cumulative_distribution(function, *state, unit);

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Sample, grouped};
 use super::measure_names::{Measure, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::statistics::{Estimate, FitStatus, LinearFit, least_squares};
@@ -339,7 +339,7 @@ impl DemandFit {
         let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
-            model: self.model.as_str().to_string(),
+            model: self.model.to_string(),
             im_x: self.im_x,
             im_y: self.im_y,
             range_low: self.range_low,

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use crate::keyword::{self, keywords};
+use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 
 keywords! {
@@ -76,7 +76,7 @@ impl FromStr for Pair {
     fn from_str(text: &str) -> Result<Pair, String> {
         let (x, y) =
             text.split_once(':').ok_or_else(|| format!("'{text}': expected two measures as im4:im3_inv"))?;
-        let [x, y] = [x, y].map(|name| keyword::parse(name.trim()));
+        let [x, y] = [x, y].map(|name| name.trim().parse());
         match Pair(x?, y?) {
             Pair(x, y) if x == y => Err(format!("'{text}': expected two different measures")),
             pair => Ok(pair),

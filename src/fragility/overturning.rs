@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Event, grouped};
 use super::measure_names::{Measure, Pair, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
-use crate::keyword::Keyword;
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{Estimate, FitStatus, independent_errors, normal, predict, tested_probit, variance};
@@ -198,7 +197,7 @@ impl CurveFit {
             ParameterRow {
                 suite: self.suite.clone(),
                 structure: self.structure.clone(),
-                model: self.event.as_str().to_string(),
+                model: self.event.to_string(),
                 im_x: self.im_x,
                 im_y: self.im_y,
                 range_low: None,

@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use super::peaks::{JointPeaks, RatioGiven};
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
 use crate::statistics::Range;
@@ -358,7 +358,7 @@ impl Surface {
 
 impl KindOfMotion {
     fn parse(rows: &[Vec<&str>], kind: Kind) -> KindOfMotion {
-        let word = kind.as_str();
+        let word: &str = kind.into();
         let [intercept, slope, sd, low, high] = numbers(rows, &["magnitude", word]);
         let [given_pga, given_pgv] = ["pga", "pgv"].map(|peak| {
             RatioGiven::from_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
@@ -373,9 +373,9 @@ impl KindOfMotion {
 
 impl Curve {
     fn parse(rows: &[Vec<&str>], kind: Kind, name: &str) -> Curve {
-        let [n, d, k] = numbers(rows, &["uplift", kind.as_str(), name]);
+        let [n, d, k] = numbers(rows, &["uplift", kind.into(), name]);
         let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
-            numbers(rows, &["calibration", kind.as_str(), name]);
+            numbers(rows, &["calibration", kind.into(), name]);
         let terms = rows.iter().filter(|row| row.starts_with(&["term", name]));
         Curve {
             terms: terms

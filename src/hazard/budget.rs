@@ -1,7 +1,7 @@
 //! The error budget: how much each source of uncertainty moves a result, and the limits that follow.
 
 use crate::fragility::Z_95;
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::object::{Part, Unknown};
 use crate::statistics::Estimate;
 
@@ -9,7 +9,7 @@ use crate::statistics::Estimate;
 /// downwards and upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
-    variances: [[f64; 2]; Part::ALL.len()],
+    variances: [[f64; 2]; Part::VARIANTS.len()],
 }
 
 impl Budget {
@@ -49,7 +49,7 @@ impl Budget {
 
     /// Returns the part that causes most.
     pub fn largest(&self) -> Option<Part> {
-        let known = Part::ALL.iter().filter_map(|&part| Some((part, self.part_sd(part)?)));
+        let known = Part::VARIANTS.iter().filter_map(|&part| Some((part, self.part_sd(part)?)));
         known.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(part, _)| part)
     }
 

@@ -2,7 +2,7 @@
 //! cancels.
 
 use crate::fragility::Z_95;
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::object::Part;
 use crate::statistics::Estimate;
 
@@ -29,7 +29,7 @@ pub fn ratio_of_rates(
     after: &RateByParts,
     is_shared: impl Fn(Part) -> bool,
 ) -> Estimate {
-    let variances = Part::ALL.iter().map(|&part| {
+    let variances = Part::VARIANTS.iter().map(|&part| {
         let [before, after] = [before, after].map(|of| of.sd(part));
         if is_shared(part) { (after - before).powi(2) } else { before * before + after * after }
     });

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::floors::{self, Building, Storey};
 use super::words::{is_one_of, joined, means, words};
 use super::{Grid, Heading, InputError, Renames};
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::number::rounded;
 use crate::object::{Field, Object, Place, Reason};
 use crate::plausibility::judge_lengths;
@@ -99,7 +99,7 @@ fn meaning(heading: &Heading) -> Column {
     ];
     let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
     let is_named = |meaning: &str| name == meaning || is_one_of(name, meaning);
-    let field = Field::ALL.iter().find(|field| is_named(field.as_str()));
+    let field = Field::VARIANTS.iter().find(|&field| is_named(field.into()));
     let other = || OTHERS.iter().find(|(meaning, _)| is_named(meaning)).map(|(_, column)| *column);
     match field.map(|field| Column::Known(*field)).or_else(other) {
         _ if quantity == Some(Quantity::Counts) => Column::Count,
@@ -287,7 +287,7 @@ impl List<'_> {
                 [Field::Width, Field::Height, Field::P, Field::Alpha].map(Column::Known).contains(column);
             let (name, size) = match column {
                 _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
-                Column::Known(field) => (field.as_str(), self.size(row, at, *field)?),
+                Column::Known(field) => (field.into(), self.size(row, at, *field)?),
                 Column::Count => ("count", 1.0),
                 Column::Unclear => {
                     let text = &self.grid.headings[at].text;

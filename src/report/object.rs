@@ -8,7 +8,7 @@ use super::probabilities::{self, Row};
 use super::text::{literal, words};
 use crate::fragility::{LimitState, Peak, Z_95};
 use crate::hazard::{Fragility, intensity_in_words};
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::number::{self, PERCENT, RATE};
 use crate::object::Part;
 use crate::table::answers::ObjectRow;
@@ -333,7 +333,7 @@ pub fn model_in_words(object: &ObjectRow) -> Option<String> {
 /// What the limits cover.
 pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
     let unknown: Vec<(Part, f64)> = all.iter().flat_map(|rated| rated.doubts.part_sds()).collect();
-    let parts = Part::ALL.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
+    let parts = Part::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
     let parts: Vec<&str> = parts.map(|part| part.words()).collect();
     let joined = match parts.split_last()? {
         (only, []) => (*only).to_string(),

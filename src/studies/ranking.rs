@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::fragility::{Case, Cases, Measure};
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 use crate::rocking::Outcome;
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::{FitStatus, Folds, LinearFit, least_squares, normal, predict, probit};
@@ -192,7 +192,7 @@ impl<'a> Contest<'a> {
         let (places, rows): (Vec<usize>, Vec<&Case>) = counted.unzip();
         let published = Measure::SCALAR.iter().map(|measure| {
             let values = rows.iter().map(|case| measure.raw_value_of(&case.measures));
-            (measure.as_str(), values.collect::<Vec<_>>())
+            (measure.into(), values.collect::<Vec<_>>())
         });
         let candidates = cases.candidates.iter().map(|(name, values)| {
             (name.as_str(), places.iter().map(|place| values[*place]).collect::<Vec<_>>())

@@ -6,7 +6,7 @@ use crate::fragility::{Direction, Kind, Peak};
 use crate::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::object::{Object, Part};
 use crate::statistics::Limited;
 use crate::warning::Warning;
@@ -186,7 +186,7 @@ impl DoubtsRow {
     pub fn part_sds(&self) -> Vec<(Part, f64)> {
         let row = serde_json::json!(self);
         let sd = |part: &Part| Some((*part, row[format!("error_{part}")].as_f64()?));
-        Part::ALL.iter().filter_map(sd).collect()
+        Part::VARIANTS.iter().filter_map(sd).collect()
     }
 }
 

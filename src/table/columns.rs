@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::path::Path;
+use std::str::FromStr;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
@@ -10,7 +11,6 @@ use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray, RecordBat
 use arrow_schema::DataType;
 
 use super::{TableError, dictionary};
-use crate::keyword::{self, Keyword};
 use crate::plausibility::range_of_column;
 use crate::rocking::Structure;
 
@@ -71,10 +71,10 @@ impl Batch {
         self.required(name, self.texts(name)?)
     }
 
-    pub fn required_words<T: Keyword>(&self, name: &str) -> Result<Vec<T>, TableError> {
+    pub fn required_words<T: FromStr<Err = String>>(&self, name: &str) -> Result<Vec<T>, TableError> {
         let texts = self.required_texts(name)?.into_iter().enumerate();
         texts
-            .map(|(row, text)| keyword::parse(&text).map_err(|unknown| self.value_error(row, name, unknown)))
+            .map(|(row, text)| text.parse().map_err(|unknown| self.value_error(row, name, unknown)))
             .collect()
     }
 

@@ -9,7 +9,6 @@ use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
 use rockfrag::fragility::{CurveFit, DemandFit, DemandModel, Event, Measure, ParameterRow};
 use rockfrag::fragility::{lambda, mu};
-use rockfrag::keyword::Keyword;
 use rockfrag::studies::{ReliabilityBin, Validation};
 use rockfrag::table::responses::ResponseRow;
 use rockfrag::table::rows;
@@ -69,7 +68,7 @@ fn number(name: &str, suite: &str, structure: &str) -> f64 {
             let is_it = |row: &ParameterRow| {
                 its(&row.suite, &row.structure)
                     && (row.im_x, row.im_y) == measures
-                    && other.contains(row.parameter.as_str())
+                    && other.contains(&row.parameter.to_string())
             };
             let row = parameters.into_iter().find(is_it).unwrap();
             if other.starts_with("se_") { row.standard_error } else { row.value }

@@ -9,7 +9,7 @@ use rockfrag::hazard::{
     Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
     SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
-use rockfrag::keyword::Keyword;
+use rockfrag::keyword::VariantArray;
 use rockfrag::motion::Peaks;
 use rockfrag::number::Limited;
 use rockfrag::object::{Object, Part, Restitution, Subject};
@@ -153,7 +153,7 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
         let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?));
         RateByParts {
             rate: rates.overturning.value.unwrap(),
-            sds: Part::ALL.iter().filter_map(known).collect(),
+            sds: Part::VARIANTS.iter().filter_map(known).collect(),
         }
     });
     let ratio = ratio_of_rates(&before, &after, |_| true);

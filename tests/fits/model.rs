@@ -8,7 +8,7 @@ use rockfrag::fragility::{
     Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
     p_failure_given_rocking,
 };
-use rockfrag::keyword::Keyword;
+use rockfrag::keyword::VariantArray;
 use rockfrag::motion::{IntensityMeasures, Peaks};
 use rockfrag::rocking::{Outcome, Structure};
 use rockfrag::statistics::Estimate;
@@ -115,7 +115,7 @@ fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
         rows.iter().filter(|row| (row.kind, &row.structure) == (answer.kind, &answer.structure)).collect();
     let Fitted { p_rad_s, alpha_rad, eta, .. } = *rows[0];
     let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
-    let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.as_str());
+    let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.into());
     let mut cases = Cases::new(suite, structure);
     for row in rows {
         let Fitted { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
@@ -170,7 +170,7 @@ fn probabilities_never_fall_along_20000_lines() {
     let mut random = random(5);
     let own = calibrated(&rocking(400));
     let mut ln = |low: f64, high: f64| random.random_range(low.ln()..high.ln()).exp();
-    for kind in Kind::ALL {
+    for kind in Kind::VARIANTS {
         let mut largest = [0.0_f64; 5];
         for line in 0..20_000 {
             // Half of the lines begin at a tenth of the least of the domain and end at ten times the largest.
@@ -199,7 +199,7 @@ fn probabilities_never_fall_along_20000_lines() {
 
 #[test]
 fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
-    for kind in Kind::ALL {
+    for kind in Kind::VARIANTS {
         for (p, eta) in [(0.5, 0.75), (2.5, 0.92), (7.8, 0.99)] {
             let structure = Structure::new("any", p, 0.2, eta).unwrap();
             let at = |im4: f64, limit_state: f64| {

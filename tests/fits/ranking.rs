@@ -2,7 +2,6 @@
 //! depend on.
 
 use rockfrag::fragility::Cases;
-use rockfrag::keyword::Keyword;
 use rockfrag::statistics::FitStatus;
 use rockfrag::studies::{Form, RankedSet, Ranking, RankingRules, Target, rank_measures};
 
@@ -32,13 +31,13 @@ fn every_figure_equals_that_of_statsmodels_and_scipy() {
         let ranking = rank_measures(&cases(&data, target), target, &RULES);
         for (form, word) in [(Form::Single, "single"), (Form::Biplanar, "broken")] {
             for (measures, name) in [("im4", "im4"), ("im3:im4", "im4:im3")] {
-                let Some(of) = expected.get(&format!("{}_{name}_{word}_llf", target.as_str())) else {
+                let Some(of) = expected.get(&format!("{target}_{name}_{word}_llf")) else {
                     continue;
                 };
                 let set = find(&ranking, measures, form);
                 near(set.log_likelihood, *of, 1e-7);
-                near(set.aic, expected[&format!("{}_{name}_{word}_aic", target.as_str())], 1e-7);
-                near(set.log_score, expected[&format!("{}_{name}_{word}_log_score", target.as_str())], 1e-7);
+                near(set.aic, expected[&format!("{target}_{name}_{word}_aic")], 1e-7);
+                near(set.log_score, expected[&format!("{target}_{name}_{word}_log_score")], 1e-7);
                 assert_eq!((set.status, set.n), (FitStatus::Ok, 400));
             }
         }

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use rockfrag::keyword::Keyword;
 use rockfrag::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
 use rockfrag::table::motions::Motion;
 use rockfrag::table::responses::OutcomeWord;
@@ -29,7 +28,7 @@ struct Comparison<'a> {
 
 impl Comparison<'_> {
     fn outcome_agrees(&self) -> bool {
-        OutcomeWord::from(self.response.outcome).as_str() == self.answer.outcome
+        OutcomeWord::from(self.response.outcome).to_string() == self.answer.outcome
     }
 
     fn relative_error(&self) -> f64 {

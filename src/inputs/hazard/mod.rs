@@ -15,7 +15,6 @@ use super::words::means;
 use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
 use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
-use crate::keyword::Keyword;
 use crate::number::period;
 use crate::plausibility::{judge_hazard, judge_spectrum};
 use crate::units::G_M_S2;
@@ -89,7 +88,7 @@ impl Curve {
         let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
         let unit = if measure == Measure::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
-        judge_hazard(measure.as_str(), &points).map_err(InputError::Implausible)?;
+        judge_hazard(measure.into(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }

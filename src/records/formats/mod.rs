@@ -24,7 +24,7 @@ pub use error::RecordFileError;
 
 use super::{Format, HeaderPga, ReadOptions, RecordedMotion};
 use crate::inputs::decode;
-use crate::keyword::Keyword;
+use crate::keyword::VariantArray;
 use crate::motion::measures::peak;
 
 /// Accepted relative difference of the samples from the peak in the header, which some programs round or take
@@ -44,7 +44,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         Format::Csv => true,
     };
     let format =
-        options.format.or_else(|| Format::ALL.iter().find(recognises).copied()).unwrap_or(Format::Csv);
+        options.format.or_else(|| Format::VARIANTS.iter().find(recognises).copied()).unwrap_or(Format::Csv);
     let mut motions = match format {
         Format::Cosmos => cosmos::parse(&lines, options)?,
         Format::Knet => vec![knet::parse(&lines, options)?],
@@ -53,7 +53,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         Format::Csv => csv::parse(bytes, options)?,
     };
     for motion in &mut motions {
-        motion.format = format.as_str();
+        motion.format = format.into();
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga

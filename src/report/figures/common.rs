@@ -1,7 +1,6 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
 use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
-use crate::keyword::Keyword;
 use crate::motion::Suite;
 use crate::number;
 use crate::report::Mark;
@@ -57,7 +56,7 @@ pub fn called(structure: &Structure) -> String {
 
 /// Joins a structure, marked text, with the suite of synthetic motions.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
-    let synthetic = suite.filter(|suite| *suite != Suite::Record.as_str());
+    let synthetic = suite.filter(|suite| suite.parse() != Ok(Suite::Record));
     synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
 }
 

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use super::common::{DEMAND, Fits, compare, demands, label, name, rocked};
 use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_demand};
-use crate::keyword::Keyword;
 use crate::number;
 use crate::report::text::file_words;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
@@ -68,7 +67,7 @@ fn zeta(fit: &DemandFit) -> Option<f64> {
 }
 
 fn upper_case(measure: Measure) -> String {
-    measure.as_str().to_uppercase()
+    measure.to_string().to_uppercase()
 }
 
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.

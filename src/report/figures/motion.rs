@@ -3,7 +3,6 @@
 
 use super::common::compare;
 use crate::fragility::Cases;
-use crate::keyword::Keyword;
 use crate::motion::{Suite, measures};
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
@@ -50,7 +49,7 @@ pub fn motion(motions: &[Motion]) -> Figure {
 }
 
 fn is_of(motion: &Motion, suite: Suite) -> bool {
-    motion.suite.as_deref() == Some(suite.as_str())
+    motion.suite.as_deref() == Some(suite.into())
 }
 
 /// The pulse of a combined motion.

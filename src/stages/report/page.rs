@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 
 use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
-use crate::keyword::Keyword;
 use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, rocked, scaled_label};
@@ -197,7 +196,7 @@ fn cell(row: &Value, field: &str) -> String {
         },
         Value::String(name) if field == "structure" => literal(name),
         Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
-        Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.as_str() == text) => {
+        Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.to_string() == *text) => {
             text.to_uppercase()
         }
         Value::String(text) => text.replace('_', " "),

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::fragility::Calibration;
-use crate::keyword::Keyword;
 use crate::number::{aligned, count, significant};
 use crate::pipeline::options::first_lines;
 use crate::statistics::FitStatus;
@@ -48,7 +47,7 @@ pub fn suite_name(suite: &Option<String>) -> String {
 
 /// A status in plain words.
 pub fn verdict(status: FitStatus) -> String {
-    status.as_str().replace('_', " ")
+    status.to_string().replace('_', " ")
 }
 
 /// Warnings about calibrations, each with its structure and suite.

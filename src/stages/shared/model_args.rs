@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::collections::HashSet;
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
-use crate::keyword::{Keyword, keywords};
+use crate::keyword::keywords;
 use crate::motion::Suite;
 use crate::number::listed;
 use crate::object::{Object, Subject};
@@ -226,7 +226,7 @@ impl Models {
 
     /// Returns the requested kind of motion, or the only one of rows.
     fn kind(&self, rows: &[&Calibration]) -> anyhow::Result<Kind> {
-        let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.as_str()).collect();
+        let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.into()).collect();
         kinds.sort_unstable();
         kinds.dedup();
         let names = kinds.join(", ");

@@ -6,7 +6,6 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
-use crate::keyword::Keyword;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::counted;
 use crate::rocking::{Outcome, Structure};
@@ -36,7 +35,7 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
 pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
     let table = Table::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
-    let measures: Vec<&str> = Measure::SCALAR.iter().map(|measure| measure.as_str()).collect();
+    let measures: Vec<&str> = Measure::SCALAR.iter().map(|measure| measure.into()).collect();
     for batch in table.batches(|name| measures.contains(&name) || COLUMNS.split(' ').any(|one| one == name)) {
         add(&mut all, &mut hashes, &batch?, candidates)?;
     }
