@@ -50,7 +50,7 @@ fn main() {
     let solver = median_us(problems.len(), || drop(black_box(simulate_all(&problems))));
     let scalar = median_us(10, || {
         for problem in &problems[..10] {
-            black_box(reference::solve(problem.structure, &problem.record, |_| {}));
+            black_box(reference::solve(problem.structure, &problem.record, 0.0, |_| {}));
         }
     });
     println!(

@@ -6,7 +6,7 @@ use rockfrag::fragility::{beta, mu};
 use rockfrag::object::{Object, structure_warnings};
 use rockfrag::pipeline::UsageError;
 use rockfrag::records::implausibility::implausibility;
-use rockfrag::rocking::{Ground, Record, TracePoint, simulate, trace, with_tail};
+use rockfrag::rocking::{Ground, Record, TracePoint, simulate, trace};
 use rockfrag::statistics::distributions::t_quantile;
 use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::table::responses::OutcomeWord;
@@ -61,10 +61,8 @@ pub fn simulate_motion<'py>(
             return Err(usage(&format!("dt is {dt_s} s; expected at most {LONGEST_STEP_S} s: is it in ms?")));
         }
         let record = Record::new(&acceleration, dt_s).map_err(|error| usage(&error))?;
-        let ended = with_tail(&record, tail_s);
-        let ended = Record::new(&ended, dt_s)?;
-        let points = trace(&structure, &ended).1;
-        let ground = ended.ground_at(points.iter().map(|point| point.time_s));
+        let points = trace(&structure, &record, tail_s).1;
+        let ground = record.ground_at(points.iter().map(|point| point.time_s));
         Ok((simulate(&structure, &record), points, ground, structure))
     };
     let (response, points, ground, structure) = py.detach(solve).map_err(|error| to_python(&error))?;

@@ -37,6 +37,6 @@ pub use body::Body;
 pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
 pub use lanes::Problem;
 pub use record::{Ground, Record, RecordError};
-pub use reference::{SolverEvent, TracePoint, trace, with_tail};
+pub use reference::{SolverEvent, TracePoint, trace};
 pub use response::{Outcome, Response};
 pub use structure::{Structure, StructureError, frame_eta, frame_p, housner_eta, rectangular_p};

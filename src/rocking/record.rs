@@ -2,6 +2,9 @@
 
 use crate::plausibility::{LARGEST_M_S2, TIME_STEPS_S};
 
+/// Rounding error of a time over the step between samples.
+const ROUNDING: f64 = 1e-9;
+
 /// A ground acceleration sampled at a constant step: linear between samples, zero after the last one.
 ///
 /// ```
@@ -83,20 +86,22 @@ impl<'a> Record<'a> {
         let before = position.floor().max(0.0) as usize;
         match self.acceleration_m_s2.get(before..) {
             Some([a, b, ..]) => a + (b - a) * (position - before as f64),
-            Some([last]) if position <= before as f64 => *last,
+            Some([last]) if position - (before as f64) < ROUNDING => *last,
             _ => 0.0,
         }
     }
 
     /// Follows the motion of the ground through rising times (s), which include all samples between the first
     /// and the last of them: by trapezoids, exact for what is linear between samples. The ground is at rest
-    /// at the first time.
+    /// at the first time, and keeps its velocity after the record.
     pub fn ground_at(&self, times_s: impl IntoIterator<Item = f64>) -> Vec<Ground> {
         let (mut ground, mut before_s): (Vec<Ground>, f64) = (Vec::new(), 0.0);
+        let end_s = (self.acceleration_m_s2.len() - 1) as f64 * self.dt_s;
         for time_s in times_s {
             let acceleration_m_s2 = self.acceleration_at(time_s);
             let velocity_m_s = ground.last().map_or(0.0, |before| {
-                let mean = 0.5 * (before.acceleration_m_s2 + acceleration_m_s2);
+                let is_after = before_s >= end_s;
+                let mean = if is_after { 0.0 } else { 0.5 * (before.acceleration_m_s2 + acceleration_m_s2) };
                 before.velocity_m_s + mean * (time_s - before_s)
             });
             ground.push(Ground { acceleration_m_s2, velocity_m_s });

@@ -81,7 +81,7 @@ keywords! {
 /// ```
 /// use rockfrag::rocking::{Record, SolverEvent, Structure, trace};
 /// let block = Structure::new("block", 2.5, 0.2, 0.92)?;
-/// let (_, points) = trace(&block, &Record::new(&[0.0, 4.0, 0.0], 0.1)?);
+/// let (_, points) = trace(&block, &Record::new(&[0.0, 4.0, 0.0], 0.1)?, 0.0);
 /// let uplift = points.iter().find(|point| point.solver_event == Some(SolverEvent::Uplift));
 /// assert!(uplift.is_some_and(|point| 0.0 < point.time_s && point.time_s < 0.1));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -99,17 +99,25 @@ pub struct TracePoint {
 }
 
 /// Simulates a structure, initially at rest, through a record and the free rocking after it. Calls `observe`
-/// at each sample and event of the record.
-pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(TracePoint)) -> Response {
+/// at each sample and event of the record and of the `tail_s` seconds of still ground after it, in steps of
+/// the record.
+pub fn solve(
+    structure: &Structure,
+    record: &Record,
+    tail_s: f64,
+    mut observe: impl FnMut(TracePoint),
+) -> Response {
     let (samples, dt_s, alpha) = (record.acceleration_m_s2(), record.dt_s(), structure.alpha_rad);
+    let still = std::iter::repeat_n([0.0; 2], (tail_s / dt_s).ceil() as usize);
+    let steps: Vec<[f64; 2]> = samples.array_windows().copied().chain(still).collect();
     let longest_s = LONGEST_STEP / (structure.p_rad_s * (1.0 + record.peak_m_s2() * G_PER_M_S2).sqrt());
     let (mut state, mut peak, mut impacts, mut uplifted) = (None, 0.0_f64, 0, false);
     let mut note = |time_s: f64, state: Option<Rocking>, solver_event| {
         let Rocking { theta, velocity, .. } = state.unwrap_or_default();
         observe(TracePoint { time_s, theta_rad: theta, theta_dot_rad_s: velocity, solver_event });
     };
-    for (k, pair) in samples.windows(2).enumerate() {
-        let ground = |t: f64| (pair[0] + (pair[1] - pair[0]) * t / dt_s) * G_PER_M_S2;
+    for (k, [from, to]) in steps.iter().enumerate() {
+        let ground = |t: f64| (from + (to - from) * t / dt_s) * G_PER_M_S2;
         let (sample_s, mut t, most_impacts) = (k as f64 * dt_s, 0.0, impacts + MOST_IMPACTS);
         note(sample_s, state, None);
         while t < dt_s {
@@ -147,7 +155,7 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
             }
         }
     }
-    note((samples.len() - 1) as f64 * dt_s, state, None);
+    note(steps.len() as f64 * dt_s, state, None);
     let Rocking { side, theta, velocity } = state.unwrap_or_default();
     let later = free_rocking(
         State { rotation: side * theta, velocity: side * velocity / structure.p_rad_s },
@@ -157,16 +165,9 @@ pub fn solve(structure: &Structure, record: &Record, mut observe: impl FnMut(Tra
     if uplifted { Response::after_rocking(later, peak, alpha, impacts) } else { Response::NO_ROCKING }
 }
 
-/// Simulates as [`solve`] and returns the rotation at each sample and event. The record ends with its last
-/// sample, or where theta reaches pi/2; [`with_tail`] appends quiet time for free rocking.
-pub fn trace(structure: &Structure, record: &Record) -> (Response, Vec<TracePoint>) {
+/// Simulates as [`solve`] and returns the rotation at each sample and event, up to where theta reaches pi/2.
+pub fn trace(structure: &Structure, record: &Record, tail_s: f64) -> (Response, Vec<TracePoint>) {
     let mut points = Vec::new();
-    let response = solve(structure, record, |point| points.push(point));
+    let response = solve(structure, record, tail_s, |point| points.push(point));
     (response, points)
-}
-
-/// Appends `tail_s` seconds of zeros to a record, for free rocking. Returns the samples, m/s2.
-pub fn with_tail(record: &Record, tail_s: f64) -> Vec<f64> {
-    let quiet = (tail_s / record.dt_s()).ceil() as usize;
-    [record.acceleration_m_s2(), &vec![0.0; quiet]].concat()
 }

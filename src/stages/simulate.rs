@@ -16,7 +16,7 @@ use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
-use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace, with_tail};
+use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace};
 use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::responses::{ResponseRow, TraceRow};
@@ -214,9 +214,7 @@ impl Simulate {
 
 /// The response of a structure over time to a motion, and the motion.
 fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow::Result<Vec<TraceRow>> {
-    let ended = with_tail(record, TRACE_TAIL_S);
-    let record = Record::new(&ended, record.dt_s())?;
-    let points = trace(structure, &record).1;
+    let points = trace(structure, record, TRACE_TAIL_S).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));
     let diagonal_m = structure.block_diagonal_m();
     let rows = points.into_iter().zip(ground).map(|(point, ground)| TraceRow {

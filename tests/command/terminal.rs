@@ -1,6 +1,7 @@
 //! What one sees at a terminal: words, lists, traces.
 
 use rockfrag::cli::stage_commands;
+use rockfrag::rocking::SolverEvent;
 use rockfrag::table::capacities::CapacityFitRow;
 use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
@@ -8,7 +9,9 @@ use rockfrag::table::rows;
 use std::path::Path;
 
 use crate::common::write_motions;
-use crate::common::{evaluated, fail, folder, lists, number, numbers, rockfrag, succeed, texts, write};
+use crate::common::{
+    evaluated, fail, folder, lists, near, number, numbers, objects, rockfrag, succeed, texts, write,
+};
 
 fn trace(folder: &Path) -> Vec<TraceRow> {
     rows::read(&folder.join("responses.trace.parquet")).unwrap()
@@ -36,6 +39,28 @@ fn a_trace_has_what_a_picture_needs() {
     assert!(all[one.len()..].iter().all(|row| row.motion_id == "1" && row.theta_rad == 0.0));
     succeed(folder.path(), "simulate --width 0.6 --height 2");
     assert!(!folder.path().join("responses.trace.parquet").exists(), "a trace of another structure");
+}
+
+#[test]
+fn a_trace_and_its_row_agree_where_a_record_ends_at_full_acceleration() {
+    let folder = tempfile::tempdir().unwrap();
+    let (dt, acceleration) = (0.05, 0.3 * 9.80665);
+    let records = [13, 14, 15].map(|samples| vec![acceleration; samples]);
+    write_motions(&folder.path().join("motions.parquet"), dt, &records.each_ref().map(Vec::as_slice));
+    succeed(folder.path(), "simulate --width 0.5 --height 2 --trace all");
+    let traced = trace(folder.path());
+    for (row, record) in objects(folder.path(), "responses.parquet").iter().zip(&records) {
+        let its: Vec<&TraceRow> =
+            traced.iter().filter(|point| row["motion_id"] == *point.motion_id).collect();
+        let overturns = its.iter().any(|point| point.solver_event == Some(SolverEvent::Overturn));
+        assert_eq!(overturns, row["outcome"] == "overturning", "{row}");
+        let largest = its.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
+        assert!(overturns || near(largest, number(row, "edp"), 0.01), "{largest}: {row}");
+        // The ground is still, and keeps its velocity.
+        let last = its[its.len() - 1];
+        let velocity = acceleration * dt * (record.len() - 1) as f64;
+        assert!(last.ground_acceleration_m_s2 == 0.0 && near(last.ground_velocity_m_s, velocity, 1e-9));
+    }
 }
 
 #[test]

@@ -19,7 +19,8 @@ fn vectors_solve_the_equations_of_the_paper() {
     let problems: Vec<Problem> = records
         .flat_map(|record| structures.iter().map(move |structure| Problem { structure, record }))
         .collect();
-    let plain = problems.iter().map(|problem| reference::solve(problem.structure, &problem.record, |_| {}));
+    let plain =
+        problems.iter().map(|problem| reference::solve(problem.structure, &problem.record, 0.0, |_| {}));
     let compared: Vec<(Response, Response)> = simulate_all(&problems).into_iter().zip(plain).collect();
     let overturning = compared.iter().filter(|(vector, _)| vector.outcome == Outcome::Overturned).count();
     let demands = |(vector, plain): &(Response, Response)| {

@@ -31,7 +31,7 @@ fn free_rocking_has_housners_period_and_decay() {
     let dt = 0.001;
     // A pulse that ends while the block moves, then free rocking.
     let samples = rectangular_pulse(1.5 * G_M_S2 * alpha.tan(), 0.30, 12.0, dt);
-    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
+    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap(), 0.0);
     assert!(matches!(response.outcome, Outcome::SafeRocking(_)));
     let impacts: Vec<f64> =
         points.iter().filter(|q| q.solver_event == Some(SolverEvent::Impact)).map(|q| q.time_s).collect();
@@ -118,7 +118,7 @@ fn what_the_record_leaves_in_motion_is_decided_by_energy() {
 #[test]
 fn overturning_is_reported_at_a_right_angle() {
     let s = structure(3.0, 0.15, 0.9);
-    let (response, points) = trace(&s, &Record::new(&[20.0; 400], 0.01).unwrap());
+    let (response, points) = trace(&s, &Record::new(&[20.0; 400], 0.01).unwrap(), 0.0);
     assert_eq!(response.outcome, Outcome::Overturned);
     assert!((points.last().unwrap().theta_rad.abs() - FRAC_PI_2).abs() < 1e-9);
 }
@@ -187,7 +187,7 @@ fn a_trace_tells_what_happens_when() {
     let mut samples = vec![0.0];
     samples.resize(12, 2.0 * s.uplift_acceleration_m_s2());
     samples.resize(1200, 0.0);
-    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap());
+    let (response, points) = trace(&s, &Record::new(&samples, dt).unwrap(), 0.0);
     let Outcome::SafeRocking(demand) = response.outcome else { panic!("{response:?}") };
     let of = |event| points.iter().filter(move |point| point.solver_event == Some(event));
     let first = of(SolverEvent::Uplift).next().unwrap();
@@ -232,8 +232,8 @@ proptest! {
         let mirrored: Vec<f64> = samples.iter().map(|a| -a).collect();
         let record = |samples| Record::new(samples, 0.02).unwrap();
         prop_assert_eq!(simulate(&s, &record(&samples)), simulate(&s, &record(&mirrored)));
-        let (_, here) = trace(&s, &record(&samples));
-        let (_, there) = trace(&s, &record(&mirrored));
+        let (_, here) = trace(&s, &record(&samples), 0.0);
+        let (_, there) = trace(&s, &record(&mirrored), 0.0);
         prop_assert!(here.iter().zip(&there).all(|(a, b)| a.theta_rad == -b.theta_rad));
     }
 }

@@ -6,7 +6,7 @@ use crate::fragility::Cases;
 use crate::motion::{Suite, measures};
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::rocking::{Record, Structure, simulate, trace, with_tail};
+use crate::rocking::{Record, Structure, simulate, trace};
 use crate::table::motions::Motion;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
@@ -124,8 +124,7 @@ fn safe_demand(structure: &Structure, motion: &Motion) -> Option<f64> {
 
 /// The rotation at each sample, rad, and in free rocking after them.
 fn rotations(structure: &Structure, samples: &[f64], dt_s: f64) -> Option<Vec<f64>> {
-    let ended = with_tail(&Record::new(samples, dt_s).ok()?, TAIL / structure.p_rad_s);
-    let (_, points) = trace(structure, &Record::new(&ended, dt_s).ok()?);
+    let (_, points) = trace(structure, &Record::new(samples, dt_s).ok()?, TAIL / structure.p_rad_s);
     let samples = points.iter().filter(|point| point.solver_event.is_none());
     Some(samples.map(|point| point.theta_rad).collect())
 }
