@@ -1,12 +1,13 @@
 """Holds exports for OpenQuake against `evaluate`: python check_openquake.py ROCKFRAG
 
 ROCKFRAG is the binary. OpenQuake's own reader takes the NRML, its own fragility functions give
-the probabilities, and these must equal those of `evaluate`, averaged over PGV/PGA, to 1e-5 at 20 intensities of PGA and of
-PGV, and be exactly 0 below uplift. Needs openquake.engine (scripts/check_exports.sh makes a place for it).
+the probabilities, and these must equal those of `evaluate`, averaged over PGV/PGA, to 1e-5 at 20 levels of PGA and of PGV
+that any motion has, and be exactly 0 below uplift. Needs openquake.engine (scripts/check_exports.sh makes a place for it).
 """
 
 import math
 import pathlib
+import re
 import sys
 import tempfile
 
@@ -20,15 +21,19 @@ UPLIFT_G = math.tan(ALPHA)
 
 
 def worst(im, folder):
-    """The largest difference at 20 intensities, in steps equal in logarithm; of PGA some lie below uplift."""
+    """The largest difference at 20 levels and, of PGA, two intensities below uplift."""
     file = folder / f"{im}.xml"
     run("export", "--to=openquake", f"--over={im}", f"--out={file}")
     model = nrml.to_python(str(file))
     ((imt, _), functions), = model.items()
     assert imt == im.upper(), imt
     difference = 0.0
-    for intensity in np.geomspace(*((0.5 * UPLIFT_G, 4.4) if im == "pga" else (0.03, 4.9)), 20):
-        iml = np.array([intensity if im == "pga" else 100 * intensity])
+    unit, most = (1, 4.4) if im == "pga" else (100, 4.9)
+    levels = np.array(re.search("<imls[^>]*>([^<]*)<", file.read_text())[1].split(), dtype=float) / unit
+    levels = levels[levels < most]
+    below = [0.5 * UPLIFT_G, 0.99 * UPLIFT_G] if im == "pga" else []
+    for intensity in [*below, *levels[np.linspace(1, len(levels) - 1, 20).astype(int)]]:
+        iml = np.array([unit * intensity])
         expected = dict(zip(["LS1", "LS2", "LS3"], reached(im, float(intensity))))
         for function in functions.build(model.limitStates):
             theirs = float(function(iml)[0])
@@ -41,6 +46,6 @@ def worst(im, folder):
 with tempfile.TemporaryDirectory() as folder:
     for im in ["pga", "pgv"]:
         difference = worst(im, pathlib.Path(folder))
-        print(f"openquake {im}: largest difference {difference:.1e} at 20 intensities")
+        print(f"openquake {im}: largest difference {difference:.1e} at 20 levels")
         if difference > 1e-5:
             sys.exit("OpenQuake and rockfrag differ by more than 1e-5")

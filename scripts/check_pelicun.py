@@ -1,10 +1,11 @@
 """Runs pelicun on an export and holds its damage states against `evaluate`: python check_pelicun.py ROCKFRAG
 
-ROCKFRAG is the binary. At each of 8 intensities, of PGA and of PGV, pelicun draws 100,000
-capacities; the shares of the damage states must equal our probabilities within five standard errors of such a sample.
+ROCKFRAG is the binary. At each of 8 levels, of PGA and of PGV, pelicun draws 100,000 capacities; the shares of the
+damage states must equal our probabilities within five standard errors of such a sample.
 Needs pelicun (scripts/check_exports.sh makes a place for it).
 """
 
+import csv
 import json
 import math
 import pathlib
@@ -52,10 +53,12 @@ with tempfile.TemporaryDirectory() as folder:
         table = pathlib.Path(folder) / f"{im}.csv"
         run("export", "--to=pelicun", f"--over={im}", f"--out={table}")
         component, = (name for name in json.loads(table.with_suffix(".json").read_text()) if not name.startswith("_"))
+        (row,) = csv.DictReader(table.read_text().splitlines())
+        levels = [float(level) for level in row["LS2-Theta_0"].split("|")[0].split(",")]
         worst = 0.0
         for im4 in [0.9, 1.05, 1.2, 1.4, 2.0, 3.0, 4.0, 6.0]:
             # Motions have some 1 m/s for each g.
-            intensity = im4 * math.tan(ALPHA)
+            intensity = min(levels, key=lambda level: abs(level - im4 * math.tan(ALPHA)))
             shares = theirs(table, component, im.upper(), intensity)
             for state, (share, p) in enumerate(zip(shares, ours(im, intensity))):
                 error = math.sqrt(max(p * (1 - p), 1 / SAMPLES) / SAMPLES)

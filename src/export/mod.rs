@@ -1,18 +1,15 @@
 //! Fragility in the files and units of other risk programs: limit states over one intensity.
 //!
 //! ```text
-//! levels     intensities at which to tabulate a curve, so that lines between them err little
 //! openquake  NRML 0.5 of OpenQuake
 //! pelicun    the fragility parameters of pelicun, and their metadata
 //! ```
 
-mod levels;
 mod openquake;
 mod pelicun;
 
-pub use levels::{levels, whole_curve_end};
 pub use openquake::discrete;
-pub use pelicun::{LEAST_TOLERANCE as PELICUN_TOLERANCE, metadata, parameters};
+pub use pelicun::{metadata, parameters};
 
 use crate::fragility::{LimitStates, Peak};
 

@@ -14,11 +14,9 @@ const COMMON: [&str; 6] =
 /// Columns of each limit state.
 const STATE: [&str; 4] = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
 
-/// Least rise of a probability from one level to the next: pelicun keeps six digits.
+/// Least rise of a probability from one level to the next, else the level is left out: pelicun keeps six
+/// digits.
 const LEAST_RISE: f64 = 2e-6;
-/// Least error that a table can be held to: levels between which the probability rises by less than
-/// `LEAST_RISE` are left out.
-pub const LEAST_TOLERANCE: f64 = 1e-5;
 
 /// Returns the name of a peak in pelicun, its unit there, and the size of that unit in m/s2 or m/s.
 fn demand(peak: Peak) -> (&'static str, &'static str, f64) {

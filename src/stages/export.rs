@@ -7,8 +7,7 @@ use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
 use super::shared::objects::{StructureArgs, named, on_ground};
-use crate::export::{FragilityModel, Function, PELICUN_TOLERANCE};
-use crate::export::{discrete, distinct_ids, levels, metadata, parameters, whole_curve_end};
+use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metadata, parameters};
 use crate::fragility::{LimitStates, Peak};
 use crate::hazard::{SitesInGeneral, strongest};
 use crate::inputs::Renames;
@@ -17,6 +16,7 @@ use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
 use crate::pipeline::{Stage, UsageError};
+use crate::statistics::numerics::{equal_ratios, first};
 use crate::table::marks::xml_mark;
 use crate::warning::Warnings;
 
@@ -53,8 +53,9 @@ keywords! {
 
 /// The file, without its ending, if none is given.
 pub const UNNAMED: &str = "fragility";
-/// Largest error of straight lines between the levels for OpenQuake.
-const TOLERANCE: f64 = 4e-6;
+/// Steps of equal ratio between the levels of a table, and how near to 1 its probabilities end.
+const STEPS: usize = 99;
+const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
     fn inputs(&self) -> Vec<Read> {
@@ -134,7 +135,7 @@ impl Export {
     }
 
     /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
-    /// or nothing was ever recorded.
+    /// or nothing was ever recorded, and on either side of a jump.
     fn function(&self, id: &str, object: &Object, subject: &Subject) -> anyhow::Result<Function> {
         let model = &subject.directions[0].model;
         let general = SitesInGeneral { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
@@ -142,13 +143,13 @@ impl Export {
         let reaching = |intensity: f64| {
             given_peak.limit_states(intensity).map(|p| p.unwrap_or_default().clamp(0.0, 1.0))
         };
-        let tolerance = if self.to == Program::OpenQuake { TOLERANCE } else { PELICUN_TOLERANCE };
+        let is_whole = |intensity: f64| reaching(intensity).into_array().iter().all(|&p| p >= 1.0 - NEAR);
         let uplift = given_peak.uplift().least;
-        let most = strongest(self.over).max(2.0 * uplift);
-        let end = whole_curve_end(uplift, tolerance, reaching).min(most);
+        let end = first(uplift, strongest(self.over).max(2.0 * uplift), is_whole);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
-        let edges: Vec<f64> = std::iter::once(uplift).chain(jumps).chain([end]).collect();
-        let levels = levels(&edges, tolerance, reaching);
+        let mut levels: Vec<f64> = jumps.flat_map(|jump| [jump * (1.0 - GAP), jump]).collect();
+        levels.extend(equal_ratios(uplift, end, STEPS));
+        levels.sort_unstable_by(f64::total_cmp);
         // Strong synthetic PGA have little PGV, by which a probability may fall: it is held where it has
         // been.
         let mut most = LimitStates::all(0.0_f64);
