@@ -68,7 +68,7 @@
 //! | [`object`] | what is known of an object, and what is not | |
 //! | [`hazard`] | hazard curves, annual rates, probabilities under one motion | |
 //! | [`records`] | recorded motions: formats, processing, pulses | |
-//! | [`studies`] | ranking of measures, validation, comparison with the paper | tables, worked example |
+//! | [`studies`] | validation, comparison with the paper | tables, worked example |
 //! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
 //! | [`paper`] | what the paper publishes | sections 2 and 3 |
 //!

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::measure_names::Measure;
+use super::measure_names::{Measure, has_logarithm};
 use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::{Outcome, Structure};
@@ -111,8 +111,8 @@ pub struct Cases {
     pub structure: Structure,
     /// Its responses.
     pub all: Vec<Case>,
-    /// Further measures by name, one for each case.
-    pub candidates: Vec<(String, Vec<Option<f64>>)>,
+    /// Further measures by the names of their columns, a value for each case; NaN where one is missing.
+    pub columns: BTreeMap<String, Vec<f64>>,
     /// The numbers of the known clusters, and the next number.
     clusters: BTreeMap<Cluster, u32>,
     next_cluster: u32,
@@ -125,7 +125,7 @@ impl Cases {
             suite: suite.map(str::to_string),
             structure,
             all: Vec::new(),
-            candidates: Vec::new(),
+            columns: BTreeMap::new(),
             clusters: BTreeMap::new(),
             next_cluster: 0,
         }
@@ -180,9 +180,13 @@ impl Cases {
             clusters: Vec::new(),
             ranges: vec![Range::over([]); measures.len()],
         };
-        for case in &self.all {
+        let columns: Vec<_> = measures.iter().map(|measure| self.columns.get(measure.as_str())).collect();
+        for (row, case) in self.all.iter().enumerate() {
             let Some(observed) = y(case) else { continue };
-            let values = measures.iter().map(|measure| measure.value_of(&case.measures));
+            let values = measures.iter().zip(&columns).map(|(measure, column)| match column {
+                Some(column) => Some(column[row]).filter(has_logarithm),
+                None => measure.value_of(&case.measures),
+            });
             let Some(values) = values.collect::<Option<Vec<f64>>>() else { continue };
             for (k, value) in values.into_iter().enumerate() {
                 sample.ln_im[k].push(value.ln());

@@ -9,12 +9,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Sample, grouped};
-use super::measure_names::{Measure, design_row, values};
+use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
-use crate::statistics::{Estimate, FitStatus, LinearFit, least_squares};
+use crate::statistics::{Estimate, FitStatus, LinearFit, held_out_log_score, least_squares};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
@@ -36,12 +36,19 @@ const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
 /// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
 pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
-    DemandFit::new(cases, DemandModel::Univariate, &[measure], EVERYWHERE)
+    fit_law(cases, Predictors::one(measure))
 }
 
 /// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
 pub fn fit_plane(cases: &Cases) -> DemandFit {
-    DemandFit::new(cases, DemandModel::Plane, &PLANE, EVERYWHERE)
+    fit_law(cases, Predictors::two(PLANE))
+}
+
+/// Fits the power law of one measure or the plane of two over all cases.
+fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
+    let model = if predictors.im_y.is_some() { DemandModel::Plane } else { DemandModel::Univariate };
+    let measures: Vec<Measure> = predictors.measures().cloned().collect();
+    DemandFit::new(cases, model, &measures, EVERYWHERE)
 }
 
 /// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases
@@ -67,6 +74,9 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
             fit.r2_overall = Some(1.0 - rss / tss);
         }
     }
+    let score: Option<f64> = planes.iter().map(|fit| Some(fit.held_out_log_score? * fit.n as f64)).sum();
+    let n: i64 = planes.iter().map(|fit| fit.n).sum();
+    planes.iter_mut().for_each(|fit| fit.held_out_log_score = score.map(|score| score / n as f64));
     planes
 }
 
@@ -149,9 +159,16 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate>
 }
 
 /// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
-/// residual is least or, of too few cases, where the paper's meet) and, if `all`, each measure alone and one
-/// plane over all cases. `confidence` is that of the limits of the transition of least residual.
-pub fn fit_demand(cases: &Cases, im4: Option<f64>, confidence: f64, all: bool) -> Vec<DemandFit> {
+/// residual is least or, of too few cases, where the paper's meet), if `all`, each measure alone and one plane
+/// over all cases, then what is `asked` for over all cases. `confidence` is that of the limits of the
+/// transition of least residual.
+pub fn fit_demand(
+    cases: &Cases,
+    im4: Option<f64>,
+    confidence: f64,
+    asked: &[Predictors],
+    all: bool,
+) -> Vec<DemandFit> {
     let found = transition(&scan_transition(cases), confidence);
     let im4 = im4.or(found.map(|found| found.value)).unwrap_or(TRANSITION);
     let mut fits = fit_planes(cases, im4).to_vec();
@@ -160,10 +177,9 @@ pub fn fit_demand(cases: &Cases, im4: Option<f64>, confidence: f64, all: bool) -
         fit.transition_low = found.map(|found| found.low);
         fit.transition_high = found.map(|found| found.high);
     }
-    if all {
-        fits.par_extend(Measure::SCALAR.par_iter().map(|&measure| fit_power_law(cases, measure)));
-        fits.push(fit_plane(cases));
-    }
+    let usual = Measure::SCALAR.map(Predictors::one).into_iter().chain([Predictors::two(PLANE)]);
+    let predictors = Predictors::without_repeats(usual.filter(|_| all).collect(), asked);
+    fits.par_extend(predictors.into_par_iter().map(|predictors| fit_law(cases, predictors)));
     fits
 }
 
@@ -211,6 +227,8 @@ pub struct DemandFit {
     pub r2_pooled: Option<f64>,
     /// R2 of both planes about the mean of all cases.
     pub r2_overall: Option<f64>,
+    /// Mean log-likelihood of cases by a fit without their cluster; of two planes, of the cases of both.
+    pub held_out_log_score: Option<f64>,
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
     pub transition_low: Option<f64>,
@@ -229,6 +247,11 @@ pub struct DemandFit {
 grouped!(DemandFit);
 
 impl DemandFit {
+    /// Returns its measures.
+    pub fn predictors(&self) -> Predictors {
+        Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
+    }
+
     /// Fits these measures to the cases whose IM4 lies in `range`.
     fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
         let sample = demands(cases, measures, &range);
@@ -242,8 +265,8 @@ impl DemandFit {
             alpha_rad: cases.structure.alpha_rad,
             eta: cases.structure.eta,
             model,
-            im_x: measures[0],
-            im_y: measures.get(1).copied(),
+            im_x: measures[0].clone(),
+            im_y: measures.get(1).cloned(),
             range_low: Some(range.start).filter(|start| *start > 0.0),
             range_high: Some(range.end).filter(|end| end.is_finite()),
             coefficients: fitted.map_or(Vec::new(), |linear| linear.fit.coefficients.as_slice().to_vec()),
@@ -255,6 +278,13 @@ impl DemandFit {
             r2: fitted.map(LinearFit::r2),
             r2_pooled: None,
             r2_overall: None,
+            held_out_log_score: fitted.and_then(|_| {
+                held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, ln_edp| {
+                    let law = least_squares(x, ln_edp).ok()?;
+                    let sd = law.residual_sd();
+                    Some((law.fit, move |mean, ln_edp| normal::ln_density((ln_edp - mean) / sd) - sd.ln()))
+                })
+            }),
             transition_found: None,
             transition_low: None,
             transition_high: None,
@@ -299,7 +329,7 @@ impl DemandFit {
         confidence: f64,
     ) -> Option<Estimate> {
         let beta = self.beta?;
-        let ims = values(self.im_x, self.im_y, measures)?;
+        let ims = values(&self.im_x, self.im_y.as_ref(), measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
         let by_median = variance(&self.covariance, &design_row(&ims));
         let by_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
@@ -340,8 +370,8 @@ impl DemandFit {
             suite: self.suite.clone(),
             structure: self.structure.clone(),
             model: self.model.to_string(),
-            im_x: self.im_x,
-            im_y: self.im_y,
+            im_x: self.im_x.clone(),
+            im_y: self.im_y.clone(),
             range_low: self.range_low,
             parameter,
             value,

@@ -40,7 +40,7 @@ pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
 pub use given_peak::GivenPeak;
 pub(crate) use level::Level;
 pub use level::Scenarios;
-pub use measure_names::{Measure, Pair};
+pub use measure_names::{Measure, Predictors};
 pub use model::{Direction, Model, paper_probabilities};
 pub use on_floor::Uplift;
 pub use overturning::{CurveFit, fit_curve, fit_curves};

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Cases, Event, grouped};
-use super::measure_names::{Measure, Pair, design_row, values};
+use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Estimate, FitStatus, independent_errors, normal, predict, tested_probit, variance};
+use crate::statistics::{Estimate, FitStatus, held_out_log_score, independent_errors, normal};
+use crate::statistics::{predict, probit, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
 /// (Eq. 20; Eq. 24 with the hybrid measure).
@@ -31,10 +32,10 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
 ///
 /// [`log_likelihood`]: crate::statistics::log_likelihood
 pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> CurveFit {
-    let measures: Vec<Measure> = std::iter::once(im_x).chain(im_y).collect();
+    let measures: Vec<Measure> = std::iter::once(&im_x).chain(&im_y).cloned().collect();
     let sample = cases.sample(&measures, |case| event.happened(case.outcome, f64::INFINITY));
-    let probit = tested_probit(&sample.x(), &sample.y, &sample.clusters);
-    let fitted = probit.as_ref().ok();
+    let tested = tested_probit(&sample.x(), &sample.y, &sample.clusters);
+    let fitted = tested.as_ref().ok();
     let limiting = fitted.map(|probit| probit.fit.limiting_covariance());
     let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
     let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
@@ -59,12 +60,18 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
+        held_out_log_score: fitted.and_then(|_| {
+            held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, events| {
+                let fit = probit(x, events).ok()?.fit;
+                Some((fit, |z: f64, event| normal::ln_cdf(if event { z } else { -z })))
+            })
+        }),
         im_x_low: sample.range(0).map(|range| range.low),
         im_x_high: sample.range(0).map(|range| range.high),
         im_y_low: sample.range(1).map(|range| range.low),
         im_y_high: sample.range(1).map(|range| range.high),
         misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
-        status: match &probit {
+        status: match &tested {
             Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
             Ok(probit) => probit.fit.status,
             Err(status) => *status,
@@ -97,12 +104,12 @@ pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
 }
 
 /// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`] of a structure under a suite: of IM4 and
-/// IM5 or, if `all`, of all six measures of Eq. 13, then of hybrid measures.
-pub fn fit_curves(cases: &Cases, event: Event, pairs: &[Pair], all: bool) -> Vec<CurveFit> {
-    let single = if all { &Measure::SCALAR[..] } else { &[Measure::Im4, Measure::Im5] };
-    let single = single.iter().map(|&measure| (measure, None));
-    let measures: Vec<_> = single.chain(pairs.iter().map(|&Pair(x, y)| (x, Some(y)))).collect();
-    measures.into_par_iter().map(|(x, y)| fit_curve(cases, event, x, y)).collect()
+/// IM5 or, if `all`, of all six measures of Eq. 13, then of those that are `asked` for.
+pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) -> Vec<CurveFit> {
+    let single = if all { Measure::SCALAR.to_vec() } else { vec![Measure::Im4, Measure::Im5] };
+    let single = single.into_iter().map(Predictors::one).collect();
+    let predictors = Predictors::without_repeats(single, asked);
+    predictors.into_par_iter().map(|Predictors { im_x, im_y }| fit_curve(cases, event, im_x, im_y)).collect()
 }
 
 /// A fragility curve: a row of pro.parquet.
@@ -136,6 +143,8 @@ pub struct CurveFit {
     pub auc: Option<f64>,
     /// Brier score on the fitted cases.
     pub brier: Option<f64>,
+    /// Mean log-likelihood of cases by a fit without their cluster.
+    pub held_out_log_score: Option<f64>,
     /// Least and largest value of each measure among the cases.
     pub im_x_low: Option<f64>,
     pub im_x_high: Option<f64>,
@@ -149,10 +158,16 @@ pub struct CurveFit {
 grouped!(CurveFit);
 
 impl CurveFit {
+    /// Returns its measures.
+    pub fn predictors(&self) -> Predictors {
+        Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
+    }
+
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of ln IM - mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Estimate> {
-        let ims = values(self.im_x, self.im_y, measures).filter(|_| !self.coefficients.is_empty())?;
+        let ims =
+            values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
         let b = &self.coefficients;
         let (mu, beta) = (mu(b).0, beta(b).0);
         let im = match ims[..] {
@@ -173,8 +188,10 @@ impl CurveFit {
 
     /// Returns whether the measures are within those of the cases.
     pub fn covers(&self, measures: &IntensityMeasures) -> bool {
-        let ranges =
-            [(Some(self.im_x), self.im_x_low, self.im_x_high), (self.im_y, self.im_y_low, self.im_y_high)];
+        let ranges = [
+            (Some(&self.im_x), self.im_x_low, self.im_x_high),
+            (self.im_y.as_ref(), self.im_y_low, self.im_y_high),
+        ];
         ranges.into_iter().all(|(measure, low, high)| {
             measure.and_then(|measure| measure.value_of(measures)).is_none_or(|value| {
                 low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
@@ -189,7 +206,7 @@ impl CurveFit {
             return Vec::new();
         }
         let b = &self.coefficients;
-        let hybrid = self.im_y.map(|_| (Parameter::Lambda, lambda(b)));
+        let hybrid = self.im_y.as_ref().map(|_| (Parameter::Lambda, lambda(b)));
         let estimates = hybrid.into_iter().chain([(Parameter::Mu, mu(b)), (Parameter::Beta, beta(b))]);
         let rows = estimates.map(|(parameter, (value, gradient))| {
             let standard_error = variance(&self.covariance, &gradient).sqrt();
@@ -198,8 +215,8 @@ impl CurveFit {
                 suite: self.suite.clone(),
                 structure: self.structure.clone(),
                 model: self.event.to_string(),
-                im_x: self.im_x,
-                im_y: self.im_y,
+                im_x: self.im_x.clone(),
+                im_y: self.im_y.clone(),
                 range_low: None,
                 parameter,
                 value,

@@ -1,15 +1,18 @@
 //! fit-pex: the probability of a demand above the limit state in safe rocking, by the paper's lines and
 //! planes (Eqs. 14 to 18).
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
+use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
+use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
-use crate::fragility::{Calibration, DemandFit, DemandModel, fit_demand, sd_of_one_plane};
+use crate::fragility::{
+    Calibration, DemandFit, DemandModel, Parameter, Predictors, fit_demand, sd_of_one_plane,
+};
 use crate::number::significant;
 use crate::paper;
 use crate::pipeline::Stage;
@@ -22,7 +25,8 @@ use crate::statistics::FitStatus;
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag fit-pex\n\
-    rockfrag fit-pex --in responses.parquet --limit-state 0.1,0.5 --all --out fits/pex.parquet")]
+    rockfrag fit-pex --in responses.parquet --limit-state 0.1,0.5 --all --out fits/pex.parquet\n\
+    rockfrag fit-pex --motions motions.parquet --pairs im5:im3,housner_m")]
 pub struct FitPex {
     /// Responses to read
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -48,6 +52,12 @@ pub struct FitPex {
     /// Also fit each of the six measures alone, and one plane over all cases
     #[arg(long)]
     all: bool,
+    /// Further measures to fit over all cases, and pairs of them for planes; or columns of --motions
+    #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',')]
+    pairs: Vec<Predictors>,
+    /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
+    #[arg(long, value_name = "FILE")]
+    motions: Option<Input>,
 }
 
 /// Where two planes meet.
@@ -73,56 +83,95 @@ impl FromStr for Transition {
 
 impl Stage for FitPex {
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input])]
+        vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
         vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.to_path_buf()]
     }
 
+    fn check(&self) -> anyhow::Result<()> {
+        MotionColumns::check(&self.pairs, self.motions.as_deref())
+    }
+
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let mut groups = responses::read(&self.input)?;
+        let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
+        let mut groups = responses::read_with(&self.input, &columns)?;
         let bar = context.bar(groups.len());
         let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
-        let (mut fits, mut calibrations, mut sds) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
+        let (mut planes, mut laws) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, transition, self.confidence, self.all));
+            let its = fit_demand(cases, transition, self.confidence, &self.pairs, self.all);
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
-            sds.push(sd_of_one_plane(cases));
+            planes.extend(planes_line(&its, sd_of_one_plane(cases)));
+            laws.extend(self.law_lines(&its));
+            fits.extend(its);
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let summary = format!(
-            "{}\n{}",
-            calibrations_text(&calibrations, ["rock safely", "exceed"], &part(&self.out, "calibration")),
-            planes_text(&fits, &sds, &self.out)
-        );
+        let calibration = part(&self.out, "calibration");
+        let mut summary = calibrations_text(&calibrations, ["rock safely", "exceed"], &calibration);
+        summary += &format!("\n{PLANES}\n{}", text(&PLANE_HEADINGS, planes.into_iter(), 2..7, &self.out));
+        if !laws.is_empty() {
+            summary += &format!("\n{LAWS}\n{}", text(&LAW_HEADINGS, laws.into_iter(), 3..7, &self.out));
+        }
         context.warn(warnings(&calibrations));
-        context.write(&part(&self.out, "calibration"), &calibrations, &summary)?;
+        context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
         Ok(summary)
     }
 }
 
-/// The paper's planes, with the residual standard deviation of both and of one plane in their place (`sds`).
-fn planes_text(fits: &[DemandFit], sds: &[Option<f64>], out: &Path) -> String {
-    let planes: Vec<&DemandFit> = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar).collect();
-    let lines = planes.chunks_exact(2).zip(sds).map(|(pair, one)| {
-        let (below, above) = (pair[0], pair[1]);
-        let numbers = [below.range_high, below.r2, above.r2, below.sd_with(above), *one];
-        let numbers = numbers.map(|number| number.map_or("-".to_string(), |number| significant(number, 4)));
-        let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
-        let names = [suite_name(&below.suite), below.structure.clone()];
-        names.into_iter().chain(numbers).chain([verdict]).collect()
-    });
-    let headings =
-        ["suite", "structure", "transition", "R2 below", "R2 above", "sd", "sd of one plane", "verdict"];
-    format!(
-        "planes (paper), below and above the transition; sd of ln demand, also of one plane in ln(ln IM4) \
-         and ln IM3\n{}",
-        text(&headings, lines, 2..7, out)
-    )
+const PLANES: &str = "planes (paper), below and above the transition; sd of ln demand, also of one plane in \
+    ln(ln IM4) and ln IM3";
+const PLANE_HEADINGS: [&str; 8] =
+    ["suite", "structure", "transition", "R2 below", "R2 above", "sd", "sd of one plane", "verdict"];
+const LAWS: &str = "power laws over all cases, and the planes; log score of held-out cells or earthquakes";
+const LAW_HEADINGS: [&str; 8] =
+    ["suite", "structure", "measure", "R2", "beta", "zeta", "log score", "verdict"];
+
+fn shown(number: Option<f64>) -> String {
+    number.map_or("-".to_string(), |number| significant(number, 4))
+}
+
+/// The paper's planes of a structure, with the residual standard deviation of both and of one plane in their
+/// place.
+fn planes_line(fits: &[DemandFit], sd_of_one: Option<f64>) -> Option<Vec<String>> {
+    let mut planes = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar);
+    let below = planes.clone().find(|fit| fit.range_high.is_some())?;
+    let above = planes.find(|fit| fit.range_low.is_some())?;
+    let numbers = [below.range_high, below.r2, above.r2, below.sd_with(above), sd_of_one];
+    let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
+    let names = [suite_name(&below.suite), below.structure.clone()];
+    Some(names.into_iter().chain(numbers.map(shown)).chain([verdict]).collect())
+}
+
+impl FitPex {
+    /// The fits of the pairs, and the two planes beside them, by their score, the best first.
+    fn law_lines(&self, fits: &[DemandFit]) -> Vec<Vec<String>> {
+        let is_shown = |fit: &&DemandFit| match fit.model {
+            DemandModel::Biplanar => fit.range_high.is_some() && !self.pairs.is_empty(),
+            _ => self.pairs.contains(&fit.predictors()),
+        };
+        let mut shown_fits: Vec<&DemandFit> = fits.iter().filter(is_shown).collect();
+        shown_fits.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
+        let lines = shown_fits.into_iter().map(|fit| {
+            let is_biplanar = fit.model == DemandModel::Biplanar;
+            let measure = format!("{}{}", fit.predictors(), if is_biplanar { ", two planes" } else { "" });
+            let parameters = fit.parameters(self.confidence);
+            let zeta = parameters.iter().find(|row| row.parameter == Parameter::Zeta).map(|row| row.value);
+            let numbers = match is_biplanar {
+                true => [fit.r2_overall, None, None],
+                false => [fit.r2, fit.beta, zeta],
+            };
+            let names = [suite_name(&fit.suite), fit.structure.clone(), measure].into_iter();
+            let ends = [score(fit.held_out_log_score), verdict(fit.status)];
+            names.chain(numbers.map(shown)).chain(ends).collect()
+        });
+        lines.collect()
+    }
 }

@@ -1,24 +1,26 @@
 //! fit-pro: the probability of overturning, by the paper's lognormal curves (Eqs. 19 to 24).
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 
-use super::shared::fit_tables::{calibrations_text, suite_name, text, verdict, warnings};
+use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
+use super::shared::motion_columns::MotionColumns;
 use super::shared::{observed, responses};
-use crate::fragility::{Calibration, CurveFit, Event, Measure, Pair, Parameter, fit_curves};
+use crate::fragility::{Calibration, CurveFit, Event, Measure, Parameter, Predictors, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Output, Read, RowsInput, part};
+use crate::pipeline::paths::{Input, Output, Read, RowsInput, part};
 use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag fit-pro\n\
-    rockfrag fit-pro --in responses.parquet --pairs im4:im5 --all --out fits/pro.parquet")]
+    rockfrag fit-pro --in responses.parquet --pairs im4:im5 --all --out fits/pro.parquet\n\
+    rockfrag fit-pro --motions motions.parquet --pairs im4:im3_inv,housner_m,im4:arias_m_s")]
 pub struct FitPro {
     /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
     #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
@@ -29,9 +31,12 @@ pub struct FitPro {
     /// Event of the probability: overturning (given rocking) or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
     event: Event,
-    /// Pairs of measures for hybrid curves, besides curves of IM4 and IM5
-    #[arg(long, value_name = "IM:IM,...", value_delimiter = ',', default_value = "im4:im3_inv")]
-    pairs: Vec<Pair>,
+    /// Measures, and pairs of them for hybrid curves, besides IM4 and IM5; or columns of --motions
+    #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',', default_value = "im4:im3_inv")]
+    pairs: Vec<Predictors>,
+    /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
+    #[arg(long, value_name = "FILE")]
+    motions: Option<Input>,
     /// Confidence level of the limits
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
@@ -43,7 +48,7 @@ pub struct FitPro {
 
 impl Stage for FitPro {
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input])]
+        vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -52,7 +57,7 @@ impl Stage for FitPro {
 
     fn check(&self) -> anyhow::Result<()> {
         match self.event {
-            Event::Overturning | Event::Rocking => Ok(()),
+            Event::Overturning | Event::Rocking => MotionColumns::check(&self.pairs, self.motions.as_deref()),
             other => Err(UsageError::because(format!("event is {other}; expected overturning or rocking"))),
         }
     }
@@ -67,7 +72,8 @@ impl Stage for FitPro {
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
             texts.push(calibrations_text(&calibrations, ["rocked", "fell"], &calibration));
         } else {
-            let groups = responses::read(&self.input)?;
+            let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
+            let groups = responses::read_with(&self.input, &columns)?;
             let bar = context.bar(groups.len());
             for cases in &groups {
                 fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
@@ -80,7 +86,7 @@ impl Stage for FitPro {
             if !calibrations.is_empty() {
                 texts.push(calibrations_text(&calibrations, ["rock", "overturn"], &calibration));
             }
-            texts.push(curves_text(&fits, self.confidence, &self.out));
+            texts.push(self.curves_text(&fits));
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let summary = texts.join("\n");
@@ -92,17 +98,32 @@ impl Stage for FitPro {
     }
 }
 
-fn curves_text(fits: &[CurveFit], confidence: f64, out: &Path) -> String {
-    let curves = fits.iter().filter(|fit| (fit.im_x, fit.im_y) == (Measure::Im5, None));
-    let lines = curves.map(|fit| {
-        let parameters = fit.parameters(confidence);
-        let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(|wanted| {
-            let row = parameters.iter().find(|row| row.parameter == wanted);
-            row.map_or("-".to_string(), |row| THREE_DIGITS.both(row.estimate().into(), ""))
+impl FitPro {
+    /// The curves of IM5 and of the pairs, those of a structure by their score, the best first.
+    fn curves_text(&self, fits: &[CurveFit]) -> String {
+        let is_asked = |fit: &&CurveFit| {
+            let predictors = fit.predictors();
+            predictors == Predictors::one(Measure::Im5) || self.pairs.contains(&predictors)
+        };
+        let mut curves: Vec<&CurveFit> = fits.iter().filter(is_asked).collect();
+        for its in curves.chunk_by_mut(|a, b| a.group() == b.group()) {
+            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
+        }
+        let lines = curves.into_iter().map(|fit| {
+            let parameters = fit.parameters(self.confidence);
+            let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(|wanted| {
+                let row = parameters.iter().find(|row| row.parameter == wanted);
+                row.map_or("-".to_string(), |row| THREE_DIGITS.both(row.estimate().into(), ""))
+            });
+            let names = [suite_name(&fit.suite), fit.structure.clone(), fit.predictors().to_string()];
+            let numbers = [median, dispersion, score(fit.held_out_log_score), verdict(fit.status)];
+            names.into_iter().chain(numbers).collect()
         });
-        vec![suite_name(&fit.suite), fit.structure.clone(), median, dispersion, verdict(fit.status)]
-    });
-    let headings = ["suite", "structure", "median", "dispersion", "verdict"];
-    let lines = text(&headings, lines, 0..0, out);
-    format!("lognormal curve (paper) of IM5, with {} % limits\n{lines}", 100.0 * confidence)
+        let headings = ["suite", "structure", "measure", "median", "dispersion", "log score", "verdict"];
+        let lines = text(&headings, lines, 5..6, &self.out);
+        format!(
+            "lognormal curves (paper), with {} % limits; log score of held-out cells or earthquakes\n{lines}",
+            100.0 * self.confidence
+        )
+    }
 }

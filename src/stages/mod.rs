@@ -47,7 +47,6 @@ stages! {
     fit_pex::FitPex,
     fit_pro::FitPro,
     compare_paper::ComparePaper,
-    rank_ims::RankIms,
     evaluate::Evaluate,
     export::Export,
     validate::Validate,

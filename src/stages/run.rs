@@ -68,7 +68,6 @@ pub fn files(
     let fits = has("fit-pro").then_some(("fits", "."));
     let files = match stage {
         "simulate" | "ida" => vec![Some(("in", motions))],
-        "rank-ims" if has("synthesize-motions") || has("import-motions") => vec![Some(("motions", motions))],
         "evaluate" => vec![fits, Some(("out", "evaluated.parquet"))],
         "export" => vec![fits, Some(("out", UNNAMED))],
         "validate" => vec![fits],

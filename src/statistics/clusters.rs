@@ -4,9 +4,14 @@
 use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::fit::Fit;
 
 /// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI).
 pub const MIN_CLUSTERS: usize = 10;
+/// Folds of a cross-validation.
+const FOLDS: usize = 10;
 
 /// Sums `k` terms over the cases of each cluster that has any; `add` adds a case to a sum.
 fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> Vec<Vec<f64>> {
@@ -85,4 +90,27 @@ impl Folds {
     pub fn split(&self, fold: usize) -> (Vec<usize>, Vec<usize>) {
         (0..self.fold.len()).partition(|&case| self.fold[case] != fold)
     }
+}
+
+/// Computes the mean log score of cases by fits without their fold: a proper score, which does not depend on
+/// the units of `x` (Gneiting & Raftery 2007, J. American Statistical Association 102, 359-378). `fit` takes
+/// the columns and `y` of some cases, and gives the log-likelihood of a case by its z. None for one cluster,
+/// or if a fold has no fit.
+pub fn held_out_log_score<Y: Copy + Sync, Score: Fn(f64, Y) -> f64>(
+    x: &[&[f64]],
+    y: &[Y],
+    clusters: &[u32],
+    fit: impl Fn(&[Vec<f64>], &[Y]) -> Option<(Fit, Score)> + Sync,
+) -> Option<f64> {
+    let folds = Folds::new(clusters, FOLDS)?;
+    let scores = (0..folds.count).into_par_iter().map(|fold| {
+        let (kept, left_out) = folds.split(fold);
+        let columns: Vec<Vec<f64>> = x.iter().map(|x| kept.iter().map(|&case| x[case]).collect()).collect();
+        let (Fit { coefficients: b, .. }, score) =
+            fit(&columns, &kept.iter().map(|&case| y[case]).collect::<Vec<Y>>())?;
+        let z = |case: usize| b[0] + b.iter().skip(1).zip(x).map(|(b, x)| b * x[case]).sum::<f64>();
+        Some(left_out.into_iter().map(|case| score(z(case), y[case])).sum())
+    });
+    let sums = scores.collect::<Option<Vec<f64>>>()?;
+    Some(sums.iter().sum::<f64>() / y.len() as f64)
 }

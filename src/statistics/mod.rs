@@ -34,7 +34,7 @@ mod range;
 pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
-pub use clusters::Folds;
+pub use clusters::{Folds, held_out_log_score};
 pub use estimate::{Estimate, Limited};
 pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
 pub use linear::{LinearFit, least_squares, tested_least_squares};

@@ -17,9 +17,14 @@ pub fn density(x: f64) -> f64 {
     (-0.5 * x * x).exp() / TAU.sqrt()
 }
 
+/// Computes the logarithm of the density.
+pub fn ln_density(x: f64) -> f64 {
+    -0.5 * (x * x + TAU.ln())
+}
+
 /// Computes ln Phi(x) and its derivative, the inverse Mills ratio phi(x) / Phi(x).
 pub fn ln_cdf_and_slope(x: f64) -> (f64, f64) {
-    let ln_density = -0.5 * (x * x + TAU.ln());
+    let ln_density = ln_density(x);
     if x < TAIL {
         // phi / Phi = y + 1/(y + 2/(y + 3/(y + ...))), y = -x (Laplace).
         let mills = (1..=LEVELS).rev().fold(-x, |ratio, level| -x + f64::from(level) / ratio);

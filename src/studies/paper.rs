@@ -124,7 +124,7 @@ impl Fits<'_> {
         let mut fitted = self.curves.iter().filter(|fit| !fit.coefficients.is_empty());
         fitted.find(|fit| {
             fit.group() == Group { structure, ..self.group }
-                && (fit.event, fit.im_x, fit.im_y) == (Event::Overturning, im_x, im_y)
+                && (fit.event, &fit.im_x, &fit.im_y) == (Event::Overturning, &im_x, &im_y)
         })
     }
 

@@ -290,10 +290,34 @@ fn two_responses(path: &Path, column: &str, value: ArrayRef) {
 }
 
 #[test]
+fn columns_of_motions_that_cannot_be_measures_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    two_responses(&folder.path().join("r.parquet"), "", texts(&["", ""]));
+    for (name, ids) in [("m", ["1", "2"]), ("twice", ["1", "1"]), ("other", ["1", "3"])] {
+        let columns = ["energy_m", "pgv_cm_s"].map(|name| (name, numbers(&[0.2, 0.3])));
+        let columns = [("motion_id", texts(&ids)), ("name", texts(&["a", "b"]))].into_iter().chain(columns);
+        write(&folder.path().join(format!("{name}.parquet")), columns.collect());
+    }
+    for stage in ["fit-pro", "fit-pex"] {
+        for (options, code, named) in [
+            ("--pairs im9", 2, vec!["im9", "--motions"]),
+            ("--pairs im4:im9 --motions m.parquet", 2, vec!["m.parquet", "im9", "energy_m"]),
+            ("--pairs pgv_cm_s --motions m.parquet", 2, vec!["pgv_cm_s", "_m_s"]),
+            ("--pairs name --motions m.parquet", 1, vec!["m.parquet", "name"]),
+            ("--pairs energy_m --motions twice.parquet", 1, vec!["twice.parquet", "motion '1'"]),
+            ("--pairs energy_m --motions other.parquet", 1, vec!["other.parquet", "motion '2'"]),
+        ] {
+            fail(folder.path(), &format!("{stage} --in r.parquet {options}"), code, &named);
+        }
+        succeed(folder.path(), &format!("{stage} --in r.parquet --pairs im5,energy_m --motions m.parquet"));
+    }
+}
+
+#[test]
 fn responses_that_cannot_be_are_named_by_all_that_read_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("r.parquet");
-    let fits = ["fit-pro", "fit-pex", "rank-ims", "validate"].map(|stage| format!("{stage} --in r.parquet"));
+    let fits = ["fit-pro", "fit-pex", "validate"].map(|stage| format!("{stage} --in r.parquet"));
     for (column, first, second) in [
         ("edp", 0.1, -0.5),
         ("edp", 0.1, f64::INFINITY),

@@ -246,7 +246,6 @@ fn names_may_be_long() {
         "simulate --structures list.csv",
         "fit-pro",
         "fit-pex",
-        "rank-ims --terms 1",
         "validate",
         "ida --structures list.csv",
         "report --in responses.parquet",

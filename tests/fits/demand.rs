@@ -118,7 +118,7 @@ fn the_scan_by_sums_equals_fitting_anew_at_each_place() {
 #[test]
 fn the_transition_is_the_papers_unless_it_is_to_be_found() {
     let cases = on_planes(1.5, 1500);
-    let fit = |transition, all| fit_demand(&cases, transition, 0.95, all);
+    let fit = |transition, all| fit_demand(&cases, transition, 0.95, &[], all);
     let [low, _] = &fit(Some(rockfrag::paper::TRANSITION), false)[..] else { panic!() };
     assert!(low.range_high == Some(1.3) && (low.transition_found.unwrap() - 1.5).abs() < 0.011, "{low:?}");
     assert_eq!(fit(None, false)[0].range_high, low.transition_found);
@@ -147,7 +147,7 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
     let few = line(30, |im4| im4);
     assert!(scan_transition(&few).is_empty());
-    let fits = fit_demand(&few, None, 0.95, false);
+    let fits = fit_demand(&few, None, 0.95, &[], false);
     assert!(fits.iter().all(|fit| !fit.status.is_usable() || fit.model == DemandModel::Univariate));
 }
 

@@ -14,8 +14,8 @@ mod on_floor;
 mod outcomes;
 mod overturning;
 mod paper;
-mod ranking;
 mod regression;
+mod score;
 #[path = "../shared/mod.rs"]
 mod shared;
 mod stored;

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use rand::RngExt;
-use rockfrag::fragility::{CurveFit, Event, Measure, Pair, Parameter, fit_curve, fit_curves};
+use rockfrag::fragility::{CurveFit, Event, Measure, Parameter, Predictors, fit_curve, fit_curves};
 use rockfrag::rocking::Outcome;
 use rockfrag::statistics::{FitStatus, normal};
 
@@ -115,12 +115,12 @@ fn grouped_collapses_give_the_known_curve() {
 #[test]
 fn curves_are_those_of_the_paper_or_all() {
     let cases = data().overturning();
-    let pairs = ["im4:im3_inv".parse::<Pair>().unwrap()];
+    let pairs = ["im4:im3_inv", "im5"].map(|pair| pair.parse::<Predictors>().unwrap());
     let curves = |all| fit_curves(&cases, Event::Overturning, &pairs, all);
-    let measures = |all| curves(all).iter().map(|fit| (fit.im_x, fit.im_y)).collect::<Vec<_>>();
+    let measures = |all| curves(all).into_iter().map(|fit| (fit.im_x, fit.im_y)).collect::<Vec<_>>();
     assert_eq!(measures(false), [(Measure::Im4, None), (Measure::Im5, None), HYBRID]);
     assert_eq!(measures(true).len(), 7);
-    assert!(["im4:im4", "im4", "im4:im9"].iter().all(|pair| pair.parse::<Pair>().is_err()));
+    assert!(["im4:im4", "", "im4:", "im4:im3:im5"].iter().all(|pair| pair.parse::<Predictors>().is_err()));
 }
 
 #[test]

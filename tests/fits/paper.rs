@@ -56,7 +56,7 @@ fn published_numbers_lie_in_their_prints_and_have_twenty_seeds() {
 fn ours_are_found_in_the_fits() {
     let mut cases = rocking(1200);
     cases.structure.name = "electrical-equipment".to_string();
-    let planes = fit_demand(&cases, Some(1.3), 0.95, false);
+    let planes = fit_demand(&cases, Some(1.3), 0.95, &[], false);
     let curves = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)]
         .map(|(x, y)| fit_curve(&cases, Event::Overturning, x, y));
     let rows = compare(&planes, &curves);

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use rockfrag::fragility::{Calibration, Cases, Event, Kind, Measure, Model, Pair, fit_curves, fit_demand};
+use rockfrag::fragility::{
+    Calibration, Cases, Event, Kind, Measure, Model, Predictors, fit_curves, fit_demand,
+};
 use rockfrag::pipeline::context::Context;
 use rockfrag::pipeline::paths::FitsFolder;
 use rockfrag::rocking::Structure;
@@ -21,9 +23,9 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
         cases
     };
     let all: Vec<Cases> = suites.iter().map(of_suite).collect();
-    let pairs = [Pair(Measure::Im4, Measure::Im3Inverse)];
+    let pairs = [Predictors::two([Measure::Im4, Measure::Im3Inverse])];
     let curves = |of: &Cases| fit_curves(of, Event::Overturning, &pairs, false);
-    let planes = |of: &Cases| fit_demand(of, Some(1.3), 0.95, true);
+    let planes = |of: &Cases| fit_demand(of, Some(1.3), 0.95, &[], true);
     let write = |name: &str, write: &dyn Fn(&Path)| write(&folder.path().join(name));
     fn put<R: Row>(path: &Path, rows: Vec<R>) {
         let context = Context::default();

@@ -21,7 +21,7 @@ fn without_rocking_all_is_exactly_zero() {
 #[test]
 fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     let cases = rocking(2000);
-    let planes = fit_demand(&cases, Some(1.3), 0.95, false);
+    let planes = fit_demand(&cases, Some(1.3), 0.95, &[], false);
     let curve = fit_curve(&cases, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
     let b = &curve.coefficients;
     for (im4, im3) in [(1.1, 2.0), (1.29, 0.7), (1.31, 0.7), (3.5, 1.1)] {

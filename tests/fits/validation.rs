@@ -13,7 +13,7 @@ fn forecasts<'a>(probabilities: &'a [f64], happened: &'a [bool], clusters: &'a [
 
 #[test]
 fn forecasts_of_cells_left_out_score_as_statsmodels_has_it() {
-    let (data, expected) = (data(), answers("ranking_answers.csv"));
+    let (data, expected) = (data(), answers("score_answers.csv"));
     for (name, key) in [("x", "p_ro_im4_single"), ("xy", "p_ro_im4:im3_single")] {
         let x = data.predictors(name);
         let folds = Folds::new(&data.cells, 10).unwrap();

@@ -56,7 +56,7 @@ fn tables(count: usize) -> (Vec<Cases>, Fits) {
         for (im_x, im_y) in
             [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im4, None), (Measure::Im5, None)]
         {
-            let mut fit = fit_curve(&all, Event::Overturning, im_x, im_y);
+            let mut fit = fit_curve(&all, Event::Overturning, im_x, im_y.clone());
             fit.coefficients = [-2.0, 1.5, 0.5][..2 + usize::from(im_y.is_some())].to_vec();
             fit.covariance = vec![0.01; fit.coefficients.len().pow(2)];
             tables.curves.push(fit);
@@ -190,9 +190,6 @@ fn figures(count: usize) -> Vec<Figure> {
         n: 4,
         observed: 1,
     };
-    let set = json!({ "structure": "a", "target": "p_ro", "form": "single", "measures": "im4", "terms": 1,
-        "n": 4, "rank": 1, "loss": -0.1, "loss_error": 0.05, "status": "ok" });
-    let sets: Vec<_> = serde_json::from_value(json!(vec![set; count])).unwrap();
     let row = FragilityRow { curve: Some(curve(count)), ..FragilityRow::default() };
     let fragile = Answer { object: one.rows[0].object.clone(), row, ..Answer::default() };
     let fragile = vec![fragile; count.min(9)];
@@ -214,7 +211,6 @@ fn figures(count: usize) -> Vec<Figure> {
         response::figure(&traced(count), 0),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
-        ranking(&sets),
     ]
 }
 

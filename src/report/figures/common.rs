@@ -29,9 +29,9 @@ impl Fits {
     }
 
     /// The curve of overturning of some cases over these measures.
-    pub fn curve(&self, cases: &Cases, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
+    pub fn curve(&self, cases: &Cases, im_x: &Measure, im_y: Option<&Measure>) -> Option<&CurveFit> {
         let mut fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
-        fits.find(|fit| (fit.im_x, fit.im_y) == (im_x, im_y))
+        fits.find(|fit| (&fit.im_x, fit.im_y.as_ref()) == (im_x, im_y))
     }
 
     /// The regressions of the demand of some cases, of one form.
@@ -68,8 +68,8 @@ pub fn name(cases: &Cases) -> String {
 /// Label of the demand (Eq. 7).
 pub const DEMAND: &str = "|*θ*|_{max} / *α*";
 
-/// Label of a measure (Eq. 13).
-pub fn label(measure: Measure) -> &'static str {
+/// Label of a measure (Eq. 13), or the column of a further one.
+pub fn label(measure: &Measure) -> &str {
     match measure {
         Measure::Im1 => "*ω*_{p} / *p*",
         Measure::Im2 => "*ω*_{m} / *p*",
@@ -78,6 +78,16 @@ pub fn label(measure: Measure) -> &'static str {
         Measure::Im5 => "*p* PGV / (*g* tan *α*)",
         Measure::Im6 => "*ω*_{m} PGV / (*g* tan *α*)",
         Measure::Im3Inverse => "*p* PGV / PGA",
+        Measure::Column(name) => name,
+    }
+}
+
+/// Short name of a measure, marked text.
+pub fn short_label(measure: &Measure) -> String {
+    match measure {
+        Measure::Im3Inverse => "1/IM3".to_string(),
+        Measure::Column(name) => literal(name),
+        of_paper => of_paper.as_str().to_uppercase(),
     }
 }
 
@@ -87,9 +97,9 @@ pub fn scaled_label(measure: ScaledMeasure) -> &'static str {
         ScaledMeasure::Scale => "factor on the motion",
         ScaledMeasure::Pga => "PGA (g)",
         ScaledMeasure::Pgv => "PGV (m/s)",
-        ScaledMeasure::Im4 => label(Measure::Im4),
-        ScaledMeasure::Im5 => label(Measure::Im5),
-        ScaledMeasure::Im6 => label(Measure::Im6),
+        ScaledMeasure::Im4 => label(&Measure::Im4),
+        ScaledMeasure::Im5 => label(&Measure::Im5),
+        ScaledMeasure::Im6 => label(&Measure::Im6),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::common::{DEMAND, Fits, compare, demands, label, name, rocked};
-use crate::fragility::{Case, Cases, DemandFit, DemandModel, Measure, ln_median_demand};
+use super::common::{DEMAND, Fits, by, compare, demands, label, name, rocked, short_label};
+use crate::fragility::{Case, Cases, DemandFit, DemandModel, Group, Measure, Predictors, ln_median_demand};
 use crate::number;
 use crate::report::text::file_words;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
@@ -66,10 +66,6 @@ fn zeta(fit: &DemandFit) -> Option<f64> {
     Some(fit.beta? / b).filter(|_| b > 0.0)
 }
 
-fn upper_case(measure: Measure) -> String {
-    measure.to_string().to_uppercase()
-}
-
 /// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let mut panels = Vec::new();
@@ -79,7 +75,7 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
             .collect();
         let Range { low, high } = Range::over(points.iter().map(|point| point.x));
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];
-        let mut title = upper_case(measure);
+        let mut title = short_label(&measure);
         if let Some(fit) = fit.filter(|_| low < high) {
             let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
             layers.push(Layer::line("regression", Ink::Data(1), line));
@@ -88,7 +84,7 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
                 .map(|value| value.map_or("-".to_string(), |value| number::fixed(value, 2)));
             title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
         }
-        panels.push(Panel::new(&title, Axis::log(label(measure)), Axis::log(DEMAND), layers));
+        panels.push(Panel::new(&title, Axis::log(label(&measure)), Axis::log(DEMAND), layers));
     }
     let group = name(cases);
     let caption = "Demand in safe rocking over each measure of Eq. 13, with ln EDP = ln *a* + *b* ln IM. *β* \
@@ -98,29 +94,53 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         .explained(compare(caption, "Figure 7"))
 }
 
-/// Figure 8: R2, beta and zeta of the regressions of each group.
+/// Figure 8: R2, beta and zeta of the regressions of each group over all cases, and how well its curves of
+/// overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let qualities: [(&str, &str, FitValue); 3] = [
-        ("More is better", "*R*^{2}", |fit| fit.r2),
-        ("Less is better", "*β*", |fit| fit.beta),
-        ("Less is better", "*ζ* = *β* / *b*", zeta),
+    let laws = fits.demand.iter().filter(|fit| fit.model != DemandModel::Biplanar && fit.r2.is_some());
+    let of_demand = |value: FitValue| -> Vec<Quality> {
+        laws.clone().map(|fit| (fit.group(), row_label(&fit.predictors()), value(fit))).collect()
+    };
+    let curves = fits.curves.iter();
+    let scores = curves.map(|fit| (fit.group(), row_label(&fit.predictors()), fit.held_out_log_score));
+    let panels = [
+        (of_demand(|fit| fit.r2), "*R*^{2} (more is better)"),
+        (of_demand(|fit| fit.beta), "*β* (less is better)"),
+        (of_demand(zeta), "*ζ* = *β* / *b* (less is better)"),
     ];
-    let mut panels = Vec::new();
-    for (title, label, value) in qualities.into_iter().filter(|_| !groups.is_empty()) {
-        let values: Vec<_> =
-            groups.iter().map(|cases| power_laws(fits, cases).map(|fit| fit.and_then(value))).collect();
-        let all = Range::over(values.iter().flatten().flatten().copied());
-        let mut layers = Vec::new();
-        for (number, (cases, values)) in groups.iter().zip(values).enumerate() {
-            let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;
-            let marks = values.into_iter().enumerate();
-            let marks = marks.filter_map(|(row, x)| Some(Mark::new(x?, row as f64 + apart)));
-            layers.push(Layer::new(&name(cases), Ink::Data(number), Shape::Estimates, marks));
-        }
-        let x = Axis::linear(label).over(0.0, 1.08 * all.high.min(MOST_ZETA * all.low.max(0.2)));
-        panels.push(Panel::new(title, x, Axis::names(Measure::SCALAR.map(upper_case)), layers));
+    let panels = panels.into_iter().map(|(all, label)| {
+        let range = Range::over(all.iter().filter_map(|(_, _, value)| *value));
+        let most = 1.08 * range.high.min(MOST_ZETA * range.low.max(0.2));
+        dots(all, Axis::linear(label).over(0.0, most), groups)
+    });
+    let score = Axis::linear("log score of overturning on held-out cases (more is better)");
+    let panels = panels.chain([dots(scores.collect(), score, groups)]).flatten();
+    let caption = "Of the regressions of the demand over all cases, and of the lognormal curves of overturning. \
+                   A measure without a dot has no such number, or one far to the right.";
+    let figure = Figure::new("quality", "Quality of the measures", 2, 0.0, panels.collect());
+    figure.explained(compare(caption, "Figure 8"))
+}
+
+/// The number of a fit, of which group, and the label of its measures.
+type Quality<'a> = (Group<'a>, String, Option<f64>);
+
+fn row_label(predictors: &Predictors) -> String {
+    predictors.measures().map(short_label).collect::<Vec<_>>().join(", ")
+}
+
+/// A panel with a row for each set of measures and a dot for each group; none without a dot.
+fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
+    let names: Vec<String> = by(&all, |(_, name, _)| name).iter().map(|same| same[0].1.clone()).collect();
+    let mut layers = Vec::new();
+    for (number, cases) in groups.iter().enumerate() {
+        let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;
+        let its = all.iter().filter(|(group, _, _)| *group == cases.group());
+        let marks = its.filter_map(|(_, name, value)| {
+            let row = names.iter().position(|other| other == name)?;
+            Some(Mark::new((*value)?, row as f64 + apart))
+        });
+        layers.push(Layer::new(&name(cases), Ink::Data(number), Shape::Estimates, marks));
     }
-    let caption = "Of the regressions of the demand on one measure. A measure without a dot has no such \
-                   number, or one far to the right.";
-    Figure::new("quality", "Quality of the measures", 3, 0.0, panels).explained(compare(caption, "Figure 8"))
+    layers.retain(|layer| !layer.marks.is_empty());
+    (!layers.is_empty()).then(|| Panel::new("", x, Axis::names(names), layers))
 }

@@ -15,4 +15,4 @@ pub use map::maps;
 pub use motion::{envelope, motion, similarity};
 pub use planes::planes;
 pub use probability::{exceedance, hybrids, overturning};
-pub use studies::{ida, ranking, validation};
+pub use studies::{ida, validation};

@@ -21,7 +21,7 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 
 /// The structures of a suite over one measure.
 struct Over<'a> {
-    measure: &'static str,
+    measure: &'a str,
     structures: Vec<Drawn<'a>>,
 }
 
@@ -44,7 +44,7 @@ pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
 
 /// Figure 11: probability of overturning over single measures.
 pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let single = [Measure::Im4, Measure::Im5].into_iter();
+    let single = [&Measure::Im4, &Measure::Im5].into_iter();
     let all = single.flat_map(|measure| suites.iter().map(move |groups| over(fits, groups, measure, None)));
     let panels = panels("*P*_{ro}", all.collect());
     let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
@@ -54,7 +54,7 @@ pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
 
 /// Figure 12: probability of overturning over hybrid measures (Eq. 23).
 pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let all = suites.iter().map(|groups| over(fits, groups, Measure::Im4, Some(Measure::Im3Inverse)));
+    let all = suites.iter().map(|groups| over(fits, groups, &Measure::Im4, Some(&Measure::Im3Inverse)));
     let panels = panels("*P*_{ro}", all.collect());
     let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
                    observed fractions with 95 % limits.";
@@ -121,7 +121,7 @@ fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
         curves: exceeding_curves(fits, cases, span, &im3),
         shares: Vec::new(),
     });
-    Over { measure: label(Measure::Im4), structures: structures.collect() }
+    Over { measure: label(&Measure::Im4), structures: structures.collect() }
 }
 
 fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
@@ -151,7 +151,7 @@ fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec
 }
 
 /// P_ro over a measure, or over a hybrid one at the median IM3.
-fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measure>) -> Over<'a> {
+fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: &'static Measure, im_y: Option<&Measure>) -> Over<'a> {
     let mut structures = Vec::new();
     for &cases in groups {
         let mut drawn = Drawn { cases, curves: Vec::new(), shares: Vec::new() };
@@ -177,14 +177,14 @@ fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: Measure, im_y: Option<Measu
 /// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.
 fn measure_of(fit: &CurveFit, measures: &IntensityMeasures) -> Option<f64> {
     let x = fit.im_x.value_of(measures)?;
-    let Some(im_y) = fit.im_y else { return Some(x) };
+    let Some(im_y) = &fit.im_y else { return Some(x) };
     Some(hybrid_measure(x, im_y.value_of(measures)?, lambda(&fit.coefficients).0))
 }
 
 /// The measures of a motion of this IM3 at which the measure of a curve of IM4, IM5 or the hybrid of
 /// IM4 and 1/IM3 has a value: the inverse of [`measure_of`].
 fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
-    let im4 = match (fit.im_x, &fit.coefficients[..]) {
+    let im4 = match (&fit.im_x, &fit.coefficients[..]) {
         (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
         (Measure::Im5, _) => value * im3,
         _ => value,

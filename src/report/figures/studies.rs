@@ -1,12 +1,12 @@
-//! Incremental dynamic analysis, validation and ranking.
+//! Incremental dynamic analysis and validation.
 
 use super::common::{by, observed_shares, scaled_label, title};
-use crate::fragility::{Z_95, p_overturning};
+use crate::fragility::p_overturning;
 use crate::report::text::literal;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
 use crate::rocking::CapacityStatus;
 use crate::statistics::numerics::equal_ratios;
-use crate::studies::{Form, RankedSet, ReliabilityBin, Target};
+use crate::studies::ReliabilityBin;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
 
@@ -14,9 +14,6 @@ use crate::table::responses::OutcomeWord;
 const PANELS: usize = 24;
 const LEVELS: usize = 15;
 const STEPS: usize = 100;
-/// The most sets of measures that are drawn, besides those of the paper.
-const SETS: i64 = 6;
-const PAPER: [&str; 2] = ["im3:im4", "im5"];
 
 /// Incremental dynamic analyses: the distribution of the lowest overturning intensities, and the share that
 /// overturns at each level.
@@ -92,36 +89,4 @@ pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let caption =
         "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits.";
     Figure::new("validation", "Predicted and observed", 2, 140.0, panels).explained(caption)
-}
-
-/// Ranking of sets of measures by log score on held-out cases less that of the best, with limits; a panel a
-/// structure, suite and target, a row a set of measures.
-pub fn ranking(sets: &[RankedSet]) -> Figure {
-    let shown = sets.iter().filter(|set| {
-        let is_first = set.rank <= SETS || PAPER.contains(&set.measures.as_str());
-        is_first && set.loss.and(set.loss_error).is_some()
-    });
-    let panels = by(shown, heading).into_iter().take(PANELS).map(ranking_panel).collect();
-    let caption = "Log score on held-out cases, less that of the best set, with 95 % limits.";
-    Figure::new("ranking", "Measures by how well they predict", 1, 0.0, panels).explained(caption)
-}
-
-fn heading(set: &RankedSet) -> String {
-    let target = if set.target == Target::Demand { "demand" } else { "overturning" };
-    format!("{}: {target}", title(&literal(&set.structure), set.suite.as_deref()))
-}
-
-fn ranking_panel(sets: Vec<&RankedSet>) -> Panel {
-    let (mut names, mut marks) = (Vec::new(), Vec::new());
-    for set in &sets {
-        let planes = if set.form == Form::Biplanar { ", two planes" } else { "" };
-        let (y, loss) = (names.len() as f64, set.loss.unwrap_or(f64::NAN));
-        let half = Z_95 * set.loss_error.unwrap_or(f64::NAN);
-        marks.push(Mark { low: loss - half, high: loss + half, ..Mark::new(loss, y) });
-        names.push(format!("{}{planes}", set.measures.to_uppercase().replace(':', ", ")));
-    }
-    let zero = [-0.5, names.len() as f64 - 0.5].map(|y| Mark::new(0.0, y));
-    let layers = vec![Layer::guide(Ink::Muted, zero), Layer::new("", Ink::Data(0), Shape::Estimates, marks)];
-    let x = Axis::linear("log score, less that of the best");
-    Panel::new(&heading(sets[0]), x, Axis::names(names), layers)
 }

@@ -7,7 +7,7 @@ use super::tables::{Kind, Tables};
 use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
-use crate::report::figures::common::{by, called, name, rocked, scaled_label};
+use crate::report::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::report::figures::*;
 use crate::report::text::{literal, minus};
 use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
@@ -107,14 +107,13 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         hybrids(fits, &suites),
         maps(fits, &suites),
         validation(&tables.rows(Kind::Reliability)?),
-        ranking(&tables.rows(Kind::Ranking)?),
         motion(&motions),
         similarity(&tables.groups, &motions).unwrap_or_default(),
         planes(fits, groups),
         exceedance(fits, &suites),
         overturning(fits, &suites),
         demand(groups),
-        quality(fits, &fitted),
+        quality(fits, groups),
     ];
     figures.extend(fitted.iter().map(|cases| regressions(fits, cases)));
     figures.retain(|figure| !figure.panels.is_empty());
@@ -195,10 +194,7 @@ fn cell(row: &Value, field: &str) -> String {
             (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
         },
         Value::String(name) if field == "structure" => literal(name),
-        Value::String(text) if text == "im3_inv" => "1/IM3".to_string(),
-        Value::String(text) if Measure::SCALAR.iter().any(|measure| measure.to_string() == *text) => {
-            text.to_uppercase()
-        }
+        Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
         Value::String(text) => text.replace('_', " "),
         _ => String::new(),
     }
@@ -261,7 +257,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
 fn curve_parameters(tables: &Tables, cases: &Cases) -> (Limited, Limited) {
-    let curve = tables.fits.curve(cases, Measure::Im5, None);
+    let curve = tables.fits.curve(cases, &Measure::Im5, None);
     let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
     let [theta, beta] = [Parameter::Theta, Parameter::Beta].map(|which| {
         let row = parameters.iter().find(|row| row.parameter == which);

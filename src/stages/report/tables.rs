@@ -46,14 +46,13 @@ keywords! {
         Paper = "numbers of the paper",
         Reliability = "observed shares",
         Validation = "validation",
-        Ranking = "ranking of measures",
         Scenarios = "scenarios",
         Other = "another program's table",
     }
 }
 
 /// Columns by which a table is known; the first kind of which it has all counts.
-const COLUMNS: [(Kind, &str); 18] = [
+const COLUMNS: [(Kind, &str); 17] = [
     (Kind::Motions, "acceleration_m_s2 dt_s"),
     (Kind::Traces, "theta_over_alpha time_s"),
     (Kind::Stripes, "outcome intensity scale"),
@@ -70,7 +69,6 @@ const COLUMNS: [(Kind, &str); 18] = [
     (Kind::Paper, "published ours"),
     (Kind::Reliability, "predicted share"),
     (Kind::Validation, "observed expected log_score"),
-    (Kind::Ranking, "loss rank measures"),
     (Kind::Scenarios, "scenario_id gamma"),
 ];
 
@@ -205,7 +203,7 @@ impl Tables {
         let mut kept = Vec::new();
         for item in std::mem::take(&mut self.items) {
             let (has, expected, what) = match item.kind {
-                Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters | Kind::Ranking => {
+                Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters => {
                     (item.input("in"), &responses, "responses")
                 }
                 Kind::Capacities | Kind::CapacityFits | Kind::Stripes => {

@@ -1,10 +1,11 @@
 //! What a stage that fits prints, and the warnings about its fits.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 use std::path::Path;
 
 use crate::fragility::Calibration;
-use crate::number::{aligned, count, significant};
+use crate::number::{aligned, count, fixed, significant};
 use crate::pipeline::options::first_lines;
 use crate::statistics::FitStatus;
 use crate::warning::Warnings;
@@ -39,6 +40,16 @@ pub fn text(
     let headings = headings.iter().map(|heading| heading.to_string()).collect();
     let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
     first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
+}
+
+/// A log score of held-out cases; `by_score` has the best first, and those without one last.
+pub fn score(score: Option<f64>) -> String {
+    score.map_or("-".to_string(), |score| fixed(score, 4))
+}
+
+pub fn by_score(a: Option<f64>, b: Option<f64>) -> Ordering {
+    let [a, b] = [a, b].map(|score| score.unwrap_or(f64::NEG_INFINITY));
+    b.total_cmp(&a)
 }
 
 pub fn suite_name(suite: &Option<String>) -> String {

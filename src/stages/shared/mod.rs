@@ -2,6 +2,7 @@
 
 pub mod fit_tables;
 pub mod model_args;
+pub mod motion_columns;
 pub mod motions;
 pub mod objects;
 pub mod observed;

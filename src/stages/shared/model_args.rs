@@ -272,7 +272,9 @@ impl Models {
         let curves = self.curves.iter().filter(|fit| fit.event == Event::Overturning);
         let curves: Vec<&CurveFit> = curves.filter(|fit| fit.group() == row.group()).collect();
         let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
-        let fits = over.iter().filter_map(|over| curves.iter().find(|fit| (fit.im_x, fit.im_y) == *over));
+        let fits = over
+            .iter()
+            .filter_map(|over| curves.iter().find(|fit| (&fit.im_x, &fit.im_y) == (&over.0, &over.1)));
         let fits: Vec<&CurveFit> = fits.copied().collect();
         if let Some(usable) = fits.iter().find(|fit| fit.status.is_usable()) {
             return Ok((*usable).clone());

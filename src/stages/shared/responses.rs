@@ -5,6 +5,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::motion_columns::MotionColumns;
 use crate::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::counted;
@@ -19,25 +20,19 @@ use crate::table::{frame, rows};
 const COLUMNS: &str =
     "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
 
-/// The name of a further measure, and its values.
-pub type Candidate = (String, Vec<Option<f64>>);
-
-/// Gives further measures of the motions of these names and a structure.
-pub type Candidates<'a> = &'a dyn Fn(&[&str], &Structure) -> anyhow::Result<Vec<Candidate>>;
-
 /// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
 /// come.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
-    read_with(path, None)
+    read_with(path, &MotionColumns::default())
 }
 
-/// Reads responses with candidate measures.
-pub fn read_with(path: &Path, candidates: Option<Candidates>) -> anyhow::Result<Vec<Cases>> {
+/// Reads responses with columns of their motions.
+pub fn read_with(path: &Path, columns: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
     let table = Table::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
-    let measures: Vec<&str> = Measure::SCALAR.iter().map(|measure| measure.into()).collect();
-    for batch in table.batches(|name| measures.contains(&name) || COLUMNS.split(' ').any(|one| one == name)) {
-        add(&mut all, &mut hashes, &batch?, candidates)?;
+    let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
+    for batch in table.batches(|name| is_measure(name) || COLUMNS.split(' ').any(|one| one == name)) {
+        add(&mut all, &mut hashes, &batch?, columns)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
@@ -58,7 +53,7 @@ fn add(
     all: &mut Vec<Cases>,
     hashes: &mut Vec<u64>,
     batch: &Batch,
-    candidates: Option<Candidates>,
+    columns: &MotionColumns,
 ) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
     let (structures, outcomes) = (batch.structures(&names)?, outcomes(batch)?);
@@ -71,7 +66,7 @@ fn add(
         (&suites[row], &names[row], motion, pga[row].to_bits()).hash(&mut hash);
         hashes.push(hash.finish());
     }
-    let motions = candidates.map(|_| batch.required_texts("motion_id")).transpose()?;
+    let motions = if columns.is_empty() { Vec::new() } else { batch.required_texts("motion_id")? };
     let groups = (0..names.len()).map(|row| Group { suite: suites[row].as_deref(), structure: &names[row] });
     for rows in frame::groups(groups)? {
         let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
@@ -95,13 +90,9 @@ fn add(
                 cluster: 0,
             };
             cases.push(case, Cluster::new(earthquakes[row].as_deref(), mw[row], re_km[row]));
-        }
-        let Some((candidates, motions)) = candidates.zip(motions.as_ref()) else { continue };
-        let motions: Vec<&str> = rows.iter().map(|&row| &*motions[row]).collect();
-        for (name, values) in candidates(&motions, &cases.structure)? {
-            match cases.candidates.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, column)) => column.extend(values),
-                None => cases.candidates.push((name, values)),
+            let Some(motion) = motions.get(row) else { continue };
+            for (name, value) in columns.values(motion, &structures[row])? {
+                cases.columns.entry(name.to_string()).or_default().push(value);
             }
         }
     }
