@@ -1,4 +1,4 @@
-//! Hashes the sources and data of the program, which are part of the key of every result.
+//! Hashes the sources, data and dependencies of the program, which are part of the key of every result.
 
 use std::path::{Path, PathBuf};
 
@@ -9,6 +9,9 @@ fn main() {
         println!("cargo:rerun-if-changed={folder}");
         add_folder(&mut hash, &root.join(folder), folder);
     }
+    // Another version of a dependency may give other numbers.
+    println!("cargo:rerun-if-changed=Cargo.lock");
+    add_file(&mut hash, &root.join("Cargo.lock"), "Cargo.lock");
     println!("cargo:rustc-env=ROCKFRAG_PROGRAM={hash:032x}");
 }
 
@@ -33,12 +36,17 @@ fn add_folder(hash: &mut u128, folder: &Path, name: &str) {
         let (path, name) = (folder.join(&entry), format!("{name}/{entry}"));
         if path.is_dir() {
             add_folder(hash, &path, &name);
-        } else if let Ok(mut bytes) = std::fs::read(&path) {
-            // A checkout may end its lines in CR LF.
-            bytes.retain(|byte| *byte != b'\r');
-            add(hash, name.as_bytes());
-            add(hash, &bytes.len().to_le_bytes());
-            add(hash, &bytes);
+        } else {
+            add_file(hash, &path, &name);
         }
     }
+}
+
+fn add_file(hash: &mut u128, path: &Path, name: &str) {
+    let Ok(mut bytes) = std::fs::read(path) else { return };
+    // A checkout may end its lines in CR LF.
+    bytes.retain(|byte| *byte != b'\r');
+    add(hash, name.as_bytes());
+    add(hash, &bytes.len().to_le_bytes());
+    add(hash, &bytes);
 }
