@@ -3,13 +3,12 @@
 //! Parquet's reader compares.
 
 use std::fs::File;
-use std::io::{Read, Result, Seek, SeekFrom};
+use std::io::{Error, Read, Result, Seek, SeekFrom};
 use std::path::Path;
 
 use parquet::arrow::ProjectionMask;
 use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, RowGroupMetaData};
 
-use super::TableError;
 use super::provenance::is_ours;
 
 /// Key of the checksums among the key-value metadata.
@@ -36,12 +35,11 @@ pub fn checksums(path: &Path, groups: &[RowGroupMetaData]) -> Result<KeyValue> {
 /// Compares some columns of a row group with their checksums, if the file has any and no other program has
 /// written it since.
 pub fn expect_undamaged(
-    path: &Path,
     file: &File,
     metadata: &ParquetMetaData,
     group: usize,
     wanted: &ProjectionMask,
-) -> std::result::Result<(), TableError> {
+) -> Result<()> {
     let footer = metadata.file_metadata();
     let pairs = footer.key_value_metadata().filter(|_| is_ours(footer)).into_iter().flatten();
     let Some(checksums) = pairs.filter(|pair| pair.key == KEY).find_map(|pair| pair.value.as_ref()) else {
@@ -49,12 +47,12 @@ pub fn expect_undamaged(
     };
     let columns = metadata.row_group(group).columns();
     for (leaf, column) in columns.iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf)) {
-        let found = checksum(file, column).map_err(|cause| TableError::parquet(path, cause))?;
+        let found = checksum(file, column)?;
         let first = DIGITS * (group * columns.len() + leaf);
         if checksums.get(first..first + DIGITS) != Some(&found) {
             let (name, group) = (column.column_path().parts()[0].as_str(), group + 1);
             let damage = format!("column '{name}' of row group {group} is damaged: make the file again");
-            return Err(TableError::parquet(path, damage));
+            return Err(Error::other(damage));
         }
     }
     Ok(())

@@ -220,7 +220,7 @@ impl Table {
         let mask = ProjectionMask::roots(schema, roots);
         expect_small(path, metadata.metadata().row_group(group.group), &mask)?;
         let file = File::open(path).map_err(|source| TableError::io(path, source))?;
-        expect_undamaged(path, &file, metadata.metadata(), group.group, &mask)?;
+        guarded(path, || expect_undamaged(&file, metadata.metadata(), group.group, &mask))?;
         guarded(path, || {
             ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
                 .with_projection(mask)

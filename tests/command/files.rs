@@ -8,7 +8,7 @@ use std::process::Command;
 
 use arrow_array::RecordBatch;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{KeyValue, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
 
 use crate::common::{SMALL, bytes, fail, folder, folder_with, made, rockfrag, succeed, texts, write};
@@ -225,6 +225,28 @@ fn a_link_keeps_pointing_and_a_long_name_is_a_name() {
     let name = format!("{}.parquet", "n".repeat(247));
     succeed(folder.path(), &sample(&name));
     assert!(succeed(folder.path(), &sample(&name)).1.contains("up to date"));
+}
+
+#[test]
+fn a_table_whose_footer_points_before_its_start_is_damaged() {
+    let folder = folder(&[]);
+    succeed(folder.path(), "sample-scenarios --samples 2 --out s.parquet");
+    let path = folder.path().join("s.parquet");
+    let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(&path).unwrap()).unwrap();
+    let footer = reader.metadata().as_ref().clone();
+    let groups = footer.row_groups().iter().map(|group| {
+        let columns = group.columns().iter().map(|column| {
+            let builder = column.clone().into_builder().set_dictionary_page_offset(None);
+            builder.set_data_page_offset(-5).build().unwrap()
+        });
+        group.clone().into_builder().set_column_metadata(columns.collect()).build().unwrap()
+    });
+    let groups = groups.collect();
+    let mut damaged = bytes(&path);
+    let footer = footer.into_builder().set_row_groups(groups).build();
+    ParquetMetaDataWriter::new(&mut damaged, &footer).finish().unwrap();
+    fs::write(&path, damaged).unwrap();
+    fail(folder.path(), "synthesize-motions --in s.parquet --out m.parquet", 1, &["s.parquet", "damaged"]);
 }
 
 #[test]
