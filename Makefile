@@ -8,7 +8,7 @@
 #     make universal       the fragility surface that is shipped, of records: AT2=folder TABLE=list.csv
 #     make picture         the head of the report in docs/report.png (chromium, selenium)
 #     make peers           the table of speeds in docs/review/speed.md
-# `rockfrag run` does the same from pipeline.yaml alone. A stage that is up to date leaves its file as it is; touching it
+# `rockfrag run` does the same from pipeline.yaml alone. A stage leaves a table that is up to date as it is; touching it
 # tells make so.
 
 ROCKFRAG ?= target/release/rockfrag
@@ -40,7 +40,7 @@ $(OUT)/paper.parquet: $(OUT)/pex.parquet $(OUT)/pro.parquet
 	$(ROCKFRAG) compare-paper --pex $(OUT)/pex.parquet --pro $(OUT)/pro.parquet --out $@ && touch $@
 
 $(OUT)/report.html: $(OUT)/paper.parquet
-	$(ROCKFRAG) report --in $(OUT) --out $@ && touch $@
+	$(ROCKFRAG) report --in $(OUT) --out $@
 
 check:
 	.ci/run

@@ -11,7 +11,7 @@ use rockfrag::cli::config::arguments;
 use rockfrag::cli::{calls_of, configured, stage_commands};
 use rockfrag::pipeline::cache::{self, Done};
 use rockfrag::pipeline::call::Call;
-use rockfrag::pipeline::context::Context;
+use rockfrag::pipeline::context::{Caller, Context};
 use rockfrag::stages::inspect::Inspect;
 use serde_json::Value;
 
@@ -81,7 +81,7 @@ pub fn run_pipeline(
 ) -> PyResult<Vec<Made>> {
     run(py, threads, progress.as_ref(), move |mut context| {
         let calls = calls_of(&pipeline, out, seed)?;
-        context.common.force = force;
+        (context.common.force, context.caller) = (force, Caller::Run);
         let mut made = HashMap::new();
         calls.iter().map(|call| make(call, &context, &mut made)).collect()
     })

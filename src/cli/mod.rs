@@ -16,11 +16,13 @@ use serde_json::{Value, json};
 
 use self::config::{Config, assigned};
 use crate::number::shown;
+use crate::pipeline::UsageError;
+use crate::pipeline::cache::{self, is_view};
 use crate::pipeline::call::Call;
-use crate::pipeline::context::{COMMON, Common, Context, threads_of};
+use crate::pipeline::context::{COMMON, Caller, Common, Context, threads_of};
 use crate::pipeline::options::in_one_line;
 use crate::pipeline::paths::{Role, path_kind};
-use crate::pipeline::{UsageError, cache};
+use crate::source::split_sheet;
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::file::quiet_damage;
 use crate::table::keys::resolved;
@@ -174,7 +176,7 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
             let calls = calls_of(&pipeline, out, seed)?;
             match dry_run {
                 true => run::dry_run(&calls)?,
-                false => run::run(&calls, &Context::new(common))?,
+                false => run::run(&calls, &Context::new(common, Caller::Run))?,
             }
         }
         Tool::Init { start, out, quiet } => {
@@ -194,7 +196,7 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let call = configured(command, user)?;
     set_threads(&call.common)?;
-    let context = Context::new(call.common.clone());
+    let context = Context::new(call.common.clone(), Caller::Command);
     let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.common.quiet {
         let _ = writeln!(std::io::stderr(), "{}: up to date", call.name);
@@ -273,6 +275,15 @@ pub fn calls_of(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> any
             }
         }
         calls.push(call);
+    }
+    for call in &calls {
+        let read = call.stage.inputs().into_iter().flat_map(|read| read.paths);
+        for path in read.map(|path| split_sheet(&path).0).filter(|path| is_view(path)) {
+            if let Some(writer) = written.get(&resolved(&path)) {
+                let problem = format!("{writer} writes {}, which {} reads", path.display(), call.name);
+                return Err(refuse(pipeline, &problem));
+            }
+        }
     }
     match calls.is_empty() {
         true => Err(refuse(pipeline, "no stage; expected at least one")),

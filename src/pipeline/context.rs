@@ -14,10 +14,9 @@ use super::options::{UsageError, number};
 use crate::keyword::keywords;
 use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file, resolved};
-use crate::table::marks::is_ours;
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
-use crate::table::writer::{TableWriter, Written};
+use crate::table::writer::{Existing, TableWriter, Written, persist};
 use crate::warning::Warnings;
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
@@ -45,7 +44,7 @@ pub struct Common {
     /// Pipeline file whose section gives further options
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
-    /// Run even if up to date; replace files of other programs
+    /// Run even if up to date; replace what is there
     #[arg(long)]
     pub force: bool,
     /// Threads [default: all]
@@ -118,25 +117,36 @@ fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// Who calls a stage: a run writes the files without a mark that its pipeline file names again.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Caller {
+    #[default]
+    Command,
+    Run,
+}
+
 #[derive(Default)]
 pub struct Context {
     pub common: Common,
+    pub caller: Caller,
     pub observed: Arc<Observed>,
-    plan: Plan,
+    pub plan: Plan,
     warnings: Mutex<Warnings>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
     written: Mutex<Vec<Written>>,
+    /// Files that go when these get their names.
+    former: Mutex<Vec<PathBuf>>,
 }
 
 impl Context {
-    pub fn new(common: Common) -> Context {
-        Context { common, ..Context::default() }
+    pub fn new(common: Common, caller: Caller) -> Context {
+        Context { common, caller, ..Context::default() }
     }
 
     /// Returns the context of a planned call.
     pub fn begin(&self, plan: Plan) -> Context {
         let (common, observed) = (self.common.clone(), self.observed.clone());
-        Context { common, observed, plan, ..Context::default() }
+        Context { common, caller: self.caller, observed, plan, ..Context::default() }
     }
 
     /// Returns what is made, before it has a text.
@@ -159,20 +169,30 @@ impl Context {
         Ok(writer)
     }
 
-    /// Ends a table with its [`Context::provenance`].
+    /// Ends a table with its provenance.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
-        let made = self.provenance(writer.path(), summary);
+        let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
+        let (summary, warnings) = (summary.to_string(), self.warnings());
+        let made = Provenance { summary, warnings, ..self.plan.output(output) };
         let written = writer.finish(&made)?;
         locked(&self.written).push(written);
         Ok(())
     }
 
-    /// Removes what the stage once wrote beside an output that it now makes without it.
-    pub fn remove_former(&self, path: &Path) {
-        let made = Provenance::read(path).ok().flatten();
-        if made.is_some_and(|made| made.stage == self.made().stage) {
-            let _ = std::fs::remove_file(path);
+    /// Removes, once `out` is replaced, what the same call as its present content wrote beside it.
+    pub fn remove_former(&self, out: &Path, beside: PathBuf) {
+        let [made, other] = [out, &beside].map(|path| Provenance::read(path).ok().flatten());
+        if let (Some(made), Some(other)) = (made, other)
+            && made.output != other.output
+            && made.key() == (Provenance { output: made.output, ..other }).key()
+        {
+            locked(&self.former).push(beside);
         }
+    }
+
+    /// Returns the paths of all files that were written.
+    pub fn written(&self) -> Vec<PathBuf> {
+        locked(&self.written).iter().map(|written| written.path.clone()).collect()
     }
 
     /// Gives all files that were written their names, unless another program stops the stage or has changed
@@ -180,14 +200,11 @@ impl Context {
     pub fn persist(&self) -> anyhow::Result<()> {
         self.observed.expect_running()?;
         self.expect_unchanged()?;
-        Ok(std::mem::take(&mut *locked(&self.written)).into_iter().try_for_each(Written::persist)?)
-    }
-
-    /// Returns the provenance of a finished output.
-    pub fn provenance(&self, out: &Path, summary: &str) -> Provenance {
-        let output = self.plan.outputs.iter().position(|output| output == out).unwrap_or_default();
-        let (summary, warnings) = (summary.to_string(), self.warnings());
-        Provenance { summary, warnings, ..self.plan.output(output) }
+        persist(std::mem::take(&mut *locked(&self.written)), Existing::Replaced)?;
+        for former in &*locked(&self.former) {
+            let _ = std::fs::remove_file(former);
+        }
+        Ok(())
     }
 
     /// Checks that no input was changed since the plan was made.
@@ -200,16 +217,9 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table, unless one of another program is there. One with the same content
-    /// stays untouched.
+    /// Writes a file that is no table.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         self.observed.expect_running()?;
-        if std::fs::read(path).is_ok_and(|there| there == content) {
-            return Ok(());
-        }
-        if path.exists() && !self.common.force && !is_ours(path, content) {
-            return Err(TableError::not_ours(path).into());
-        }
         let written = Written::new(path, content)?;
         locked(&self.written).push(written);
         Ok(())

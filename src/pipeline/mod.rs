@@ -36,6 +36,12 @@ pub trait Stage {
         Ok(())
     }
 
+    /// Returns the text to print of tables that are up to date, by the text in their footer; none if only
+    /// running the stage gives it.
+    fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
+        Ok(Some(summary.to_string()))
+    }
+
     /// Runs the stage. Returns the text to print.
     fn run(&self, context: &Context) -> anyhow::Result<String>;
 }

@@ -8,7 +8,7 @@ use super::axis::Ruler;
 use super::figure::{Dash, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side};
 use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
 use super::text::{escape, html, literal, words};
-use crate::table::marks::sealed;
+use crate::table::provenance::CREATED_BY;
 
 /// Width of a file, points: across two columns of a journal, 180 mm.
 const FILE_WIDTH: f64 = 510.2;
@@ -40,8 +40,8 @@ const FEW_POINTS: usize = 400;
 /// The fonts of a file: the first that its reader has.
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
 
-/// Writes a figure as an SVG file on white, with the key of what made it.
-pub fn svg(figure: &Figure, key: &str) -> String {
+/// Writes a figure as an SVG file on white.
+pub fn svg(figure: &Figure) -> String {
     let (body, height) = drawn(figure, FILE_WIDTH);
     let width = FILE_WIDTH;
     let captions = figure.panels.iter().map(|panel| words(&panel.caption));
@@ -49,15 +49,12 @@ pub fn svg(figure: &Figure, key: &str) -> String {
         std::iter::once(words(&figure.caption)).chain(captions).filter(|text| !text.is_empty()).collect();
     let (title, caption) = (escape(&words(&figure.title)), escape(&caption.join(" ")));
     let size = format!("width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\"");
-    let meta = format!(
-        "<meta xmlns=\"http://www.w3.org/1999/xhtml\" name=\"rockfrag\" content=\"{}\"/>",
-        escape(key)
-    );
-    sealed(format!(
+    let meta = format!("xmlns=\"http://www.w3.org/1999/xhtml\" name=\"generator\" content=\"{CREATED_BY}\"");
+    format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n\
-         <metadata>{meta}</metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
+         <metadata><meta {meta}/></metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n{body}</svg>\n"
-    ))
+    )
 }
 
 /// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
@@ -94,8 +91,8 @@ pub fn html_of_panels(figure: &Figure) -> String {
 /// Dots per inch of PNG files.
 pub const DPI: f32 = 300.0;
 
-/// Draws an SVG file as PNG with so many dots per inch, with the key of what made it.
-pub fn png(svg: &str, dpi: f32, key: &str) -> Result<Vec<u8>, resvg::usvg::Error> {
+/// Draws an SVG file as PNG with so many dots per inch.
+pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
     use resvg::{tiny_skia, usvg};
     let mut options = usvg::Options { dpi, font_family: "Fira Sans".to_string(), ..usvg::Options::default() };
     let faces: [&[u8]; 3] = [
@@ -109,15 +106,13 @@ pub fn png(svg: &str, dpi: f32, key: &str) -> Result<Vec<u8>, resvg::usvg::Error
     let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height()).ok_or(usvg::Error::InvalidSize)?;
     resvg::render(&tree, tiny_skia::Transform::identity(), &mut pixels.as_mut());
     let drawn = pixels.encode_png().map_err(|_| usvg::Error::InvalidSize)?;
-    Ok(with_text(&drawn, key))
+    Ok(named(&drawn))
 }
 
-/// A PNG with its hash and a text, called rockfrag, behind its head: a chunk of its length, its kind, its words
-/// and their sum.
-fn with_text(png: &[u8], text: &str) -> Vec<u8> {
+/// A PNG with our name behind its head: a chunk of its length, its kind, its words and their sum.
+fn named(png: &[u8]) -> Vec<u8> {
     const HEAD: usize = 33;
-    let hash = blake3::hash(png).to_hex();
-    let content = [b"iTXtrockfrag\0\0\0\0\0", hash.as_bytes(), text.as_bytes()].concat();
+    let content = [b"tEXtSoftware\0", CREATED_BY.as_bytes()].concat();
     let mut sum = flate2::Crc::new();
     sum.update(&content);
     let [length, sum] = [content.len() as u32 - 4, sum.sum()].map(u32::to_be_bytes);

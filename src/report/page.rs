@@ -4,7 +4,6 @@
 use super::draw::html_of_panels;
 use super::figure::Figure;
 use super::text::{escape, html, words};
-use crate::table::marks::sealed;
 
 /// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are
 /// marked text, see [`super::text`].
@@ -29,8 +28,6 @@ pub struct Page {
     pub figures: Vec<Figure>,
     /// Folded: method, tests, files.
     pub sections: Vec<Section>,
-    /// Provenance of the page, which shows whether it is up to date.
-    pub key: String,
 }
 
 /// A number in large letters, with what it is.
@@ -102,11 +99,10 @@ impl Page {
                 format!("<div>\n{table}<div class=\"notes\">{}</div></div>\n", paragraphs(notes))
             }
         };
-        sealed(format!(
+        format!(
             include_str!("assets/page.html"),
             style = include_str!("assets/page.css"),
             title = escape(&self.title),
-            key = escape(&self.key),
             byline = escape(&self.byline),
             place = html(&self.place),
             sentence = html(&self.sentence),
@@ -120,7 +116,7 @@ impl Page {
             tables = tables.collect::<String>(),
             sections = self.sections.iter().map(write_section).collect::<String>(),
             version = env!("CARGO_PKG_VERSION"),
-        ))
+        )
     }
 }
 

@@ -5,24 +5,12 @@ use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, XlsxError};
 
-/// The name of our property, by which a workbook of ours is known.
-pub const MARK: &str = "rockfrag";
-/// Letters of one property: Excel allows 255.
-const PART: usize = 240;
-
-/// Writes rows as a workbook with one sheet; `key` is what made it. A property of a workbook is short, so
-/// that the key is written in parts: rockfrag, rockfrag1, rockfrag2 and so on.
-pub fn workbook(rows: &[RecordBatch], key: &str) -> Result<Vec<u8>, XlsxError> {
+/// Writes rows as a workbook with one sheet.
+pub fn workbook(rows: &[RecordBatch]) -> Result<Vec<u8>, XlsxError> {
     let mut book = Workbook::new();
-    let letters: Vec<char> = key.chars().collect();
     // What is the same is the same whenever it is written.
     let created = ExcelDateTime::from_ymd(2000, 1, 1)?;
-    let mut properties = DocProperties::new().set_creation_datetime(&created);
-    for (number, part) in letters.chunks(PART).enumerate() {
-        let name = if number == 0 { MARK.to_string() } else { format!("{MARK}{number}") };
-        properties = properties.set_custom_property(name, part.iter().collect::<String>());
-    }
-    book.set_properties(&properties);
+    book.set_properties(&DocProperties::new().set_creation_datetime(&created));
     let sheet = book.add_worksheet();
     sheet.set_name("rockfrag")?.set_freeze_panes(1, 1)?;
     let bold = Format::new().set_bold();

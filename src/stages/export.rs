@@ -17,7 +17,6 @@ use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::statistics::numerics::{equal_ratios, first};
-use crate::table::marks::xml_mark;
 use crate::warning::Warnings;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
@@ -103,10 +102,7 @@ impl Stage for Export {
         };
         let files = self.outputs();
         match self.to {
-            Program::OpenQuake => {
-                let marked = discrete(&model).replacen('\n', &format!("\n{}\n", xml_mark()), 1);
-                context.write_file(&files[0], marked.as_bytes())?;
-            }
+            Program::OpenQuake => context.write_file(&files[0], discrete(&model).as_bytes())?,
             Program::Pelicun => {
                 let json = serde_json::to_string_pretty(&metadata(&model))? + "\n";
                 context.write_file(&files[0], json.as_bytes())?;

@@ -7,7 +7,7 @@ use chrono::Local;
 use clap::ValueEnum;
 
 use crate::pipeline::UsageError;
-use crate::table::writer::Written;
+use crate::table::writer::{Existing, Written, persist};
 
 /// What a folder starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -48,15 +48,11 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
             "{path}: is there already; choose another folder with --out"
         )));
     }
-    let (mut text, today) = (String::new(), Local::now().date_naive().to_string());
+    let today = Local::now().date_naive().to_string();
     let written =
         files.iter().map(|(path, text)| Written::new(path, text.replace("TODAY", &today).as_bytes()));
-    let written = written.collect::<Result<Vec<_>, _>>()?;
-    for ((path, _), written) in files.iter().zip(written) {
-        // A file that came meanwhile is left as it is.
-        written.persist_new()?;
-        writeln!(text, "wrote {}", path.display())?;
-    }
+    persist(written.collect::<Result<_, _>>()?, Existing::Kept)?;
+    let mut text: String = files.iter().map(|(path, _)| format!("wrote {}\n", path.display())).collect();
     let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };
     let before = if start == Start::Records { "put your records into the folder records, then " } else { "" };
     writeln!(text, "next: {before}{there}rockfrag run")?;

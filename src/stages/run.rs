@@ -82,7 +82,7 @@ pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
     let mut planned = Planned::new();
     for call in calls {
         let plan = call.plan(&planned)?;
-        let would = match cache::freshness(&plan) {
+        let would = match cache::freshness(call, &plan) {
             Ok(_) => "up to date".to_string(),
             Err(reason) => format!("run: {reason}"),
         };

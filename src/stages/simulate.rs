@@ -120,7 +120,7 @@ impl Stage for Simulate {
         let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
         match traces {
             Some(traces) => context.finish(traces, &summary)?,
-            None => context.remove_former(&part(&out, "trace")),
+            None => context.remove_former(&out, part(&out, "trace")),
         }
         context.finish(writer, &summary)?;
         Ok(summary)

@@ -58,6 +58,13 @@ pub fn resolved(path: &Path) -> PathBuf {
     }
 }
 
+impl Provenance {
+    /// Reads the provenance of a table; `None` if another program wrote it.
+    pub fn read(path: &Path) -> Result<Option<Provenance>, TableError> {
+        Ok(Provenance::from_footer(file::metadata(path)?.metadata()))
+    }
+}
+
 /// Computes the key of a table, or of the tables in a folder.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
     let files = if path.is_dir() { file::tables(path)? } else { vec![path.to_path_buf()] };

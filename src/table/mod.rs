@@ -9,7 +9,6 @@
 //! writer      atomic writing
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
-//! marks       what shows that a file is ours
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
 //! capacities  intensities that overturn, one row for each motion and structure
@@ -25,7 +24,6 @@ pub mod dictionary;
 pub mod file;
 pub mod frame;
 pub mod keys;
-pub mod marks;
 pub mod motions;
 pub mod provenance;
 pub mod responses;
@@ -73,7 +71,7 @@ impl TableError {
     }
 
     pub fn not_ours(path: &Path) -> TableError {
-        TableError::table(path, "not written by rockfrag, or damaged; --force replaces it")
+        TableError::table(path, "is there already, not known as rockfrag's; --force replaces it")
     }
 
     /// Any other problem with a table.

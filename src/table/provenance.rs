@@ -1,4 +1,4 @@
-//! Provenance of a file: JSON in the footer of a table, or in the first lines of a page or figure.
+//! Provenance of a table: JSON in its footer.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ const MOST_NAMED: usize = 4;
 /// Writer of the file; another program that rewrites it puts its own name here.
 pub const CREATED_BY: &str = concat!("rockfrag ", env!("CARGO_PKG_VERSION"));
 
-/// A hash of the sources and data of this program.
+/// A hash of the sources, data and dependencies of this program.
 const PROGRAM: &str = env!("ROCKFRAG_PROGRAM");
 
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -26,7 +26,7 @@ pub struct Provenance {
     pub stage: String,
     /// Version of rockfrag.
     pub version: String,
-    /// Hash of its sources and data.
+    /// Hash of its sources, data and dependencies.
     pub program: String,
     /// All options except files, defaults included, by flag.
     pub arguments: BTreeMap<String, Value>,
@@ -34,9 +34,6 @@ pub struct Provenance {
     pub inputs: BTreeMap<String, Vec<InputFile>>,
     /// Which of the files of the stage it is, from 0.
     pub output: usize,
-    /// Hashes of further files that belong to it, by their names beside it.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub further: BTreeMap<String, String>,
     /// Text printed by the stage.
     pub summary: String,
     pub warnings: Warnings,
@@ -140,7 +137,7 @@ impl Provenance {
     }
 
     /// Reads JSON; of another version it has stage, version and summary at least.
-    pub fn from_json(json: &str) -> Option<Provenance> {
+    fn from_json(json: &str) -> Option<Provenance> {
         let value: Value = serde_json::from_str(json).ok()?;
         let [stage, version, summary] =
             ["stage", "version", "summary"].map(|name| value[name].as_str().unwrap_or_default().to_string());
@@ -150,11 +147,7 @@ impl Provenance {
 
     /// Returns the entry of the footer.
     pub fn key_value(&self) -> KeyValue {
-        KeyValue::new(KEY.to_string(), self.json())
-    }
-
-    pub fn json(&self) -> String {
-        serde_json::json!(self).to_string()
+        KeyValue::new(KEY.to_string(), serde_json::json!(self).to_string())
     }
 
     /// Describes the first difference from the planned provenance.

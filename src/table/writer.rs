@@ -1,7 +1,7 @@
 //! Writes a table under a temporary name and renames it: readers never see part of a file.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
@@ -22,41 +22,45 @@ const ROWS_IN_GROUP: usize = 32_768;
 pub const MOTIONS_IN_GROUP: usize = 64;
 /// Bytes after which a row group ends: rows of long motions are written before they fill the memory.
 const MOST_BYTES_IN_GROUP: usize = 256 << 20;
-/// Suffix of files being written.
+/// Suffix of files being written, and how many random letters stand before it: more than a word has.
 const PARTIAL: &str = ".partial";
+const LETTERS: usize = 16;
+/// Links that are followed, as systems do.
+const MOST_LINKS: usize = 40;
 
 pub struct TableWriter {
-    path: PathBuf,
-    writer: ArrowWriter<NamedTempFile>,
+    writer: ArrowWriter<File>,
+    written: Written,
 }
 
 impl TableWriter {
     pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
-        let writer = ArrowWriter::try_new(partial_beside(path)?, schema.clone(), Some(properties(schema)));
-        let writer = writer.map_err(|cause| cannot_write(path, cause))?;
-        Ok(TableWriter { path: path.to_path_buf(), writer })
+        let written = Written::begin(path)?;
+        let file = written.partial.as_file().try_clone().map_err(|source| cannot_write(path, source))?;
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(schema)));
+        Ok(TableWriter { writer: writer.map_err(|cause| cannot_write(path, cause))?, written })
     }
 
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.written.path
     }
 
     /// Its temporary name.
     pub fn partial(&self) -> &Path {
-        self.writer.inner().path()
+        self.written.partial.path()
     }
 
     pub fn append(&mut self, rows: &RecordBatch) -> Result<(), TableError> {
-        self.writer.write(rows).map_err(|cause| cannot_write(&self.path, cause))
+        self.writer.write(rows).map_err(|cause| cannot_write(self.path(), cause))
     }
 
     /// Ends the table.
     pub fn finish(mut self, made: &Provenance) -> Result<Written, TableError> {
-        let checksums = self.checksums().map_err(|cause| cannot_write(&self.path, cause))?;
+        let checksums = self.checksums().map_err(|cause| cannot_write(self.path(), cause))?;
         self.writer.append_key_value_metadata(checksums);
         self.writer.append_key_value_metadata(made.key_value());
-        let partial = self.writer.into_inner().map_err(|cause| cannot_write(&self.path, cause))?;
-        Written::synced(partial, &self.path)
+        self.writer.close().map_err(|cause| cannot_write(&self.written.path, cause))?;
+        self.written.synced()
     }
 
     /// Computes the checksums of all rows, once these are in the file.
@@ -70,87 +74,151 @@ impl TableWriter {
 /// A whole file under its temporary name, which goes with it unless it gets its own.
 pub struct Written {
     partial: NamedTempFile,
-    path: PathBuf,
+    pub path: PathBuf,
+    /// Where `path` leads if it is a link.
+    target: PathBuf,
+}
+
+/// What becomes of a file that has the name already.
+#[derive(Debug, Clone, Copy)]
+pub enum Existing {
+    Replaced,
+    Kept,
 }
 
 impl Written {
     pub fn new(path: &Path, content: &[u8]) -> Result<Written, TableError> {
-        let mut partial = partial_beside(path)?;
-        partial.write_all(content).map_err(|source| cannot_write(path, source))?;
-        Written::synced(partial, path)
+        let mut written = Written::begin(path)?;
+        written.partial.write_all(content).map_err(|source| cannot_write(path, source))?;
+        written.synced()
     }
 
-    fn synced(partial: NamedTempFile, path: &Path) -> Result<Written, TableError> {
-        partial.as_file().sync_all().map_err(|source| cannot_write(path, source))?;
-        Ok(Written { partial, path: path.to_path_buf() })
-    }
-
-    /// Gives it its name, and the permissions of the file that it replaces.
-    pub fn persist(self) -> Result<(), TableError> {
-        let target = linked(&self.path);
-        if let Ok(former) = target.metadata() {
-            let set = self.partial.as_file().set_permissions(former.permissions());
-            set.map_err(|source| cannot_write(&self.path, source))?;
+    fn begin(path: &Path) -> Result<Written, TableError> {
+        let (target, path) = (linked(path), path.to_path_buf());
+        if target.file_name().is_none() {
+            return Err(cannot_write(&path, "that is not a file name"));
         }
-        let renamed = self.partial.persist(target);
-        renamed.map(drop).map_err(|refused| cannot_write(&self.path, refused.error))
+        // Whoever made the link knows where it should lead.
+        if !path.is_symlink() {
+            std::fs::create_dir_all(folder_of(&target)).map_err(|source| cannot_write(&path, source))?;
+        }
+        remove_strays(&target);
+        match beside(&target, create_locked) {
+            Ok(partial) => Ok(Written { partial, path, target }),
+            Err(source) => Err(cannot_write(&path, format!("{}: {source}", folder_of(&target).display()))),
+        }
     }
 
-    /// Gives it its name, unless something is there already.
-    pub fn persist_new(self) -> Result<(), TableError> {
-        let renamed = self.partial.persist_noclobber(&self.path);
-        renamed.map(drop).map_err(|refused| cannot_write(&self.path, refused.error))
+    fn synced(self) -> Result<Written, TableError> {
+        self.partial.as_file().sync_all().map_err(|source| cannot_write(&self.path, source))?;
+        Ok(self)
+    }
+
+    /// Takes the permissions of the file that it replaces, if both have one owner.
+    fn take_permissions(&self) -> io::Result<()> {
+        #[cfg(unix)]
+        if let (Ok(former), own) = (self.target.metadata(), self.partial.as_file().metadata()?) {
+            use std::os::unix::fs::{MetadataExt, PermissionsExt};
+            let [mode, now] = [&former, &own].map(|file| file.mode() & 0o777);
+            // Some file systems refuse to change them.
+            if former.uid() == own.uid() && mode != now {
+                return self.partial.as_file().set_permissions(PermissionsExt::from_mode(mode));
+            }
+        }
+        Ok(())
     }
 }
 
-/// Returns what a link points to, whether it is there or not; any other path as it is.
-fn linked(path: &Path) -> PathBuf {
-    match (path.canonicalize(), path.read_link()) {
-        (Ok(real), Ok(_)) => real,
-        (Err(_), Ok(target)) => path.with_file_name(target),
-        _ => path.to_path_buf(),
+/// Gives files their names, all or none of them.
+pub fn persist(files: Vec<Written>, existing: Existing) -> Result<(), TableError> {
+    for file in &files {
+        file.take_permissions().map_err(|source| cannot_write(&file.path, source))?;
     }
+    let mut named: Vec<(PathBuf, Option<NamedTempFile<()>>)> = Vec::new();
+    for (after, Written { partial, path, target }) in (0..files.len()).rev().zip(files) {
+        let former = if after > 0 && target.exists() {
+            beside(&target, second_name(&target)).map(Some)
+        } else {
+            Ok(None)
+        };
+        let renamed = former.and_then(|former| {
+            let renamed = match existing {
+                Existing::Replaced => partial.persist(&target),
+                Existing::Kept => partial.persist_noclobber(&target),
+            };
+            renamed.map(|_| former).map_err(|refused| refused.error)
+        });
+        match renamed {
+            Ok(former) => named.push((target, former)),
+            Err(source) => {
+                named.into_iter().for_each(|(target, former)| restore(&target, former));
+                return Err(cannot_write(&path, source));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Gives a file a second name: of a copy where the file system knows one name only.
+fn second_name(file: &Path) -> impl Fn(&Path) -> io::Result<()> {
+    move |second| std::fs::hard_link(file, second).or_else(|_| std::fs::copy(file, second).map(drop))
+}
+
+fn restore(target: &Path, former: Option<NamedTempFile<()>>) {
+    let _ = match former {
+        Some(former) => former.persist(target).map(drop).map_err(|refused| refused.error),
+        None => std::fs::remove_file(target),
+    };
+}
+
+/// Returns where a link leads, whether something is there or not; any other path as it is.
+fn linked(path: &Path) -> PathBuf {
+    let next = |path: &PathBuf| path.read_link().ok().map(|next| path.with_file_name(next));
+    let links = std::iter::successors(Some(path.to_path_buf()), next);
+    links.take(MOST_LINKS).last().unwrap_or_default()
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 fn cannot_write(path: &Path, cause: impl ToString) -> TableError {
     TableError::table(path, format!("cannot write: {}", cause.to_string()))
 }
 
-/// Creates a temporary file beside `path`, locked while it is written, so that other runs do not remove it.
-fn partial_beside(path: &Path) -> Result<NamedTempFile, TableError> {
-    let target = linked(path);
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = target.file_name().ok_or_else(|| cannot_write(path, "that is not a file name"))?;
-    let name = name.to_string_lossy();
-    // A name may have 255 bytes, of which the random letters and the suffix take some.
-    let prefix = match name.len() {
+/// How the temporary names of a file begin. A name may have 255 bytes, of which random letters and the suffix
+/// take some.
+fn prefix(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    match name.len() {
         0..=200 => format!(".{name}."),
         _ => format!(".{}.", blake3::hash(name.as_bytes()).to_hex()),
-    };
-    // Whoever made the link knows where it should lead.
-    if !path.is_symlink() {
-        std::fs::create_dir_all(folder).map_err(|source| cannot_write(path, source))?;
-    }
-    remove_strays(folder, &prefix);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(PARTIAL);
-    // Default permissions, in place of the private ones of a temporary file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    loop {
-        let partial = builder.tempfile_in(folder).map_err(|source| cannot_write(path, source))?;
-        // Until it is locked, another run may take it for one of a killed run.
-        if partial.as_file().try_lock().is_ok() && partial.path().exists() {
-            return Ok(partial);
-        }
     }
 }
 
+/// Makes something beside a file under a temporary name.
+fn beside<R>(file: &Path, make: impl FnMut(&Path) -> io::Result<R>) -> io::Result<NamedTempFile<R>> {
+    let prefix = prefix(file);
+    let mut names = tempfile::Builder::new();
+    names.prefix(&prefix).rand_bytes(LETTERS).suffix(PARTIAL).make_in(folder_of(file), make)
+}
+
+/// Creates a file that is locked while it is written, so that other runs do not remove it.
+fn create_locked(path: &Path) -> io::Result<File> {
+    let file = File::create_new(path)?;
+    // Until it is locked, another run may take it for one of a killed run: then the next name is tried.
+    let is_kept = file.try_lock().is_ok() && path.exists();
+    is_kept.then_some(file).ok_or(io::ErrorKind::AlreadyExists.into())
+}
+
 /// Removes files of killed runs. One that cannot be removed does no harm.
-fn remove_strays(folder: &Path, prefix: &str) {
-    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+fn remove_strays(target: &Path) {
+    let prefix = prefix(target);
+    for entry in std::fs::read_dir(folder_of(target)).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        let is_partial = name.starts_with(prefix) && name.ends_with(PARTIAL);
+        let letters = name.strip_prefix(&prefix).and_then(|rest| rest.strip_suffix(PARTIAL));
+        let is_partial = letters.is_some_and(|letters| letters.len() == LETTERS)
+            && entry.file_type().is_ok_and(|kind| kind.is_file());
         if is_partial && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok()) {
             let _ = std::fs::remove_file(entry.path());
         }

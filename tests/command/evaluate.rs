@@ -154,7 +154,7 @@ fn slips_are_refused_or_warned() {
         fail(folder.path(), &format!("evaluate {arguments}"), code, &named);
     }
     for _ in 0..2 {
-        succeed(folder.path(), "evaluate --in both.csv --period 0.6 --level 1 --out written.csv");
+        succeed(folder.path(), "evaluate --in both.csv --period 0.6 --level 1 --out written.csv --force");
     }
     let warned = |arguments: &str| succeed(folder.path(), &format!("evaluate {arguments}")).1;
     assert_eq!(warned(&format!("{BLOCK} --hazard hazard.csv")), "");

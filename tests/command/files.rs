@@ -1,17 +1,16 @@
 //! Files: what is damaged, foreign or in the way is named, and nothing of the user's is lost.
 
-use std::fs;
-use std::io::{Cursor, Read, Write};
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::fs::{self, DirEntry};
+use std::os::unix::fs::{PermissionsExt, chown, symlink};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 
 use arrow_array::RecordBatch;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::{KeyValue, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
 
-use crate::common::{SMALL, bytes, fail, folder, folder_with, made, rockfrag, succeed, texts, write};
+use crate::common::{SMALL, bytes, fail, folder, folder_with, made, ran, rockfrag, succeed, texts, write};
 use crate::common::{write_motions, write_with};
 
 const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
@@ -118,63 +117,181 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
     assert!(before.key() != after.key() && before.arguments == after.arguments);
 }
 
-/// A workbook as a spreadsheet saves it: all parts stay, but for the time.
-fn saved_again(book: Vec<u8>) -> Vec<u8> {
-    let mut parts = zip::ZipArchive::new(Cursor::new(book)).unwrap();
-    let mut saved = zip::ZipWriter::new(Cursor::new(Vec::new()));
-    for at in 0..parts.len() {
-        let mut part = parts.by_index(at).unwrap();
-        let mut text = String::new();
-        part.read_to_string(&mut text).unwrap();
-        saved.start_file(part.name(), zip::write::SimpleFileOptions::default()).unwrap();
-        let text = text
-            .replace("2000-01-01T00:00:00Z</dcterms:modified>", "2026-01-01T00:00:00Z</dcterms:modified>");
-        saved.write_all(text.as_bytes()).unwrap();
+#[test]
+fn a_view_is_written_again_if_it_names_rockfrag_or_a_run_names_it() {
+    let folder = folder(&[
+        ("mine.csv", "object,p_nr,note\ncabinet,1,checked with rockfrag\n"),
+        ("notes.html", "<html><title>rockfrag</title></html>"),
+        ("drawing.svg", "<svg><desc>of rockfrag</desc></svg>"),
+        ("photo.png", "rockfrag"),
+        ("list.xlsx", ""),
+        ("pipeline.yaml", "out: .\nevaluate: { width: 0.5, height: 2, pga: 0.4, pgv: 0.5, out: run.csv }\n"),
+    ]);
+    let at = |name: &str| folder.path().join(name);
+    let evaluate = |out: &str| format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --out {out}");
+    for name in ["mine.csv", "notes.html", "drawing.svg", "photo.png", "list.xlsx"] {
+        let before = bytes(&at(name));
+        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
+        assert_eq!(bytes(&at(name)), before, "{name}");
+        succeed(folder.path(), &format!("{} --force", evaluate(name)));
     }
-    saved.finish().unwrap().into_inner()
+    for (name, is_known) in [
+        ("a.html", true),
+        ("a.svg", true),
+        ("a.png", true),
+        ("a.csv", false),
+        ("a.json", false),
+        ("a.xlsx", false),
+    ] {
+        succeed(folder.path(), &evaluate(name));
+        let first = bytes(&at(name));
+        match is_known {
+            true => drop(succeed(folder.path(), &evaluate(name))),
+            false => fail(folder.path(), &evaluate(name), 1, &[name, "--force"]),
+        }
+        let (_, stderr) = succeed(folder.path(), &format!("{} --force", evaluate(name)));
+        assert!(bytes(&at(name)) == first && !stderr.contains("up to date"), "{name}");
+    }
+    fs::create_dir(at("folder.csv")).unwrap();
+    fail(folder.path(), &format!("{} --force", evaluate("folder.csv")), 2, &["folder.csv"]);
+    let listed = "evaluate --structures a.xlsx#rockfrag --pga 0.4 --pgv 0.5 --out a.xlsx --force";
+    fail(folder.path(), listed, 2, &["a.xlsx", "is read"]);
+    for (to, out) in [("openquake", "e.xml"), ("pelicun", "e.csv")] {
+        let export = format!("export --to {to} {BLOCK} --out {out}");
+        succeed(folder.path(), &export);
+        fail(folder.path(), &export, 1, &["--force"]);
+    }
+    for _ in 0..2 {
+        assert_eq!(ran(&succeed(folder.path(), "run").1), ["evaluate"]);
+    }
+    for (out, code) in [("notes.html", 0), ("pipeline.html", 1), ("list.csv", 2)] {
+        fs::write(at("pipeline.html"), "another's").unwrap();
+        fs::write(at("list.csv"), "name,width,height\na,0.5,2\n").unwrap();
+        let yaml = format!(
+            "out: .\nsimulate: {{ structures: list.csv }}\n\
+             evaluate: {{ width: 0.5, height: 2, pga: 0.4, pgv: 0.5, out: {out} }}\n"
+        );
+        let yaml = if code == 2 { yaml } else { yaml.replace("simulate: { structures: list.csv }\n", "") };
+        fs::write(at("pipeline.yaml"), yaml).unwrap();
+        let output = rockfrag(folder.path(), "run").output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{out}: {output:?}");
+    }
+}
+
+/// Calls the command and stops it when its temporary file is there, does something, and lets it go on.
+fn meanwhile(folder: &Path, call: &str, act: impl FnOnce()) -> Output {
+    let mut call = rockfrag(folder, call);
+    let mut running = call.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let id = running.id().to_string();
+    let signal = |name: &str| assert!(Command::new("kill").args([name, &id]).status().unwrap().success());
+    let is_partial = |entry: DirEntry| entry.file_name().to_string_lossy().ends_with(".partial");
+    while !fs::read_dir(folder).unwrap().flatten().any(is_partial) {
+        assert!(running.try_wait().unwrap().is_none(), "it has ended");
+    }
+    signal("-STOP");
+    act();
+    signal("-CONT");
+    running.wait_with_output().unwrap()
 }
 
 #[test]
-fn foreign_texts_are_not_replaced_and_own_ones_are() {
-    let folder = folder(&[
-        ("mine.csv", "object,p_nr,note\ncabinet,1,checked with rockfrag\n"),
-        ("notes.json", "{\"note\": \"made with rockfrag\", \"p_overturning\": 1}"),
-    ]);
-    let evaluate = |out: &str| format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --out {out}");
-    for name in ["mine.csv", "notes.json"] {
-        let before = bytes(&folder.path().join(name));
-        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
-        assert_eq!(bytes(&folder.path().join(name)), before);
+fn what_comes_while_a_stage_runs_is_kept() {
+    let folder = folder(&[("victim.txt", "victim"), ("list.csv", "name,width,height\na,0.5,2\n")]);
+    let at = |name: &str| folder.path().join(name);
+    succeed(folder.path(), "sample-scenarios --samples 4 --out s.parquet");
+    succeed(folder.path(), "synthesize-motions --in s.parquet --suite csgm --out m.parquet");
+    let simulate = "simulate --in m.parquet --structures list.csv --out";
+    let put = || fs::write(at("file.parquet"), "work of a user").unwrap();
+    let output = meanwhile(folder.path(), &format!("{simulate} file.parquet"), put);
+    assert_eq!(bytes(&at("file.parquet")), b"work of a user", "{output:?}");
+    let link = || symlink("victim.txt", at("link.parquet")).unwrap();
+    let output = meanwhile(folder.path(), &format!("{simulate} link.parquet"), link);
+    assert!(bytes(&at("victim.txt")) == b"victim" && at("link.parquet").is_symlink(), "{output:?}");
+    // A run that fails removes nothing.
+    succeed(folder.path(), &format!("{simulate} r.parquet --trace 1"));
+    let change = || fs::write(at("list.csv"), "name,width,height\nb,0.5,1.8\n").unwrap();
+    let output = meanwhile(folder.path(), &format!("{simulate} r.parquet"), change);
+    assert!(at("r.trace.parquet").exists() && output.status.code() == Some(1), "{output:?}");
+}
+
+#[test]
+fn a_trace_goes_with_its_responses_and_that_of_another_call_stays() {
+    let folder = folder(&[]);
+    let at = |name: &str| folder.path().join(name);
+    write_motions(&at("m.parquet"), 0.01, &[&[0.0, 1.0, 0.0]]);
+    let simulate = format!("simulate --in m.parquet {STRUCTURE} --out");
+    succeed(folder.path(), &format!("{simulate} run.trace.parquet"));
+    let before = bytes(&at("run.trace.parquet"));
+    for out in ["run.parquet", "run.parquet --force"] {
+        succeed(folder.path(), &format!("{simulate} {out}"));
+        assert!(at("run.trace.parquet").exists() && bytes(&at("run.trace.parquet")) == before);
     }
-    for name in ["own.csv", "own.json"] {
-        succeed(folder.path(), &evaluate(name));
-        succeed(folder.path(), &evaluate(name).replace("0.4", "0.3"));
-    }
-    for name in ["cut.html", "cut.svg", "cut.png", "cut.xlsx"] {
-        succeed(folder.path(), &evaluate(name));
-        let whole = bytes(&folder.path().join(name));
-        fs::write(folder.path().join(name), &whole[..whole.len() - 100]).unwrap();
-        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
-        let mut edited = whole.clone();
-        match name {
-            "cut.xlsx" => edited = saved_again(whole),
-            _ => edited[whole.len() / 2] ^= 1,
+    succeed(folder.path(), &format!("{simulate} traced.parquet --trace 0"));
+    assert!(at("traced.trace.parquet").exists());
+    succeed(folder.path(), &format!("{simulate} traced.parquet"));
+    assert!(!at("traced.trace.parquet").exists());
+}
+
+#[test]
+fn a_result_takes_no_more_than_the_permissions_of_its_owner() {
+    let folder = folder(&[]);
+    let path = folder.path().join("s.parquet");
+    let sample = "sample-scenarios --mw 7 --re 5 --samples 2 --out s.parquet --force";
+    let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o7777;
+    succeed(folder.path(), sample);
+    let usual = mode();
+    for (mode_before, owner, expected) in [(0o4640, None, 0o640), (0o6777, Some(1000), usual)] {
+        // Only root gives a file away.
+        if chown(&path, owner, None).is_ok() {
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode_before)).unwrap();
+            succeed(folder.path(), sample);
+            assert_eq!(mode(), expected, "{owner:?}");
         }
-        fs::write(folder.path().join(name), edited).unwrap();
-        fail(folder.path(), &evaluate(name), 1, &[name, "--force"]);
     }
-    let call = "evaluate --structures cut.xlsx#rockfrag --pga 0.4 --pgv 0.5 --out cut.xlsx --force";
-    fail(folder.path(), call, 2, &["cut.xlsx", "is read"]);
-    let export = format!("export --to pelicun {BLOCK} --out mine.csv");
-    fail(folder.path(), &export, 1, &["mine.csv", "--force"]);
-    fs::write(folder.path().join("f.xml"), "<?xml version=\"1.0\"?>\n<a>rockfrag</a>\n").unwrap();
-    fail(folder.path(), &format!("export --to openquake {BLOCK} --out f.xml"), 1, &["f.xml", "--force"]);
-    for height in ["2", "1.8"] {
-        succeed(folder.path(), &format!("export --to openquake --width 0.5 --height {height} --out own.xml"));
-    }
-    for peak in ["pga", "pgv"] {
-        succeed(folder.path(), &format!("export --to pelicun {BLOCK} --over {peak} --out other.csv"));
-    }
+}
+
+#[test]
+fn files_of_a_stage_get_their_names_all_or_none() {
+    let folder = folder(&[]);
+    let at = |name: &str| folder.path().join(name);
+    let push: Vec<f64> = (0..200).map(|k| 5.0 * (0.05 * f64::from(k)).sin()).collect();
+    write_motions(&at("m.parquet"), 0.01, &[&push]);
+    // With this name `stripes`, the first part, has 255 letters, and `fragility`, the next one, too many.
+    let name = "n".repeat(239);
+    let ida = format!("ida --in m.parquet {STRUCTURE} --out {name}.parquet");
+    fail(folder.path(), &ida, 1, &["cannot write", "fragility"]);
+    let there = || fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().file_name());
+    assert_eq!(there().collect::<Vec<_>>(), ["m.parquet"], "no file is new");
+    let stripes = at(&format!("{name}.stripes.parquet"));
+    succeed(folder.path(), "sample-scenarios --mw 7 --re 5 --samples 2 --out s.parquet");
+    fs::rename(at("s.parquet"), &stripes).unwrap();
+    let before = bytes(&stripes);
+    fail(folder.path(), &ida, 1, &["cannot write", "fragility"]);
+    assert!(bytes(&stripes) == before && there().count() == 2, "{:?}", there().collect::<Vec<_>>());
+}
+
+/// What names rockfrag in a page and a figure.
+const GENERATOR: &str = "<meta name=\"generator\" content=\"rockfrag 0\">";
+
+#[test]
+fn a_page_that_names_files_does_nothing_to_them() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let at = |name: &str| folder.path().join(name);
+    let names = ["victim.txt".to_string(), "out/report/victim.csv".to_string()];
+    fs::create_dir(at("out/report")).unwrap();
+    names.iter().for_each(|name| fs::write(at(name), "notes").unwrap());
+    // A page as 0.2 wrote it, with the names and hashes of files that it should have written.
+    let hash = blake3::hash(b"notes").to_hex();
+    let further = format!(
+        "{{&quot;../victim.txt&quot;:&quot;{hash}&quot;,&quot;report/victim.csv&quot;:&quot;{hash}&quot;}}"
+    );
+    let page =
+        format!("{GENERATOR}\n<meta name=\"rockfrag\" content=\"{{&quot;further&quot;:{further}}}\">\n");
+    let seal = blake3::hash(page.as_bytes()).to_hex();
+    fs::write(at("out/report.html"), format!("{page}<!-- hash {seal} -->\n")).unwrap();
+    succeed(folder.path(), "report --in out");
+    assert!(names.iter().all(|name| at(name).exists()));
 }
 
 #[test]
@@ -222,9 +339,45 @@ fn a_link_keeps_pointing_and_a_long_name_is_a_name() {
     symlink("nowhere/s.parquet", path("lost.parquet")).unwrap();
     fail(folder.path(), &sample("lost.parquet"), 1, &["lost.parquet", "nowhere"]);
     assert!(!path("nowhere").exists());
+    for (link, target) in [("chain.parquet", "next.parquet"), ("next.parquet", "there/last.parquet")] {
+        symlink(target, path(link)).unwrap();
+    }
+    succeed(folder.path(), &sample("chain.parquet"));
+    assert!(["chain.parquet", "next.parquet"].iter().all(|link| path(link).is_symlink()));
+    assert!(path("there/last.parquet").is_file());
     let name = format!("{}.parquet", "n".repeat(247));
     succeed(folder.path(), &sample(&name));
     assert!(succeed(folder.path(), &sample(&name)).1.contains("up to date"));
+}
+
+#[test]
+fn only_what_a_killed_run_left_is_removed() {
+    let folder =
+        folder(&[(".s.parquet.backup.partial", "mine"), (".s.parquet.0123456789abcdef.partial", "")]);
+    for letters in ["abcdef", "abcdefghijklmnop"] {
+        let fifo = folder.path().join(format!(".s.parquet.{letters}.partial"));
+        assert!(Command::new("mkfifo").arg(fifo).status().unwrap().success());
+    }
+    let mut call = Command::new("timeout");
+    call.args([
+        "60",
+        env!("CARGO_BIN_EXE_rockfrag"),
+        "sample-scenarios",
+        "--samples",
+        "2",
+        "--out",
+        "s.parquet",
+    ]);
+    assert_eq!(call.current_dir(folder.path()).status().unwrap().code(), Some(0));
+    let names =
+        fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.collect();
+    names.sort_unstable();
+    let kept = ["abcdef.partial", "abcdefghijklmnop.partial", "backup.partial"];
+    assert_eq!(
+        names,
+        [kept.map(|name| format!(".s.parquet.{name}")).to_vec(), vec!["s.parquet".into()]].concat()
+    );
 }
 
 #[test]

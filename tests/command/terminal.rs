@@ -204,7 +204,7 @@ fn a_long_list_is_printed_by_its_worst() {
     let (rows, printed) = objects("--structures long.csv");
     assert!(rows == 20 && printed.contains("and 21 more"), "{printed}");
     assert!(printed.contains("object 40") && !printed.contains("object 1 "), "{printed}");
-    assert_eq!(objects("--structures long.csv --out out.csv --format csv").0, 41);
+    assert_eq!(objects("--structures long.csv --out long.out.csv --format csv").0, 41);
     assert_eq!(objects("--structures long.csv --format json").1.matches("\"structure\"").count(), 41);
 }
 

@@ -218,11 +218,11 @@ fn figures(count: usize) -> Vec<Figure> {
 fn each_figure_is_drawn_and_its_table_has_the_numbers() {
     assert!(figures(100).iter().all(|figure| !figure.panels.is_empty()));
     for figure in [figures(100), figures(1), figures(0)].concat() {
-        let text = svg(&figure, "{\"stage\": \"report\"}");
+        let text = svg(&figure);
         assert!(!text.contains("NaN") && !text.contains("inf"), "{}", figure.name);
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
-        let image = Pixmap::decode_png(&png(&text, 192.0, "{}").expect("the SVG is drawn"))
-            .expect("the PNG is whole");
+        let image =
+            Pixmap::decode_png(&png(&text, 192.0).expect("the SVG is drawn")).expect("the PNG is whole");
         let ratio = |pixels: u32, at_96_dpi: f32| (f64::from(pixels) - 2.0 * f64::from(at_96_dpi)).abs();
         let off = [ratio(image.width(), tree.size().width()), ratio(image.height(), tree.size().height())];
         assert!(off.iter().all(|pixels| *pixels <= 1.0), "{}: {off:?}", figure.name);
@@ -251,7 +251,7 @@ fn values_stand_where_the_axes_say() {
     };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
     assert!(
-        svg(&figure, "").contains("M264.1 66h0"),
+        svg(&figure).contains("M264.1 66h0"),
         "30 and half of 510.2 - 30 - 12 points, 16 and half of 100"
     );
 }
@@ -332,7 +332,15 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
         (output.status.success(), String::from_utf8(output.stderr).unwrap())
     };
     std::fs::write(at("pipeline.yaml"), RUN).unwrap();
-    assert!(call("run").0 && call("run").1.contains("report               up to date"));
+    assert!(call("run").0);
+    let first = std::fs::read(at("out/report.html")).unwrap();
+    let again = call("run");
+    assert!(
+        again.0
+            && again.1.contains("fit-pro              up to date")
+            && !again.1.contains("report               up")
+    );
+    assert!(std::fs::read(at("out/report.html")).unwrap() == first, "the same page has the same bytes");
     let endings = |ending: &str| {
         let files = std::fs::read_dir(at("out/report")).unwrap().map(|file| file.unwrap().path());
         files.filter(|file| file.extension().is_some_and(|of| of == ending)).collect::<Vec<_>>()
@@ -380,7 +388,7 @@ fn values_beyond_all_axes_are_left_out() {
             vec![Layer::line("", Ink::Data(0), points.clone()), Layer::points("", Ink::Text, points.clone())];
         let panel = Panel { x: axis.clone(), y: axis, layers, ..Default::default() };
         let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-        let text = svg(&figure, "");
+        let text = svg(&figure);
         assert!(!text.contains("NaN") && !text.contains("inf") && text.len() < 20_000, "{}", text.len());
         usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
     }
@@ -436,7 +444,7 @@ fn the_expected_number_is_that_of_each_file() {
 fn names_of_responses_are_no_markup() {
     let page = response::page(&[traced(100)]).html();
     assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
-    let words = svg(&response::figure(&traced(100), 0), "");
+    let words = svg(&response::figure(&traced(100), 0));
     assert!(words.contains("<title>Motion m&lt;1&gt;: fra*me*2</title>"));
 }
 
@@ -454,7 +462,8 @@ fn answers_as_workbook_and_picture_are_read_back_and_replaced() {
         let path = folder.path().join(out);
         assert!(evaluate(&format!("--structures list.csv --out {out}")), "{out}");
         let first = std::fs::read(&path).unwrap();
-        assert!(evaluate(&format!("--structures list.csv --years 100 --out {out}")), "{out}");
+        let force = if out == "a.xlsx" { " --force" } else { "" };
+        assert!(evaluate(&format!("--structures list.csv --years 100 --out {out}{force}")), "{out}");
         assert!(first != std::fs::read(&path).unwrap(), "{out} is replaced");
         let foreign = if out == "a.png" { Pixmap::new(4, 4).unwrap().encode_png().unwrap() } else { vec![1] };
         if out == "a.xlsx" {

@@ -7,8 +7,8 @@ Each stage of the command is a function with the command's options::
     rockfrag.fit_pro(responses).part("parameters").to_polars()
 
 A table is anything that speaks Arrow (polars, pandas, pyarrow, DuckDB, a :class:`Result`), or the path of a
-file. With ``out`` a result is that file, and is left as it is when up to date. ``rockfrag.ray`` runs
-partitions on a cluster.
+file. With ``out`` a result is that file; a table that is up to date is left as it is. ``rockfrag.ray``
+runs partitions on a cluster.
 """
 
 from __future__ import annotations

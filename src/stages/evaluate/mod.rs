@@ -109,6 +109,7 @@ pub struct Evaluate {
     extrapolate: bool,
     /// text, csv or json
     #[arg(long, default_value = "text")]
+    #[serde(skip)]
     format: Format,
     /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default:
     /// none; with --in, evaluated.parquet beside it]
@@ -160,14 +161,18 @@ impl Stage for Evaluate {
         Ok(())
     }
 
+    fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
+        Ok((self.format == Format::Text).then(|| summary.to_string()))
+    }
+
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         if let Some(path) = &self.input {
             let mut renames = Renames::new(&self.columns);
             let (rows, text) = table::evaluate(self, path, &mut renames, &models, context)?;
             renames.expect_used()?;
-            let printed = self.printed(&rows, text)?;
-            self.write(&rows, printed, context, || Ok(Page::default()))
+            self.write(&rows, &text, context, || Ok(Page::default()))?;
+            self.in_format(&rows, text)
         } else if self.pga.or(self.pgv).is_some() {
             self.under_motion(&self.motion()?, &models, context)
         } else if self.hazard.is_empty() || self.over.is_some() {
@@ -230,13 +235,14 @@ impl Evaluate {
             Prediction { row: FragilityRow::new(fragility), errors, motion, warnings: Vec::new() }
         })?;
         let text = fragility::text(&all, self.out.as_deref());
-        let printed = self.printed(&[answer_rows(&all, context)?], text)?;
+        let answers = [answer_rows(&all, context)?];
         let page = || {
             let outline = pages::portrait(&objects, models, None, self.years)?.outline;
             let hazard = site.as_ref().and_then(|_| context.made().names("hazard"));
             Ok(fragilities::page(&all, outline, hazard.as_deref()))
         };
-        self.write(&[rows::batch(&fragility::curves(&all))?], printed, context, page)
+        self.write(&[rows::batch(&fragility::curves(&all))?], &text, context, page)?;
+        self.in_format(&answers, text)
     }
 
     fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
@@ -319,45 +325,43 @@ impl Evaluate {
         page: impl Fn() -> anyhow::Result<Page>,
     ) -> anyhow::Result<String> {
         let rows = [answer_rows(all, context)?];
-        let printed = self.printed(&rows, text)?;
-        self.write(&rows, printed, context, page)
+        self.write(&rows, &text, context, page)?;
+        self.in_format(&rows, text)
     }
 
     /// Returns a text, or rows of one schema in the form that is asked for.
-    fn printed(&self, rows: &[RecordBatch], text: String) -> anyhow::Result<String> {
+    fn in_format(&self, rows: &[RecordBatch], text: String) -> anyhow::Result<String> {
         if self.format == Format::Text { Ok(text) } else { shown(rows, self.format) }
     }
 
-    /// Writes rows of one schema, or a page or the main figure of them, by how the name of the file ends; and
-    /// returns what to print.
+    /// Writes rows of one schema, or a page or the main figure of them, by how the name of the file ends.
     fn write(
         &self,
         rows: &[RecordBatch],
-        printed: String,
+        text: &str,
         context: &Context,
         page: impl Fn() -> anyhow::Result<Page>,
-    ) -> anyhow::Result<String> {
+    ) -> anyhow::Result<()> {
         for out in self.outputs() {
             let ending = out.extension().unwrap_or_default().to_string_lossy();
             if ending == "parquet" {
                 let mut writer = context.create(&out, &rows[0].schema())?;
                 rows.iter().try_for_each(|rows| writer.append(rows))?;
-                context.finish(writer, &printed)?;
+                context.finish(writer, text)?;
                 continue;
             }
-            let key = context.provenance(&out, &printed).json();
-            let drawn = |key: &str| Ok::<_, anyhow::Error>(svg(&page()?.main_figure(), key));
+            let drawn = || Ok::<_, anyhow::Error>(svg(&page()?.main_figure()));
             let content = match &*ending {
                 "csv" => shown(rows, Format::Csv)?.into_bytes(),
                 "json" => shown(rows, Format::Json)?.into_bytes(),
-                "xlsx" => workbook(rows, &key)?,
-                "html" => Page { key, ..page()? }.html().into_bytes(),
-                "svg" => drawn(&key)?.into_bytes(),
-                _ => png(&drawn("")?, DPI, &key)?,
+                "xlsx" => workbook(rows)?,
+                "html" => page()?.html().into_bytes(),
+                "svg" => drawn()?.into_bytes(),
+                _ => png(&drawn()?, DPI)?,
             };
             context.write_file(&out, &content)?;
         }
-        Ok(printed)
+        Ok(())
     }
 }
 

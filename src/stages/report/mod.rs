@@ -3,7 +3,6 @@
 mod page;
 mod tables;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,12 +11,10 @@ use serde::Serialize;
 
 use crate::number::counted;
 use crate::pipeline::Stage;
-use crate::pipeline::cache::changed;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
 use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::file;
-use crate::table::provenance::Provenance;
 use tables::Tables;
 
 /// Write a page with tables and figures of everything in a folder, or of files
@@ -74,39 +71,18 @@ impl Stage for Report {
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
         let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
-        let mut made = context.provenance(&page, &summary);
-        let files =
-            figures.par_iter().map(|figure| files_of_figure(figure, &folder.join(&figure.name), &made));
-        let files = files.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        let former = Provenance::read(&page).ok().flatten().map(|made| made.further).unwrap_or_default();
-        files.par_iter().try_for_each(|(path, content)| context.write_file(path, content))?;
-        made.further = hashes(&page, &files);
+        figures.par_iter().try_for_each(|figure| write(figure, &folder.join(&figure.name), context))?;
         let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
         let title = self.title.clone().unwrap_or(whole.title);
-        let html = Page { title, byline, key: made.json(), ..whole }.html();
-        context.write_file(&page, html.as_bytes())?;
-        // Figures of the former page that are no more, unless another program has changed them.
-        for gone in former.iter().filter(|(name, _)| !made.further.contains_key(*name)) {
-            if changed(&page, gone).is_none() {
-                let _ = std::fs::remove_file(page.with_file_name(gone.0));
-            }
-        }
+        context.write_file(&page, Page { title, byline, ..whole }.html().as_bytes())?;
         Ok(summary)
     }
 }
 
-type Files = Vec<(PathBuf, Vec<u8>)>;
-
-fn files_of_figure(figure: &Figure, stem: &Path, made: &Provenance) -> anyhow::Result<Files> {
-    let svg = svg(figure, &made.json());
-    let png = png(&svg, DPI, &made.json())?;
-    let files = [("svg", svg.into_bytes()), ("csv", figure.csv()?.into_bytes()), ("png", png)];
-    Ok(files.map(|(ending, content)| (stem.with_added_extension(ending), content)).to_vec())
-}
-
-/// The hashes of files by their names beside the page.
-fn hashes(page: &Path, files: &Files) -> BTreeMap<String, String> {
-    let folder = page.parent().unwrap_or(Path::new(""));
-    let name = |path: &Path| path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
-    files.iter().map(|(path, content)| (name(path), blake3::hash(content).to_hex().to_string())).collect()
+/// Writes a figure, its picture and its numbers.
+fn write(figure: &Figure, stem: &Path, context: &Context) -> anyhow::Result<()> {
+    let svg = svg(figure);
+    context.write_file(&stem.with_added_extension("png"), &png(&svg, DPI)?)?;
+    context.write_file(&stem.with_added_extension("svg"), svg.as_bytes())?;
+    context.write_file(&stem.with_added_extension("csv"), figure.csv()?.as_bytes())
 }
