@@ -36,6 +36,7 @@ pub struct ComparePaper {
     out: Output,
     /// Print every number, not only the planes of Table II and the worked example
     #[arg(long)]
+    #[serde(skip)]
     all: bool,
 }
 
@@ -50,17 +51,27 @@ impl Stage for ComparePaper {
         vec![self.out.to_path_buf()]
     }
 
+    fn printed(&self, verdict: &str) -> anyhow::Result<Option<String>> {
+        self.text(verdict, &rows::read(&self.out)?).map(Some)
+    }
+
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let demand: Vec<DemandFit> = rows::read(&self.pex)?;
         let compared = compare(&demand, &rows::read(&self.pro)?);
         let differences = [other_structures(&demand), other_options(&self.pex)].concat();
-        let mut summary = verdict(&compared, &differences);
-        summary += &match self.all {
-            true => frame::show(&frame::from_batch(&rows::batch(&compared)?)?, Format::Text)?,
-            false => planes(&compared) + &example(&compared),
+        let verdict = verdict(&compared, &differences);
+        context.write::<Comparison>(&self.out, &compared, &verdict)?;
+        self.text(&verdict, &compared)
+    }
+}
+
+impl ComparePaper {
+    fn text(&self, verdict: &str, compared: &[Comparison]) -> anyhow::Result<String> {
+        let rows = match self.all {
+            true => frame::show(&frame::from_batch(&rows::batch(compared)?)?, Format::Text)?,
+            false => planes(compared) + &example(compared),
         };
-        context.write::<Comparison>(&self.out, &compared, &summary)?;
-        Ok(summary)
+        Ok(verdict.to_string() + &rows)
     }
 }
 

@@ -160,6 +160,27 @@ fn an_option_stated_at_its_default_changes_nothing() {
 }
 
 #[test]
+fn options_of_what_is_printed_change_no_table() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "run");
+    let compare = "compare-paper --pex out/pex.parquet --pro out/pro.parquet --out out/paper.parquet";
+    let (table_two, _) = succeed(folder.path(), compare);
+    let (all, told) = succeed(folder.path(), &format!("{compare} --all"));
+    assert!(told.contains("up to date") && all.lines().count() > table_two.lines().count(), "{told}");
+    assert_eq!(all, succeed(folder.path(), &format!("{compare} --all --force")).0);
+    assert_eq!(succeed(folder.path(), compare).0, table_two);
+    let evaluate = format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --out e.parquet");
+    let (text, _) = succeed(folder.path(), &evaluate);
+    let (csv, _) = succeed(folder.path(), &format!("{evaluate} --format csv"));
+    assert_eq!(
+        csv,
+        succeed(folder.path(), &format!("{evaluate} --format csv").replace("--out e.parquet", "")).0
+    );
+    let (again, told) = succeed(folder.path(), &evaluate);
+    assert!(again == text && told.contains("up to date"), "{told}");
+}
+
+#[test]
 fn partitions_of_different_runs_are_no_table() {
     let folder = folder_with(SMALL);
     succeed(folder.path(), "run");
