@@ -1,7 +1,9 @@
 //! The bytes of people's files, of which a pipe gives its own only once.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::io::{self, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex};
 
@@ -49,4 +51,26 @@ pub fn forget_pipes() {
     if let Ok(mut pipes) = PIPES.lock() {
         pipes.clear();
     }
+}
+
+thread_local! {
+    static GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Calls a decoder of others, which may panic on a damaged file: then none.
+pub fn guarded<T>(read: impl FnOnce() -> T) -> Option<T> {
+    let before = GUARDED.replace(true);
+    let read = catch_unwind(AssertUnwindSafe(read));
+    GUARDED.set(before);
+    read.ok()
+}
+
+/// Silences the panics of decoders, which are reported as errors.
+pub fn quiet_damage() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !GUARDED.get() {
+            usual(panic);
+        }
+    }));
 }

@@ -9,7 +9,7 @@
 //! ```
 
 use pyo3::prelude::*;
-use rockfrag::table::file::quiet_damage;
+use rockfrag::source::quiet_damage;
 
 mod arrays;
 mod error;

@@ -22,9 +22,8 @@ use crate::pipeline::call::Call;
 use crate::pipeline::context::{COMMON, Caller, Common, Context, threads_of};
 use crate::pipeline::options::in_one_line;
 use crate::pipeline::paths::{Role, path_kind};
-use crate::source::split_sheet;
+use crate::source::{quiet_damage, split_sheet};
 use crate::stages::{Stages, init, inspect, run};
-use crate::table::file::quiet_damage;
 use crate::table::keys::resolved;
 
 const PIPELINE: &str = "pipeline.yaml";

@@ -54,20 +54,19 @@ impl InputError {
         InputError::Missing { found: found.into(), expected }
     }
 
+    pub(super) fn damaged(error: impl ToString) -> InputError {
+        InputError::Damaged(error.to_string())
+    }
+
     /// The error with the name of its file.
     pub fn in_file(self, path: &Path) -> InputError {
         InputError::File { path: path.display().to_string(), error: Box::new(self) }
     }
 }
 
-impl From<zip::result::ZipError> for InputError {
-    fn from(error: zip::result::ZipError) -> InputError {
-        InputError::Damaged(error.to_string())
-    }
-}
-
-impl From<calamine::Error> for InputError {
-    fn from(error: calamine::Error) -> InputError {
-        InputError::Damaged(error.to_string())
-    }
+/// Checks that a table is not too large, as one with a stray cell far away is.
+pub(super) fn expect_few_cells(cells: usize) -> Result<(), InputError> {
+    const MOST: usize = 20_000_000;
+    let expected = "20 million at most: does one stand far from the table?";
+    if cells > MOST { Err(InputError::missing(format!("{cells} cells"), expected)) } else { Ok(()) }
 }

@@ -6,10 +6,10 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::decode::decode;
-use super::error::InputError;
+use super::error::{InputError, expect_few_cells};
 use super::heading::Heading;
 use super::numbers::{self, Evidence, Style, is_missing, is_number};
-use super::unpack::{Member, unpack};
+use super::unpack::unpack_one;
 use super::words::words;
 use super::workbook;
 use crate::number::counted;
@@ -54,16 +54,13 @@ impl Grid {
 
     /// Reads a table, packed or not: text, or a sheet of a workbook.
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid, InputError> {
-        let members = unpack(bytes.to_vec())?;
-        let [Member { bytes, .. }] = &members[..] else {
-            let found = members.into_iter().filter_map(|member| member.name).collect();
-            return Err(InputError::Members { found });
-        };
-        if workbook::is_workbook(bytes) {
-            let (first, cells) = workbook::cells(bytes, sheet)?;
+        let bytes = unpack_one(bytes.to_vec())?;
+        if workbook::is_workbook(&bytes) {
+            let (first, cells) = workbook::cells(&bytes, sheet)?;
             return Grid::new(rows_of_sheet(first, cells), None);
         }
-        let text = decode(bytes)?;
+        let text = decode(&bytes)?;
+        expect_few_cells(text.matches(['\n', '\t', ',', ';']).count())?;
         let lines: Vec<&str> =
             text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a', '\0'])).collect();
         let separator = separator(&lines);
@@ -204,6 +201,7 @@ impl Grid {
 
 fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<Row>, InputError> {
     let joined = join_lines(lines, separator);
+    expect_few_cells(joined.matches(separator).count())?;
     let mut reader = ReaderBuilder::new();
     reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
     let records = reader.from_reader(joined.as_bytes()).into_records();

@@ -2,9 +2,17 @@
 
 use std::io::Cursor;
 
-use calamine::{Data, DataType, Reader, SheetVisible, open_workbook_auto_from_rs};
+use calamine::{Data, DataType, Reader, SheetVisible, Sheets, Xlsx, XlsxError, open_workbook_auto_from_rs};
 
-use super::error::InputError;
+use super::error::{InputError, expect_few_cells};
+use crate::source::guarded;
+
+/// A text, and its row and column from 0.
+struct Cell {
+    row: u32,
+    column: u32,
+    text: String,
+}
 
 /// Whether bytes can be a workbook.
 pub fn is_workbook(bytes: &[u8]) -> bool {
@@ -14,7 +22,13 @@ pub fn is_workbook(bytes: &[u8]) -> bool {
 /// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of
 /// the first row.
 pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
-    let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes))?;
+    let damaged = || Err(InputError::damaged("its cells cannot be read"));
+    expect_few_announced(bytes)?;
+    guarded(|| read(bytes, name)).unwrap_or_else(damaged)
+}
+
+fn read(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+    let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
     let mut filled = Vec::new();
     for sheet in &all {
@@ -22,25 +36,100 @@ pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>
             Some(name) => sheet.name == name,
             None => sheet.visible == SheetVisible::Visible,
         };
-        let range = if is_meant { workbook.worksheet_range(&sheet.name)? } else { continue };
-        if !range.is_empty() {
-            filled.push((sheet.name.clone(), range));
+        let cells = if is_meant { filled_cells(&mut workbook, &sheet.name)? } else { continue };
+        if !cells.is_empty() {
+            filled.push((sheet.name.clone(), cells));
         }
     }
-    match &filled[..] {
-        [(name, range)] => {
-            let formulas = workbook.worksheet_formula(name)?;
-            let (first, left) = range.start().unwrap_or_default();
-            let rows = range.rows().zip(first..).map(|(row, at)| {
-                let cells = row.iter().zip(left..);
-                cells.map(|(cell, column)| text(cell, formulas.get_value((at, column)))).collect()
-            });
-            Ok((first as usize + 1, rows.collect()))
-        }
+    match &mut filled[..] {
+        [(_, cells)] => in_rows(std::mem::take(cells)),
         [] if name.is_none() => Ok((1, Vec::new())),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
         _ => Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
     }
+}
+
+/// Checks the records of dimensions of an .xls: its reader reserves memory for all cells between.
+fn expect_few_announced(bytes: &[u8]) -> Result<(), InputError> {
+    const START: [u8; 4] = [0, 2, 14, 0];
+    let is_xls = bytes.starts_with(b"\xd0\xcf\x11\xe0");
+    for record in bytes.windows(18).filter(|record| is_xls && record.starts_with(&START)) {
+        let rows = u32::from_le_bytes([record[8], record[9], record[10], record[11]]);
+        let columns = u16::from_le_bytes([record[14], record[15]]);
+        expect_few_cells((rows as usize).saturating_mul(columns.into()))?;
+    }
+    Ok(())
+}
+
+/// The cells of a sheet that have a text.
+fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell>, InputError> {
+    let mut cells = Vec::new();
+    match workbook {
+        Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
+        Sheets::Xlsb(workbook) => {
+            let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
+            while let Some(cell) = reader.next_cell().map_err(InputError::damaged)? {
+                let ((row, column), value) = (cell.get_position(), cell.get_value().clone().into());
+                cells.push(Cell { row, column, text: text(&value, None) });
+                expect_few_cells(cells.len())?;
+            }
+        }
+        others => {
+            let range = others.worksheet_range(sheet).map_err(InputError::damaged)?;
+            let formulas = others.worksheet_formula(sheet).map_err(InputError::damaged)?;
+            let (top, left) = range.start().unwrap_or_default();
+            for (row, column, value) in range.cells() {
+                let (row, column) = (top + row as u32, left + column as u32);
+                cells.push(Cell { row, column, text: text(value, formulas.get_value((row, column))) });
+                expect_few_cells(cells.len())?;
+            }
+        }
+    }
+    cells.retain(|cell| !cell.text.is_empty());
+    Ok(cells)
+}
+
+/// Reads a sheet twice, for formulas and values: the places of the former hold for values too, of which the
+/// reader skips those that it does not know, such as the error #SPILL!.
+fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell>, InputError> {
+    let mut formulas = Vec::new();
+    match workbook.worksheet_cells_reader(sheet) {
+        Err(XlsxError::NotAWorksheet(_)) => return Ok(Vec::new()),
+        Err(error) => return Err(InputError::damaged(error)),
+        Ok(mut reader) => {
+            while let Some(formula) = reader.next_formula().map_err(InputError::damaged)? {
+                formulas.push(formula);
+                expect_few_cells(formulas.len())?;
+            }
+        }
+    }
+    let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
+    let cells = formulas.into_iter().map(|formula| {
+        let value = match reader.next_cell() {
+            Ok(cell) => cell.map_or(Data::Empty, |cell| cell.get_value().clone().into()),
+            Err(XlsxError::CellError(error)) => Data::String(error),
+            Err(error) => return Err(InputError::damaged(error)),
+        };
+        let (row, column) = formula.get_position();
+        Ok(Cell { row, column, text: text(&value, Some(formula.get_value())) })
+    });
+    cells.collect()
+}
+
+/// The rows between the first and the last cells, with the number of the first.
+fn in_rows(cells: Vec<Cell>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+    let of = |place: fn(&Cell) -> u32| {
+        let places = || cells.iter().map(place);
+        let first = places().min().unwrap_or_default() as usize;
+        (first, places().max().unwrap_or_default() as usize + 1 - first)
+    };
+    let ((top, height), (left, width)) = (of(|cell| cell.row), of(|cell| cell.column));
+    expect_few_cells(height.saturating_mul(width))?;
+    let mut rows = vec![vec![String::new(); width]; height];
+    for Cell { row, column, text } in cells {
+        rows[row as usize - top][column as usize - left] = text;
+    }
+    Ok((top + 1, rows))
 }
 
 /// The text of a cell; that of its formula where no program has computed the value.

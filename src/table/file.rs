@@ -1,13 +1,11 @@
 //! A table on disk: a Parquet file, or a folder of them in the order of their names.
 
 use std::borrow::Cow;
-use std::cell::Cell;
 use std::collections::HashSet;
 use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
@@ -23,7 +21,7 @@ use super::TableError;
 use super::checksums::expect_undamaged;
 use super::columns::Batch;
 use super::provenance::Provenance;
-use crate::source::is_pipe;
+use crate::source::{self, is_pipe};
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
@@ -348,27 +346,10 @@ fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &ProjectionMask) 
     }
 }
 
-thread_local! {
-    static GUARDED: Cell<bool> = const { Cell::new(false) };
-}
-
 /// Calls `read`; a panic of the decoder is an error of a damaged file.
 fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
-    let before = GUARDED.replace(true);
-    let read = catch_unwind(AssertUnwindSafe(read));
-    GUARDED.set(before);
-    match read {
-        Ok(read) => read.map_err(|cause| TableError::parquet(path, cause)),
-        Err(_) => Err(TableError::parquet(path, "it is damaged")),
+    match source::guarded(read) {
+        Some(read) => read.map_err(|cause| TableError::parquet(path, cause)),
+        None => Err(TableError::parquet(path, "it is damaged")),
     }
-}
-
-/// Silences the panics of decoders, which are reported as errors.
-pub fn quiet_damage() {
-    let usual = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |panic| {
-        if !GUARDED.get() {
-            usual(panic);
-        }
-    }));
 }

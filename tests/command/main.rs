@@ -11,7 +11,10 @@ mod interruption;
 mod keys;
 mod objects;
 mod outcomes;
+#[path = "../inputs/packed.rs"]
+mod packed;
 mod paper;
 mod pipeline;
 mod records;
+mod tables;
 mod terminal;

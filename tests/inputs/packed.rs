@@ -1,4 +1,5 @@
 //! The same table in the bytes of many programs.
+#![allow(dead_code, reason = "no group needs all")]
 
 use std::io::Write;
 
@@ -71,5 +72,34 @@ pub fn ods(cells: Cells) -> Vec<u8> {
         ("mimetype", b"application/vnd.oasis.opendocument.spreadsheet"),
         ("META-INF/manifest.xml", manifest.as_bytes()),
         ("content.xml", content.as_bytes()),
+    ])
+}
+
+/// A workbook with these rows of XML, and this start of its list of texts.
+pub fn xlsx_of(rows: &str, texts: &str) -> Vec<u8> {
+    const HEAD: &str = r#"<?xml version="1.0"?>"#;
+    const MAIN: &str = r#"xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main""#;
+    const OFFICE: &str = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+    const PACKAGE: &str = r#"xmlns="http://schemas.openxmlformats.org/package/2006/relationships""#;
+    let relation = |kind: &str, target: &str| {
+        format!(
+            r#"{HEAD}<Relationships {PACKAGE}><Relationship Id="r1" Type="{OFFICE}/{kind}" Target="{target}"/></Relationships>"#
+        )
+    };
+    let book = format!(
+        r#"{HEAD}<workbook {MAIN} xmlns:r="{OFFICE}"><sheets><sheet name="S" sheetId="1" r:id="r1"/></sheets></workbook>"#
+    );
+    let sheet = format!("{HEAD}<worksheet {MAIN}><sheetData>{rows}</sheetData></worksheet>");
+    let texts = format!("{HEAD}<sst {MAIN} {texts}><si><t>x</t></si></sst>");
+    zip(&[
+        (
+            "[Content_Types].xml",
+            br#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"/>"#,
+        ),
+        ("_rels/.rels", relation("officeDocument", "xl/workbook.xml").as_bytes()),
+        ("xl/workbook.xml", book.as_bytes()),
+        ("xl/_rels/workbook.xml.rels", relation("worksheet", "worksheets/sheet1.xml").as_bytes()),
+        ("xl/worksheets/sheet1.xml", sheet.as_bytes()),
+        ("xl/sharedStrings.xml", texts.as_bytes()),
     ])
 }

@@ -1,0 +1,88 @@
+//! Tables of people with mistakes and damage: what they say is read, or refused by its place.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::common::{evaluated, fail, folder, near, number, rows, succeed};
+use super::packed::{gzip, xlsx_of, zip};
+
+const HAZARD: &str = concat!("--hazard ", env!("CARGO_MANIFEST_DIR"), "/data/hazard.csv");
+
+/// The answers for a list, by the names of its objects.
+#[track_caller]
+fn objects(list: &str) -> Vec<(String, Value)> {
+    let folder = folder(&[("list.csv", list)]);
+    let rows = evaluated(folder.path(), "--structures list.csv --pga 0.5");
+    rows.into_iter().map(|row| (row["structure"].as_str().unwrap().to_string(), row)).collect()
+}
+
+/// A workbook with two columns, of which the second may be shown as percent.
+fn workbook(path: &Path, headings: [&str; 2], cells: &[(Value, f64)], is_percent: bool) {
+    let mut workbook = rust_xlsxwriter::Workbook::new();
+    let percent = rust_xlsxwriter::Format::new().set_num_format(if is_percent { "0.0%" } else { "General" });
+    let sheet = workbook.add_worksheet();
+    sheet.write_row(0, 0, headings).unwrap();
+    for (row, (first, second)) in (1..).zip(cells) {
+        match first {
+            Value::String(text) => sheet.write_string(row, 0, text).unwrap(),
+            first => sheet.write_number(row, 0, first.as_f64().unwrap()).unwrap(),
+        };
+        sheet.write_number_with_format(row, 1, *second, &percent).unwrap();
+    }
+    workbook.save(path).unwrap();
+}
+
+#[test]
+fn workbooks_that_are_damaged_or_too_large_are_errors() {
+    const TABLE: &str = concat!(
+        r#"<row r="1"><c r="A1" t="str"><v>width</v></c><c r="B1" t="str"><v>height</v></c>"#,
+        r#"<c r="C1" t="str"><v>note</v></c></row>"#,
+        r#"<row r="2"><c r="A2"><v>0.5</v></c><c r="B2"><v>1.9</v></c>"#,
+    );
+    let folder = folder(&[]);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let read = |name: &str| format!("evaluate --structures {name} --pga 0.5");
+    let cell =
+        |place: &str, row: &str| format!(r#"{TABLE}</row><row r="{row}"><c r="{place}"><v>1</v></c></row>"#);
+    let formula = r#"<c r="C2"><f t="shared" ref="C2" si="4294967290">A2</f><v>1</v></c></row>"#;
+    for (name, rows, texts, named) in [
+        ("far.xlsx", cell("XFD1048576", "1048576"), "", "cells"),
+        ("beyond.xlsx", cell("ZZZZZZ4294967295", "4294967295"), "", "cells"),
+        ("texts.xlsx", format!("{TABLE}</row>"), r#"uniqueCount="4294967295""#, "damaged"),
+        ("shared.xlsx", format!("{TABLE}{formula}"), "", "damaged"),
+    ] {
+        write(name, &xlsx_of(&rows, texts));
+        fail(folder.path(), &read(name), 1, &[name, named]);
+    }
+    let error = r#"<c r="C2" t="e"><v>#SPILL!</v></c></row>"#;
+    write("spill.xlsx", &xlsx_of(&format!("{TABLE}{error}"), ""));
+    assert_eq!(evaluated(folder.path(), "--structures spill.xlsx --pga 0.5").len(), 1);
+    let error = error.replace("C2", "A2");
+    let row = TABLE.replace(r#"<c r="A2"><v>0.5</v></c>"#, "");
+    write("spilt.xlsx", &xlsx_of(&format!("{row}{error}"), ""));
+    fail(folder.path(), &read("spilt.xlsx"), 1, &["spilt.xlsx", "line 2", "#SPILL!"]);
+    // An .xls that is cut off in its first sector.
+    let mut xls = vec![0xff; 4096];
+    xls[..8].copy_from_slice(&[0xd0, 0xcf, 0x11, 0xe0, 0xa1, 0xb1, 0x1a, 0xe1]);
+    write("cut.xls", &xls);
+    fail(folder.path(), &read("cut.xls"), 1, &["cut.xls", "damaged"]);
+}
+
+#[test]
+fn all_that_a_file_unpacks_to_has_one_limit() {
+    let folder = folder(&[]);
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let half = vec![b'a'; 110 << 20];
+    write("large.gz", &gzip(&[&half[..], &half].concat()));
+    write("large.zip", &zip(&[("a.gz", &gzip(&half)), ("b.gz", &gzip(&half))]));
+    // Whose parts are damaged: nothing but their names is read.
+    let mut parts = zip(&[("a.csv", b"width,height\n0.5,1.9\n"), ("b.csv", b"width,height\n")]);
+    let at = parts.windows(5).position(|bytes| bytes == b"a.csv").unwrap();
+    parts[at + 5..at + 15].fill(0xff);
+    write("parts.zip", &parts);
+    let table = |name: &str| format!("evaluate --structures {name} --pga 0.5");
+    fail(folder.path(), &table("large.gz"), 1, &["large.gz", "200 MB"]);
+    fail(folder.path(), &table("parts.zip"), 1, &["parts.zip", "a.csv, b.csv"]);
+    fail(folder.path(), "import-motions large.zip --out m.parquet", 1, &["large.zip", "200 MB"]);
+}
