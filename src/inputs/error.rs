@@ -26,6 +26,11 @@ pub enum InputError {
         "line {line}, column '{heading}': '{found}': decimal, or between thousands? Write 1029 or 1.0290"
     )]
     Thousands { line: usize, heading: String, found: String },
+    #[error(
+        "line {line}, column '{heading}': '{found}': percent, or a share that the workbook shows as percent? \
+         Save the sheet as CSV, or write 0.1 for 10 % under a heading without %"
+    )]
+    Percent { line: usize, heading: String, found: String },
     #[error("'{heading}' and '{unit}' have different units")]
     Units { heading: String, unit: String },
     #[error("heading '{heading}' is not understood; expected {expected}; {found}")]

@@ -85,7 +85,7 @@ impl Grid {
         let columns = headings.len();
         // An object may be called #2.
         let are_named = separator != Some(' ') && columns > 1 && is_number_column.first() == Some(&false);
-        let mut evidence = vec![Evidence::default(); columns];
+        let mut evidence: Vec<Evidence> = headings.iter().map(Evidence::under).collect();
         let (mut notes, mut lines, mut kept) = (Vec::new(), Vec::new(), Vec::new());
         for (at, Row { line, cells, is_comment }) in rows.into_iter().enumerate() {
             if at < end || is_ruler(&cells) || is_comment && !(are_named && cells.len() == columns) {
@@ -131,15 +131,21 @@ impl Grid {
     /// Reads the number in a cell; 10 % is 0.1, also where the heading has the sign.
     pub fn number(&self, row: usize, column: usize) -> Result<f64, InputError> {
         let (cell, style) = (self.cell(row, column), self.styles[column]);
-        let size = if self.is_percent(row, column) && !cell.ends_with('%') { 0.01 } else { 1.0 };
-        let number = style.number(cell).map(|number| size * number);
-        number.ok_or_else(|| match style.is_unclear(cell) {
-            true => {
-                let (line, heading) = (self.lines[row], self.name_of(column));
-                InputError::Thousands { line, heading, found: cell.to_string() }
+        let has_sign = cell.ends_with('%');
+        let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
+        let place = || (self.lines[row], self.name_of(column), cell.to_string());
+        match style.number(cell) {
+            Some(_) if style.may_be_shares && !has_sign => {
+                let (line, heading, found) = place();
+                Err(InputError::Percent { line, heading, found })
             }
-            false => self.refusal(row, column, "a number"),
-        })
+            Some(number) => Ok(size * number),
+            None if style.is_unclear(cell) => {
+                let (line, heading, found) = place();
+                Err(InputError::Thousands { line, heading, found })
+            }
+            None => Err(self.refusal(row, column, "a number")),
+        }
     }
 
     /// Reads the numbers of a column.

@@ -1,6 +1,8 @@
 //! Numbers of a table: whether points and commas are decimal or stand between thousands, settled once from
 //! all cells of all columns.
 
+use super::heading::Heading;
+
 /// What a sign between digits is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sign {
@@ -15,20 +17,31 @@ enum Sign {
 pub struct Style {
     point: Sign,
     comma: Sign,
+    /// Whether numbers below a percent sign may be percent, or shares that a workbook shows as percent.
+    pub may_be_shares: bool,
+}
+
+/// Where a sign stands: where it is decimal, between thousands, or where it may be either: with one to three
+/// digits before it and three behind.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seen {
+    decimal: bool,
+    thousands: bool,
+    either: bool,
 }
 
 /// What the cells of a column show.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Evidence {
-    /// Signs that are decimal, that stand between thousands, and that may do either: one to three digits
-    /// before them and three behind.
-    decimal: Vec<char>,
-    thousands: Vec<char>,
-    either: Vec<char>,
+    /// Of points and of commas.
+    signs: [Seen; 2],
     /// A number from 100 to 999 without signs.
     hundreds: bool,
     /// One of four digits or more: thousands are not parted.
     unparted: bool,
+    /// A percent sign, in the heading too, and the largest number without one.
+    has_percent: bool,
+    largest: f64,
 }
 
 /// Cells without a value.
@@ -44,7 +57,8 @@ pub fn is_missing(cell: &str) -> bool {
 pub fn is_number(cell: &str) -> bool {
     use Sign::{Decimal, Thousands};
     let styles = [(Decimal, Decimal), (Thousands, Decimal), (Decimal, Thousands)];
-    styles.into_iter().any(|(point, comma)| Style { point, comma }.number(cell).is_some())
+    let style = |(point, comma)| Style { point, comma, may_be_shares: false };
+    styles.into_iter().any(|signs| style(signs).number(cell).is_some())
 }
 
 /// Splits a percent sign off.
@@ -53,11 +67,18 @@ fn share(cell: &str) -> (&str, f64) {
 }
 
 impl Evidence {
+    pub fn under(heading: &Heading) -> Evidence {
+        let has_percent = heading.is_percent || heading.unit.is_some_and(|unit| unit.name.contains('%'));
+        Evidence { has_percent, ..Evidence::default() }
+    }
+
     /// Adds what a cell shows.
     pub fn add(&mut self, cell: &str) {
         if !cell.contains(|sign: char| sign.is_ascii_digit()) || !is_number(cell) {
             return;
         }
+        self.has_percent |= cell.ends_with('%');
+        self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
         let digits = share(cell).0.trim_start_matches(['+', '-']);
         let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
         match (digits.rfind('.'), digits.rfind(',')) {
@@ -66,39 +87,35 @@ impl Evidence {
                 self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
             }
             (Some(point), Some(comma)) => {
-                let (last, before) = if point > comma { ('.', ',') } else { (',', '.') };
-                self.decimal.push(last);
-                self.thousands.push(before);
+                let last = usize::from(comma > point);
+                self.signs[last].decimal = true;
+                self.signs[1 - last].thousands = true;
             }
             (point, _) => {
-                let sign = if point.is_some() { '.' } else { ',' };
+                let (at, sign) = if point.is_some() { (0, '.') } else { (1, ',') };
+                let seen = &mut self.signs[at];
                 match digits.split(sign).collect::<Vec<_>>()[..] {
-                    ["0" | "", _] => self.decimal.push(sign),
-                    [whole, rest] if rest.len() == 3 && whole.len() <= 3 => self.either.push(sign),
-                    [_, _] => self.decimal.push(sign),
-                    _ => self.thousands.push(sign),
+                    ["0" | "", _] => seen.decimal = true,
+                    [whole, rest] if rest.len() == 3 && whole.len() <= 3 => seen.either = true,
+                    [_, _] => seen.decimal = true,
+                    _ => seen.thousands = true,
                 }
             }
         }
     }
 
     /// What a sign is in this column, by its cells, else by those of others.
-    fn sign(&self, sign: char, all: &[Evidence]) -> Sign {
-        let other = if sign == '.' { ',' } else { '.' };
-        let is_decimal = all.iter().any(|column| column.decimal.contains(&sign));
-        let is_thousands =
-            all.iter().any(|column| column.thousands.contains(&sign) || column.decimal.contains(&other));
-        // 1,029 beside 999 is of a country of decimal points.
-        let is_beside_hundreds = all.iter().any(|column| column.either.contains(&sign) && column.hundreds);
-        let is_shown = self.either.contains(&sign) || self.thousands.contains(&sign);
-        match (is_decimal, is_thousands) {
-            _ if self.decimal.contains(&sign) || !is_shown => Sign::Decimal,
-            _ if self.thousands.contains(&sign) => Sign::Thousands,
+    fn sign(&self, at: usize, all: &[Seen; 2]) -> Sign {
+        let own = self.signs[at];
+        match (all[at].decimal, all[at].thousands || all[1 - at].decimal) {
+            _ if own.decimal || !(own.either || own.thousands) => Sign::Decimal,
+            _ if own.thousands => Sign::Thousands,
             _ if self.unparted => Sign::Decimal,
             (true, false) if !self.hundreds => Sign::Decimal,
             (false, true) => Sign::Thousands,
-            (false, false) if sign == '.' && !self.hundreds => Sign::Decimal,
-            (false, false) if sign == ',' && is_beside_hundreds => Sign::Thousands,
+            (false, false) if at == 0 && !self.hundreds => Sign::Decimal,
+            // 1,029 beside 999 is of a country of decimal points.
+            (false, false) if at == 1 && all[at].either => Sign::Thousands,
             _ => Sign::Unclear,
         }
     }
@@ -106,9 +123,18 @@ impl Evidence {
 
 /// Settles how each column is written. In a workbook points are decimal.
 pub fn styles(columns: &[Evidence], is_workbook: bool) -> Vec<Style> {
+    let in_any = |is_seen: fn(&Seen, &Evidence) -> bool, at: usize| {
+        columns.iter().any(|column| is_seen(&column.signs[at], column))
+    };
+    let all = [0, 1].map(|at| Seen {
+        decimal: in_any(|seen, _| seen.decimal, at),
+        thousands: in_any(|seen, _| seen.thousands, at),
+        either: in_any(|seen, column| seen.either && column.hundreds, at),
+    });
     let styles = columns.iter().map(|own| Style {
-        point: if is_workbook { Sign::Decimal } else { own.sign('.', columns) },
-        comma: own.sign(',', columns),
+        point: if is_workbook { Sign::Decimal } else { own.sign(0, &all) },
+        comma: own.sign(1, &all),
+        may_be_shares: is_workbook && own.has_percent && own.largest > 0.0 && own.largest <= 1.0,
     });
     styles.collect()
 }

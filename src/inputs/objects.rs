@@ -299,10 +299,8 @@ impl List<'_> {
             match self.grid.number(row, at) {
                 Ok(number) => object.set(name, &rounded(size * number).to_string())?,
                 // Other fields may be words, or know what is expected.
-                Err(error) if is_needed || matches!(error, InputError::Thousands { .. }) => {
-                    return Err(error.to_string());
-                }
-                Err(_) => object.set(name, cell)?,
+                Err(InputError::Cell { .. }) if !is_needed => object.set(name, cell)?,
+                Err(error) => return Err(error.to_string()),
             }
         }
         object.place = self.on_floor(row, object.place)?;

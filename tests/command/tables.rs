@@ -34,6 +34,27 @@ fn workbook(path: &Path, headings: [&str; 2], cells: &[(Value, f64)], is_percent
 }
 
 #[test]
+fn shares_under_a_percent_sign_of_a_workbook_are_refused() {
+    let folder = folder(&[]);
+    let path = folder.path().join("h.xlsx");
+    let object = "evaluate --width 0.5 --height 1.9 --hazard h.xlsx";
+    let cells = |size: f64| {
+        [(0.05, 0.5), (0.4, 0.1), (1.0, 0.01), (2.0, 0.001)].map(|(pga, poe)| (pga.into(), size * poe))
+    };
+    for is_percent in [true, false] {
+        workbook(&path, ["PGA (g)", "PoE in 50 years (%)"], &cells(1.0), is_percent);
+        fail(folder.path(), object, 1, &["h.xlsx", "line 2", "PoE in 50 years (%)", "CSV"]);
+    }
+    let rate = |headings: [&str; 2], size: f64| {
+        workbook(&path, headings, &cells(size), size == 1.0);
+        let row = evaluated(folder.path(), "--width 0.5 --height 1.9 --hazard h.xlsx").remove(0);
+        number(&row, "overturning_per_year")
+    };
+    let plain = rate(["PGA (g)", "PoE in 50 years"], 1.0);
+    assert!(near(rate(["PGA (g)", "PoE in 50 years (%)"], 100.0), plain, 1e-9));
+}
+
+#[test]
 fn workbooks_that_are_damaged_or_too_large_are_errors() {
     const TABLE: &str = concat!(
         r#"<row r="1"><c r="A1" t="str"><v>width</v></c><c r="B1" t="str"><v>height</v></c>"#,
