@@ -85,10 +85,15 @@ impl Grid {
         let columns = headings.len();
         // An object may be called #2.
         let are_named = separator != Some(' ') && columns > 1 && is_number_column.first() == Some(&false);
+        // Between blanks, a comment above the numbers may have some too: dt 0.01.
+        let start = first.filter(|_| separator == Some(' ')).unwrap_or(end);
+        let is_row = |at: usize, cells: &StringRecord| {
+            are_named && cells.len() == columns || at >= start && has_numbers_behind(cells, &is_number_column)
+        };
         let mut evidence: Vec<Evidence> = headings.iter().map(Evidence::under).collect();
         let (mut notes, mut lines, mut kept) = (Vec::new(), Vec::new(), Vec::new());
         for (at, Row { line, cells, is_comment }) in rows.into_iter().enumerate() {
-            if at < end || is_ruler(&cells) || is_comment && !(are_named && cells.len() == columns) {
+            if at < end || is_ruler(&cells) || is_comment && !is_row(at, &cells) {
                 if heading != Some(at) {
                     let filled: Vec<&str> = cells.iter().filter(|cell| !cell.is_empty()).collect();
                     notes.push(filled.join(if separator == Some(' ') { " " } else { ", " }));
@@ -223,11 +228,8 @@ fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<Row>, InputError>
 }
 
 fn rows_of_sheet(first: usize, cells: Vec<Vec<String>>) -> Vec<Row> {
-    let rows = (first..).zip(cells).filter_map(|(line, cells)| {
-        let filled = cells.iter().find(|cell| !cell.is_empty())?;
-        Some(Row { line, is_comment: is_comment(filled), cells: StringRecord::from(cells) })
-    });
-    rows.collect()
+    let rows = (first..).zip(cells).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+    rows.map(|(line, cells)| Row { line, is_comment: false, cells: StringRecord::from(cells) }).collect()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -266,22 +268,38 @@ fn is_parted(line: &str, sign: char) -> bool {
 
 /// Joins lines for the reader of rows, which counts them.
 fn join_lines(lines: &[&str], separator: char) -> String {
-    let mut text = String::new();
+    let (mut text, mut is_quoted) = (String::new(), false);
     for line in lines {
-        let is_quoted = line.matches('"').count() % 2 == 0;
-        if separator == ' ' {
-            // A unit in brackets belongs to its heading.
-            let line = uncommented(line).replace(" (", "(").replace(" [", "[");
-            text += &line.split_whitespace().collect::<Vec<_>>().join(" ");
-        } else if is_comment(line) && !is_quoted {
-            text += &line.replace('"', "");
+        let start = text.len();
+        if separator == ' ' && !is_quoted {
+            // A unit in brackets belongs to its heading, and the sign of a comment to its first word.
+            let bare = uncommented(line);
+            let words = bare.replace(" (", "(").replace(" [", "[");
+            text += line[..line.len() - bare.len()].trim_end();
+            text += &words.split_whitespace().collect::<Vec<_>>().join(" ");
         } else {
             text += line;
         }
+        let opens = is_quoted_behind(&text[start..], separator, is_quoted);
+        if opens && !is_quoted && is_comment(line) {
+            text.truncate(start);
+            text += &line.replace('"', "");
+        } else {
+            is_quoted = opens;
+        }
         // A row with one empty cell keeps the line count.
-        text += if line.is_empty() { "\"\"\n" } else { "\n" };
+        text += if line.is_empty() && !is_quoted { "\"\"\n" } else { "\n" };
     }
     text
+}
+
+/// Whether a quotation mark is open behind a line: one opens at the beginning of a cell, or again behind one.
+fn is_quoted_behind(line: &str, separator: char, is_quoted: bool) -> bool {
+    let next = |(is_quoted, may_open): (bool, bool), sign: char| match sign {
+        '"' => (!is_quoted && may_open, is_quoted),
+        _ => (is_quoted, sign == separator),
+    };
+    line.chars().fold((is_quoted, true), next).0
 }
 
 /// The line where a quotation mark opens in the last row and never closes.
@@ -322,6 +340,13 @@ fn heading_row(above: &[Row], is_number_column: &[bool], separator: Option<char>
 fn is_data(row: &Row, is_number_column: &[bool]) -> bool {
     let cells = is_number_column.iter().zip(&row.cells).filter(|(is_number, _)| **is_number);
     cells.filter(|(_, cell)| is_number(cell)).count() > count_words(row, is_number_column)
+}
+
+/// Whether all that stands behind the first cell where numbers are expected is numbers.
+fn has_numbers_behind(cells: &StringRecord, is_number_column: &[bool]) -> bool {
+    let expected = cells.iter().zip(is_number_column).skip(1).filter(|(_, is_number)| **is_number);
+    let mut filled = expected.map(|(cell, _)| cell).filter(|cell| !is_missing(cell)).peekable();
+    filled.peek().is_some() && filled.all(is_number)
 }
 
 /// How many cells have words where numbers are expected, or at all if none are. What begins with a digit is a

@@ -55,6 +55,33 @@ fn shares_under_a_percent_sign_of_a_workbook_are_refused() {
 }
 
 #[test]
+fn no_row_with_numbers_is_a_comment() {
+    let names = |list: &str| objects(list).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+    for (list, expected) in [
+        ("name,width,height,note\n#2 rack,0.3,1.9\nB,0.5,1.9,x\n", ["#2 rack", "B"]),
+        ("name,width,height\n101,0.5,1.9\n#103,0.4,1.9\n", ["#103", "101"]),
+        ("name,width,height\n101,0.5,1.9\n# measured in May\n% 3,0.4,1.9\n", ["% 3", "101"]),
+        ("name,width,height\n\"server\n#2\",0.3,1.9\n\"B\",0.5,1.9\n", ["server\n#2", "B"]),
+        ("name,width,height\n# \"by hand\nB,0.3,1.9\n\"C\n\n\",0.5,1.9\n", ["B", "C"]),
+    ] {
+        assert_eq!(names(list), expected, "{list}");
+    }
+    // The number of objects is an error of a workbook, which CSV keeps.
+    let list = "Qty,width,height\n#N/A,0.4,1.9\n2,0.5,1.9\n#REF!,0.3,1.9\n";
+    let refused = objects(list).into_iter().filter(|(_, row)| row["p_rad_s"].is_null()).count();
+    assert_eq!(refused, 2);
+    let outcomes =
+        "width,height,PGA (g),PGV (m/s),fell\n#N/A,1.9,.5,.4,yes\n.5,1.9,.5,.4,no\n.4,1.9,.5,.4,no\n";
+    let folder = folder(&[("o.csv", outcomes), ("h.csv", "PGA (g),AFE\n0.1,0.01\n#0.3,0.001\n1,1e-4\n")]);
+    fail(folder.path(), "fit-pro --in o.csv --out pro.parquet", 1, &["o.csv", "line 2", "#N/A"]);
+    let hazard = "evaluate --width 0.5 --height 1.9 --hazard";
+    fail(folder.path(), &format!("{hazard} h.csv"), 1, &["h.csv", "line 3", "#0.3"]);
+    let cells = [("#REF!".into(), 0.01), (0.3.into(), 0.001), (1.0.into(), 1e-4)];
+    workbook(&folder.path().join("h.xlsx"), ["PGA (g)", "AFE"], &cells, false);
+    fail(folder.path(), &format!("{hazard} h.xlsx"), 1, &["h.xlsx", "line 2", "#REF!"]);
+}
+
+#[test]
 fn workbooks_that_are_damaged_or_too_large_are_errors() {
     const TABLE: &str = concat!(
         r#"<row r="1"><c r="A1" t="str"><v>width</v></c><c r="B1" t="str"><v>height</v></c>"#,
