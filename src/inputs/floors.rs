@@ -23,31 +23,45 @@ pub enum Storey {
 }
 
 impl Storey {
-    /// Reads a floor as `3`, `3rd floor`, `G`, `EG`, `2. OG`, `B1`, `-1`, `roof`.
+    /// Reads a floor as `3`, `3rd floor`, `G`, `EG`, `2. OG`, `B1`, `-1`, `roof`; none where anything else
+    /// stands beside: `2-3`, `1.5`.
     pub fn parse(cell: &str) -> Option<Storey> {
-        let text = joined(cell);
-        let digits: String = text.chars().filter(char::is_ascii_digit).collect();
-        let letters = text.replace(|sign: char| sign.is_ascii_digit(), "-");
-        let letters: Vec<&str> = letters.split('-').filter(|word| !word.is_empty()).collect();
-        let are_all = |meaning: &str| letters.iter().all(|word| is_one_of(word, meaning));
-        if means(cell, "ground") {
-            return Some(Storey::Ground);
+        const BESIDE: &str = " .-_#():";
+        let names = [("ground", Storey::Ground), ("roof", Storey::Roof), ("basement", Storey::Basement)];
+        if let Some((_, storey)) = names.into_iter().find(|(meaning, _)| means(cell, meaning)) {
+            return Some(storey);
         }
-        if means(cell, "roof") {
-            return Some(Storey::Roof);
+        if let Ok(number) = cell.trim().parse::<f64>() {
+            return Some(number).filter(|number| number.fract() == 0.0).and_then(Storey::of_number);
         }
-        if letters.iter().any(|word| is_one_of(word, "basement")) {
+        let digits = cell.split(|sign: char| !sign.is_ascii_digit()).filter(|digits| !digits.is_empty());
+        let digits: Vec<&str> = digits.collect();
+        let text = joined(&cell.replace(|sign: char| sign.is_ascii_digit(), "-"));
+        let words: Vec<&str> = text.split_terminator('-').collect();
+        let are_all = |meanings: &[&str]| {
+            words.iter().all(|word| meanings.iter().any(|meaning| is_one_of(word, meaning)))
+        };
+        if digits.len() > 1 || !cell.chars().all(|sign| sign.is_alphanumeric() || BESIDE.contains(sign)) {
+            return None;
+        }
+        if are_all(&["basement", "of-floors"]) && words.iter().any(|word| is_one_of(word, "basement")) {
             return Some(Storey::Basement);
         }
-        let number = cell.trim().parse().ok().filter(|number: &f64| number.fract() == 0.0);
-        let number = number.or_else(|| digits.parse().ok().filter(|_| !cell.contains([',', '/', '+'])))?;
+        let (before, _) = cell.split_once(digits.first()?)?;
+        // L-3 may be below the ground.
+        let number = digits[0].parse().ok().filter(|_| !before.trim_end().ends_with('-'))?;
+        match Storey::of_number(number)? {
+            Storey::Number(number) if !words.is_empty() && are_all(&["above"]) => Some(Storey::Above(number)),
+            storey => Some(storey).filter(|_| are_all(&["of-floors"])),
+        }
+    }
+
+    fn of_number(number: f64) -> Option<Storey> {
         match number {
             ..0.0 => Some(Storey::Basement),
             0.0 => Some(Storey::Ground),
             200.0.. => None,
-            _ if !letters.is_empty() && are_all("above") => Some(Storey::Above(number as u32)),
-            _ if are_all("of-floors") => Some(Storey::Number(number as u32)),
-            _ => None,
+            _ => Some(Storey::Number(number as u32)),
         }
     }
 

@@ -335,8 +335,8 @@ impl List<'_> {
         if known.level.is_some() && known.period.is_some() {
             return Ok(place);
         }
-        let storey =
-            Storey::parse(cell).ok_or_else(|| format!("floor '{cell}'; expected a number, G or roof"))?;
+        let expected = "one whole number, such as 3 or 3rd floor, G, B1 or roof";
+        let storey = Storey::parse(cell).ok_or_else(|| format!("floor '{cell}'; expected {expected}"))?;
         let above = storey.above(self.ground_floor);
         if above == Some(0) {
             return Ok(Place { level: place.level.or(Some(0.0)), ..place });

@@ -134,3 +134,26 @@ fn all_that_a_file_unpacks_to_has_one_limit() {
     fail(folder.path(), &table("parts.zip"), 1, &["parts.zip", "a.csv, b.csv"]);
     fail(folder.path(), "import-motions large.zip --out m.parquet", 1, &["large.zip", "200 MB"]);
 }
+
+#[test]
+fn a_floor_is_one_number_or_one_name() {
+    let list = |floors: &[&str]| {
+        let rows = floors.iter().map(|floor| format!("{floor},0.5,1.9,30,{floor}\n"));
+        format!("name,width,height,storeys,floor\nground,0.5,1.9,30,G\n{}", rows.collect::<String>())
+    };
+    let read = |floors: &[&str]| {
+        let folder = folder(&[("list.csv", &list(floors))]);
+        evaluated(folder.path(), &format!("--structures list.csv {HAZARD}"))
+    };
+    let strange = ["2-3", "1.5", "-1.5", "3.5", "1 & 2", "L2.1", "2nd - 3rd", "L-3", "~3", "basement to 3"];
+    let rows = read(&strange);
+    for floor in strange {
+        let row = rows.iter().find(|row| row["structure"] == *floor).unwrap();
+        assert!(row["overturning_per_year"].is_null(), "{floor}: {row}");
+        assert!(row["warnings"].to_string().contains(floor), "{floor}: {row}");
+    }
+    let known = ["3", "3.0", "3rd floor", "L3", "3. OG", "Level 3", "-1", "B2", "basement level 1"];
+    for row in read(&known) {
+        assert!(row["overturning_per_year"].is_number(), "{row}");
+    }
+}
