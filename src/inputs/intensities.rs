@@ -10,6 +10,7 @@ use super::objects::describes_object;
 use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Renames};
 use crate::fragility::Peak;
+use crate::units::Quantity;
 
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
 pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>, InputError> {
@@ -36,27 +37,41 @@ fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let rows = 0..grid.lines.len();
-        let is_peak = peak(heading).is_some();
+        let (known, is_peak) = (known(heading)?, peak(heading).is_some());
+        let (name, size) = known.unwrap_or((&heading.text, 1.0));
         let numbers = rows.clone().map(|row| match grid.value(row, at) {
             None if !is_peak => Ok(None),
-            _ => grid.number(row, at).map(Some),
+            _ => grid.number(row, at).map(|number| Some(size * number)),
         });
         let cells: ArrayRef = match numbers.collect::<Result<Vec<_>, _>>() {
             Ok(numbers) => Arc::new(Float64Array::from(numbers)),
-            Err(error) if is_peak || means(&heading.name, "magnitude") => return Err(error),
+            Err(error) if is_peak || known.is_some() => return Err(error),
             Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| grid.cell(row, at)))),
-        };
-        let name = match heading.name.as_str() {
-            name if means(name, "magnitude") => "mw",
-            "p" => "p_rad_s",
-            "alpha" => "alpha_rad",
-            "tp" => "tp_s",
-            "tm" => "tm_s",
-            _ => &heading.text,
         };
         columns.push((name.to_string(), cells));
     }
     Ok(columns)
+}
+
+/// The column that a heading names, and its unit in rad/s, rad or s.
+fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>, InputError> {
+    const COLUMNS: [(&str, &str, Quantity); 4] = [
+        ("p", "p_rad_s", Quantity::AngularFrequency),
+        ("alpha", "alpha_rad", Quantity::Angle),
+        ("tp", "tp_s", Quantity::Time),
+        ("tm", "tm_s", Quantity::Time),
+    ];
+    if means(&heading.name, "magnitude") {
+        return Ok(Some(("mw", 1.0)));
+    }
+    let Some((_, column, quantity)) = COLUMNS.into_iter().find(|(name, ..)| *name == heading.name) else {
+        return Ok(None);
+    };
+    match heading.unit {
+        None if !heading.is_scaled && !heading.is_percent => Ok(Some((column, 1.0))),
+        Some(unit) if unit.quantity == quantity => Ok(Some((column, unit.si))),
+        _ => Err(InputError::Units { heading: heading.text.clone(), unit: column.to_string() }),
+    }
 }
 
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.

@@ -51,7 +51,7 @@ impl<'a> Renames<'a> {
                 continue;
             };
             let wanted = Heading::new(&rename.column);
-            if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old.quantity != new.quantity) {
+            if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old != new) {
                 let (heading, unit) = (heading.text.clone(), rename.column.clone());
                 return Err(InputError::Units { heading, unit });
             }

@@ -136,6 +136,43 @@ fn all_that_a_file_unpacks_to_has_one_limit() {
 }
 
 #[test]
+fn units_of_a_table_of_intensities_are_applied_or_refused() {
+    let folder = folder(&[]);
+    let table = |headings: &str| {
+        let text = format!("pga_g,pgv_m_s,eta,{headings}\n0.5,0.5,0.92,0.4,0.2\n");
+        std::fs::write(folder.path().join("t.csv"), text).unwrap();
+    };
+    for (headings, p, alpha) in [
+        ("p_rad_s,alpha_rad", 0.4, 0.2),
+        ("p,alpha", 0.4, 0.2),
+        ("p (Hz),alpha (deg)", 0.4 * std::f64::consts::TAU, 0.2_f64.to_radians()),
+    ] {
+        table(headings);
+        let row = evaluated(folder.path(), "--in t.csv").remove(0);
+        assert!(near(number(&row, "p_rad_s"), p, 1e-12), "{headings}: {row}");
+        assert!(near(number(&row, "alpha_rad"), alpha, 1e-12), "{headings}: {row}");
+    }
+    for (headings, named) in
+        [("p (s),alpha", "p (s)"), ("p,alpha (m)", "alpha (m)"), ("p,alpha (%)", "alpha (%)")]
+    {
+        table(headings);
+        fail(folder.path(), "evaluate --in t.csv", 1, &["t.csv", named]);
+    }
+    // A unit that the user names does not replace that of the file.
+    std::fs::write(folder.path().join("h.csv"), "Peak (m/s2),AFE\n1,0.01\n10,1e-4\n").unwrap();
+    let call = ["evaluate", "--width", "0.5", "--height", "1.9", "--hazard", "h.csv", "--columns"];
+    let columns = |column: &str| {
+        let mut command = super::common::rockfrag(folder.path(), "");
+        command.args(call).arg(format!("{column}=Peak (m/s2)")).output().unwrap()
+    };
+    assert!(columns("pga_m_s2").status.success());
+    let refused = columns("pga_g");
+    assert!(
+        refused.status.code() == Some(1) && String::from_utf8_lossy(&refused.stderr).contains("Peak (m/s2)")
+    );
+}
+
+#[test]
 fn a_floor_is_one_number_or_one_name() {
     let list = |floors: &[&str]| {
         let rows = floors.iter().map(|floor| format!("{floor},0.5,1.9,30,{floor}\n"));
