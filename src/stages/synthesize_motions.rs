@@ -7,7 +7,7 @@ use anyhow::Context as _;
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use crate::inputs::Grid;
+use crate::inputs::{Grid, Heading};
 use crate::motion::{
     Difference, Epoch, LONGEST_MOTION, MeasurePlan, MotionMeasures, MotionModel, Scenario, SiteAmplification,
     StochasticModel, Suite, Synthesizer,
@@ -206,15 +206,26 @@ fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
         Some("none") => Ok(SiteAmplification::none()),
         _ => site_factors(name).with_context(|| {
             let name = name.display();
-            format!("{name}: expected rock, soil, none, or a CSV file of frequencies (Hz) and factors")
+            format!("{name}: expected rock, soil, none, or a CSV file of frequency_hz and factor")
         }),
     }
 }
 
 fn site_factors(path: &Path) -> anyhow::Result<SiteAmplification> {
-    let sheet = Grid::read(path)?;
-    let pairs = (0..sheet.lines.len()).map(|row| Ok((sheet.number(row, 0)?, sheet.number(row, 1)?)));
-    Ok(SiteAmplification::table(pairs.collect::<anyhow::Result<_>>()?)?)
+    let grid = Grid::read(path)?;
+    let is_frequency = |Heading { name, unit, .. }: &Heading| match unit {
+        Some(unit) => unit.name == "Hz",
+        None => name.starts_with("freq") || name == "f",
+    };
+    let are_frequencies: Vec<bool> = grid.headings.iter().map(is_frequency).collect();
+    let (frequency, factor) = match are_frequencies[..] {
+        [true, false] => (0, 1),
+        [false, true] => (1, 0),
+        [_, _] if !grid.has_headings => (0, 1),
+        _ => anyhow::bail!("{}; expected frequency_hz and factor", grid.found()),
+    };
+    let pairs = grid.numbers(frequency)?.into_iter().zip(grid.numbers(factor)?);
+    Ok(SiteAmplification::table(pairs.collect())?)
 }
 
 /// The motions of a scenario, each measured as it will be read.

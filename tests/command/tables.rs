@@ -136,6 +136,29 @@ fn all_that_a_file_unpacks_to_has_one_limit() {
 }
 
 #[test]
+fn the_columns_of_a_site_are_found_by_their_headings() {
+    let folder = folder(&[
+        ("one.csv", "frequency\n1\n2\n"),
+        ("period.csv", "period_s,factor\n0.1,1\n1,2\n"),
+        ("a.csv", "frequency_hz,factor\n0.1,1\n10,2\n"),
+        ("b.csv", "factor,frequency_hz\n1,0.1\n2,10\n"),
+        ("c.csv", "0.1,1\n10,2\n"),
+    ]);
+    succeed(folder.path(), "sample-scenarios --mw 6.5 --re 5 --samples 1");
+    let synthesize =
+        |site: &str| format!("synthesize-motions --dt 0.02 --site {site}.csv --out {site}.parquet");
+    let motions = |site: &str| {
+        succeed(folder.path(), &synthesize(site));
+        rows(folder.path(), &format!("{site}.parquet"))
+    };
+    assert_eq!(motions("a"), motions("b"));
+    assert_eq!(motions("a"), motions("c"));
+    for site in ["one", "period"] {
+        fail(folder.path(), &synthesize(site), 1, &[site, "frequency_hz"]);
+    }
+}
+
+#[test]
 fn units_of_a_table_of_intensities_are_applied_or_refused() {
     let folder = folder(&[]);
     let table = |headings: &str| {
