@@ -217,3 +217,23 @@ fn a_floor_is_one_number_or_one_name() {
         assert!(row["overturning_per_year"].is_number(), "{row}");
     }
 }
+
+#[test]
+fn one_site_is_one_place() {
+    let file = |place: &str| format!("# {place}\nPGA (g),AFE\n0.1,0.01\n0.5,1e-3\n1,1e-4\n");
+    let spectral = |place: &str| file(place).replace("PGA", "SA(1.0)").replace("0.1,", "0.05,");
+    for (first, second, is_one) in [
+        ("lon=-0.1276, lat=51.5", "lon=-0.128, lat=51.5", true),
+        ("lon=0.0, lat=0.0", "lon=0.0001, lat=0.0", true),
+        ("lon=139.70, lat=35.6", "lon=139.713, lat=35.6", false),
+        ("lon=10, lat=45.00", "lon=10, lat=45.02", false),
+        ("vs30=760", "vs30=765", false),
+    ] {
+        let folder = folder(&[("a.csv", &file(first)), ("b.csv", &spectral(second))]);
+        let call = "evaluate --width 0.5 --height 1.9 --hazard a.csv,b.csv";
+        match is_one {
+            true => drop(succeed(folder.path(), call)),
+            false => fail(folder.path(), call, 1, &["b.csv", "one site"]),
+        }
+    }
+}

@@ -232,17 +232,32 @@ impl Found {
     /// Checks that rows and comments are about the site of those before, in this file and in others.
     fn expect_one_site(&mut self, grid: &Grid) -> Result<(), InputError> {
         const SAME: f64 = 1e-4;
-        let noted = ["lon", "lat", "longitude", "latitude", "vs30"].into_iter();
+        /// North and east.
+        const NEAR_KM: f64 = 1.0;
+        const KM_PER_DEGREE: f64 = 111.2;
+        let noted = ["lat", "lon", "latitude", "longitude", "vs30"].into_iter();
         let mut told: Vec<(&str, &str)> =
             noted.filter_map(|key| Some((key, openquake::noted(grid, key)?))).collect();
         for (at, heading) in grid.headings.iter().enumerate() {
-            let rows = (0..grid.lines.len()).filter(|_| means(&heading.name, "place"));
-            told.extend(rows.map(|row| (heading.name.as_str(), grid.cell(row, at))));
+            if means(&heading.name, "place") {
+                told.extend((0..grid.lines.len()).map(|row| (&*heading.name, grid.cell(row, at))));
+            }
         }
+        // A degree of longitude depends on the latitude.
+        told.sort_by_key(|(key, _)| !key.starts_with("lat"));
         for (key, value) in told {
+            let key = if key.starts_with("lat") || key.starts_with("lon") { &key[..3] } else { key };
+            let lat = self.site.get("lat").and_then(|lat| lat.parse().ok()).unwrap_or(0.0_f64);
             let known = self.site.entry(key.to_string()).or_insert(value.to_string());
             let is_same = match (known.parse::<f64>(), value.parse::<f64>()) {
-                (Ok(known), Ok(value)) => (known - value).abs() <= SAME * value.abs(),
+                (Ok(known), Ok(value)) => {
+                    let most = match key {
+                        "lat" => NEAR_KM / KM_PER_DEGREE,
+                        "lon" => NEAR_KM / (KM_PER_DEGREE * lat.to_radians().cos().max(0.01)),
+                        _ => SAME * value.abs(),
+                    };
+                    (known - value).abs() <= most
+                }
                 _ => known.eq_ignore_ascii_case(value),
             };
             if !is_same {
