@@ -3,6 +3,9 @@
 use super::words::joined;
 use crate::units::{Quantity, Unit};
 
+/// The longest text that may say a unit: a search for one in every part of a long line would not end.
+const LONGEST: usize = 100;
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// Text in the file.
@@ -56,11 +59,11 @@ fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
     for (start, sign) in text.char_indices().rev().filter(|(at, sign)| matches!(sign, '(' | '[') && *at > 0) {
         let close = if sign == '(' { ')' } else { ']' };
         let end = text[start..].find(close).map_or(text.len(), |end| start + end);
-        let (inside, behind) = (text[start + 1..end].trim(), text.get(end + 1..).unwrap_or_default());
-        let bare = text[..start].to_string() + " " + behind;
-        match (Unit::parse(inside), explained(inside)) {
-            (Some(unit), _) => return Some((bare, Some(unit))),
-            (None, Some(unit)) => explaining = explaining.or(Some((bare, unit))),
+        let inside = Some(text[start + 1..end].trim()).filter(|inside| inside.len() <= LONGEST);
+        let bare = || text[..start].to_string() + " " + text.get(end + 1..).unwrap_or_default();
+        match (inside.and_then(Unit::parse), inside.and_then(explained)) {
+            (Some(unit), _) => return Some((bare(), Some(unit))),
+            (None, Some(unit)) => explaining = explaining.or_else(|| Some((bare(), unit))),
             (None, None) => {}
         }
     }
@@ -70,7 +73,8 @@ fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
 /// The beginning of a heading, and the unit at its end; what stands in brackets is no end.
 fn at_end(text: &str) -> Option<(String, Option<Unit>)> {
     let last = text.rfind([')', ']']).map_or(0, |at| at + 1);
-    let mut ends = text.match_indices([' ', '_', ',']).filter(|(at, _)| *at >= last.max(1));
+    let first = last.max(1).max(text.len().saturating_sub(LONGEST));
+    let mut ends = text.match_indices([' ', '_', ',']).filter(|(at, _)| *at >= first);
     ends.find_map(|(at, _)| {
         let end = text[at + 1..].trim_matches(['(', ')', '[', ']', ' ']);
         let is_told = end.contains('=') || end.starts_with(['x', 'X', '\u{d7}', '*']);

@@ -1,15 +1,20 @@
 //! Words of people's tables, in several languages: data/headings.csv.
 
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
-static WORDS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
-    let lines = include_str!("../../data/headings.csv").lines();
-    lines.filter(|line| !line.starts_with('#')).skip(1).filter_map(|line| line.split_once(',')).collect()
+static WORDS: LazyLock<HashMap<&str, Vec<&str>>> = LazyLock::new(|| {
+    let lines = include_str!("../../data/headings.csv").lines().filter(|line| !line.starts_with('#'));
+    let mut words: HashMap<_, Vec<_>> = HashMap::new();
+    for (meaning, word) in lines.skip(1).filter_map(|line| line.split_once(',')) {
+        words.entry(meaning).or_default().push(word);
+    }
+    words
 });
 
 /// The words with a meaning, the best first.
 pub fn words(meaning: &str) -> impl Iterator<Item = &'static str> {
-    WORDS.iter().filter(move |(known, _)| *known == meaning).map(|(_, word)| *word)
+    WORDS.get(meaning).into_iter().flatten().copied()
 }
 
 /// Whether a text has a meaning.

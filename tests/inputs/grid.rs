@@ -145,6 +145,19 @@ fn points_and_commas_are_settled_by_the_whole_table() {
 }
 
 #[test]
+fn many_columns_and_long_lines_are_read() {
+    // In quadratic time this test would not end.
+    const COLUMNS: usize = 100_000;
+    let headings: Vec<String> = (0..COLUMNS).map(|at| format!("c{at}")).collect();
+    let table = headings.join(",") + "\n" + &"0.1,".repeat(COLUMNS - 1) + "0.2\n";
+    let grid = Grid::parse(table.as_bytes(), None).unwrap();
+    assert_eq!((grid.headings.len(), grid.number(0, COLUMNS - 1)), (COLUMNS, Ok(0.2)));
+    let note = format!("a,b\n# {}\n1,2\n", "(0.1 ".repeat(COLUMNS));
+    let grid = Grid::parse(note.as_bytes(), None).unwrap();
+    assert!(grid.notes.iter().all(|note| Heading::new(note).unit.is_none()));
+}
+
+#[test]
 fn the_unit_is_that_of_the_numbers() {
     for (text, name, unit) in [
         ("acc (g = 9.81 m/s2)", "acc", "g"),

@@ -159,6 +159,10 @@ fn what_is_wrong_is_refused_for_its_reason() {
         };
         assert!(found.starts_with(kind), "{kind}: {found}: {}", text.get(..60).unwrap_or(&text));
     }
+    // A record in one row takes no time.
+    let row = motion(1600).repeat(25).iter().map(|a| format!("{a:.6}")).collect::<Vec<_>>().join(",");
+    assert!(matches!(read(&row, "unit=g dt=0.01"), Err(RecordFileError::Column { .. })));
+    assert_eq!(read(&row, "unit=g dt=0.01 column=all").unwrap().1.len(), 40_000);
     // Padding of the last line.
     assert_eq!(read(&at2(IN_G, "NPTS= 101, DT= .01"), "").unwrap().1.len(), 101);
     assert!(Unit::parse_acceleration("furlong").is_err() && Unit::parse_acceleration("cm").is_err());

@@ -186,9 +186,11 @@ impl Found {
         if is_joint {
             self.joint = Some(joint(&grid, occurrence, effective_years, &mut self.warnings)?);
         } else {
-            for (values, rates) in columns.iter().flat_map(|a| columns.iter().map(move |b| (a, b))) {
-                if let Some(curve) = curve_of(&grid, values, rates, path)? {
-                    self.add_curve(curve)?;
+            for values in columns.iter().filter(|column| column.unit.is_some()) {
+                for rates in columns.iter().filter(|column| column.frequency.is_some()) {
+                    if let Some(curve) = curve_of(&grid, values, rates, path)? {
+                        self.add_curve(curve)?;
+                    }
                 }
             }
         }

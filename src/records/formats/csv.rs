@@ -120,7 +120,8 @@ impl Samples<'_> {
             // The same motion before and after.
             return Err(self.which_column());
         }
-        let directions = self.columns(|at| unknown.contains(&at) && direction(&headings[at]).is_some());
+        let mut directions = unknown.clone();
+        directions.retain(|at| direction(&headings[*at]).is_some());
         match (named.is_empty(), directions.len(), unknown.len()) {
             (false, ..) => Ok(named),
             (.., 1) => Ok(unknown),

@@ -53,8 +53,7 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
     let (objects, unused) = objects::in_rows(grid, &others, &Common::default())?;
     doubts.extend(unused);
-    let (mut earthquakes, mut rows, mut read) =
-        (Vec::<(&str, Option<f64>)>::new(), HashMap::new(), Vec::new());
+    let (mut earthquakes, mut rows, mut read) = (HashMap::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", grid.lines[row]);
         if object.count.is_some_and(|count| count != 1) {
@@ -77,18 +76,15 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
             doubts.add(Warning::Repeated, format!("{line} as line {first}"));
         }
         let (name, mw) = (earthquake.map_or("", |column| grid.cell(row, column)), motions.mw[row]);
-        let known = earthquakes.iter().position(|(other, _)| *other == name);
-        let number = known.unwrap_or(earthquakes.len());
-        if known.is_none() {
-            earthquakes.push((name, mw));
-        }
-        if let (Some(first), Some(mw)) = (earthquakes[number].1, mw)
+        let next = earthquakes.len() as u32;
+        let (number, first) = *earthquakes.entry(name).or_insert((next, mw));
+        if let (Some(first), Some(mw)) = (first, mw)
             && first != mw
             && !name.is_empty()
         {
             bail!("{line}: magnitude {mw}; expected {first}, that of earthquake '{name}' before");
         }
-        read.push(ObservedOutcome { structure, peaks, mw, earthquake: number as u32, fell });
+        read.push(ObservedOutcome { structure, peaks, mw, earthquake: number, fell });
     }
     Ok((read, doubts))
 }
