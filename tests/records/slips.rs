@@ -126,6 +126,8 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (wrapped(""), "unit=m/s2 dt=0.01 column=all", "ShortLine { line: 6, found: 0"),
         (wrapped("# velocity"), "unit=m/s2 dt=0.01 column=all", "ShortLine { line: 6, found: 0"),
         (lines("0.1\n", G, |_, a| format!("{a:.6}")), "unit=g dt=0.01", "ShortLine { line: 2, found: 0"),
+        ("0.1\n0.2\n0.1 0.2\n0.3\n".to_string(), "unit=g dt=0.01", "ShortLine { line: 3, found: 2"),
+        ("0.1\n0.2\n0.3\n0.1 0.2\n".to_string(), "unit=g dt=0.01 column=1", "ShortLine { line: 4, found: 2"),
         (
             lines("time,Base N-S (g),Roof N-S (g)", G, |k, a| {
                 format!("{:.2},{a:.6},{:.6}", time(k), 2.0 * a)

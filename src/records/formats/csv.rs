@@ -248,17 +248,19 @@ impl Samples<'_> {
         filled.map(|(row, column)| Ok(self.grid.number(row, column)?)).collect()
     }
 
-    /// Refuses samples without times among which another line stands, and a short line of wrapped ones before
-    /// the last: another series may begin there, or the file is damaged.
+    /// Refuses samples without times among which another line stands, a line of more cells than the first, and
+    /// a short line of wrapped ones before the last: another series may begin there, or the file is damaged.
     fn expect_one_series(&self, is_wrapped: bool) -> Result<(), RecordFileError> {
-        let expected = self.quantities.len();
-        for (row, lines) in self.grid.lines.windows(2).enumerate() {
-            let found = (0..expected).take_while(|&at| !self.grid.cell(row, at).is_empty()).count();
-            if is_wrapped && found < expected {
-                return Err(RecordFileError::ShortLine { line: lines[0], found, expected });
+        let (grid, columns) = (&self.grid, self.quantities.len());
+        let filled = |row: usize| (0..columns).take_while(|&at| !grid.cell(row, at).is_empty()).count();
+        let expected = if is_wrapped || grid.has_headings { columns } else { filled(0) };
+        for (row, &line) in grid.lines.iter().enumerate() {
+            let (found, next) = (filled(row), grid.lines.get(row + 1));
+            if found > expected || is_wrapped && found < expected && next.is_some() {
+                return Err(RecordFileError::ShortLine { line, found, expected });
             }
-            if self.times.is_none() && lines[1] != lines[0] + 1 {
-                return Err(RecordFileError::ShortLine { line: lines[0] + 1, found: 0, expected });
+            if self.times.is_none() && next.is_some_and(|next| *next != line + 1) {
+                return Err(RecordFileError::ShortLine { line: line + 1, found: 0, expected });
             }
         }
         Ok(())
