@@ -33,9 +33,11 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Splits the path of a sheet of a workbook, `list.xlsx#Sheet2`.
+/// Splits the path of a sheet of a workbook, `list.xlsx#Sheet2`; both may have the sign in their names.
 pub fn split_sheet(path: &Path) -> (PathBuf, Option<String>) {
-    match path.to_str().and_then(|text| text.rsplit_once('#')).filter(|_| !path.exists()) {
+    let text = path.to_str().filter(|_| !path.exists()).unwrap_or_default();
+    let splits = || text.match_indices('#').map(|(at, _)| (&text[..at], &text[at + 1..]));
+    match splits().find(|(file, _)| Path::new(file).exists()).or(splits().next_back()) {
         Some((file, sheet)) => (PathBuf::from(file), Some(sheet.to_string())),
         None => (path.to_path_buf(), None),
     }

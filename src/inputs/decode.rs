@@ -42,7 +42,8 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, InputError> {
     Ok(if text.is_ascii() { text } else { Cow::Owned(text.chars().map(plain).collect()) })
 }
 
-fn plain(sign: char) -> char {
+/// A typographic blank, minus sign or wide letter in ASCII.
+pub(super) fn plain(sign: char) -> char {
     match sign {
         '\u{2212}' => '-',
         '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{3000}' => ' ',

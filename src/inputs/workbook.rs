@@ -4,6 +4,7 @@ use std::io::Cursor;
 
 use calamine::{Data, DataType, Reader, SheetVisible, Sheets, Xlsx, XlsxError, open_workbook_auto_from_rs};
 
+use super::decode::plain;
 use super::error::{InputError, expect_few_cells};
 use crate::source::guarded;
 
@@ -145,6 +146,6 @@ fn text(cell: &Data, formula: Option<&String>) -> String {
             let (year, month, day, ..) = date.to_ymd_hms_milli();
             format!("{year}-{month:02}-{day:02}")
         }
-        other => other.to_string().trim().to_string(),
+        other => other.to_string().trim().chars().map(plain).collect(),
     }
 }

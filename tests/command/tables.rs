@@ -237,3 +237,16 @@ fn one_site_is_one_place() {
         }
     }
 }
+
+#[test]
+fn a_sheet_may_have_the_sign_in_its_name() {
+    let folder = folder(&[]);
+    let mut workbook = rust_xlsxwriter::Workbook::new();
+    for (name, width) in [("Room #1", 0.5), ("Room#2", 0.4)] {
+        let sheet = workbook.add_worksheet().set_name(name).unwrap();
+        sheet.write_row(0, 0, ["width", "height"]).unwrap();
+        sheet.write_row(1, 0, [width, 1.9]).unwrap();
+    }
+    workbook.save(folder.path().join("l.xlsx")).unwrap();
+    assert_eq!(evaluated(folder.path(), "--structures l.xlsx#Room#2 --pga 0.5").len(), 1);
+}
