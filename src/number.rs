@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::fmt::Display;
+use std::path::Path;
 
 pub use crate::statistics::Limited;
 
@@ -140,26 +141,46 @@ impl Style {
 
 /// Letters of a name, and of any text, that are shown on a line.
 const LONGEST_NAME: usize = 100;
-const LONGEST_TEXT: usize = 1000;
+pub const LONGEST_TEXT: usize = 1000;
 
 /// Writes a name of the user: the beginning of a long one, as [`shown`].
 pub fn name(name: &str) -> Cow<'_, str> {
     shown(name, LONGEST_NAME)
 }
 
-/// Writes a text on one line, cut to this many letters; control characters, which would move or colour a
-/// terminal, as escapes.
-pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
-    let is_long = text.chars().nth(most).is_some();
-    if !is_long && !text.contains(char::is_control) {
+/// Whether a letter is none to read: it moves or colours a terminal, turns the letters beside it around, or
+/// is no letter of XML.
+pub fn is_hidden(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}')
+        || matches!(letter, '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}')
+}
+
+/// Writes a text whose hidden letters, but those `kept`, are escapes as JSON has them: `\u001b`.
+pub fn visible<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
+    let is_escaped = |letter: char| is_hidden(letter) && !kept.contains(&letter);
+    if !text.contains(is_escaped) {
         return Cow::Borrowed(text);
     }
-    let letter = |letter: char| match letter.is_control() {
-        true => letter.escape_default().to_string(),
-        false => letter.to_string(),
+    let letter = |letter: char| match letter {
+        '\n' if is_escaped(letter) => "\\n".to_string(),
+        _ if is_escaped(letter) => format!("\\u{:04x}", u32::from(letter)),
+        _ => letter.to_string(),
     };
-    let cut: String = text.chars().take(most).map(letter).collect();
-    Cow::Owned(cut + if is_long { "..." } else { "" })
+    Cow::Owned(text.chars().map(letter).collect())
+}
+
+/// Writes a text on one line, cut to this many letters.
+pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => Cow::Owned(visible(&text[..end], &[]).into_owned() + "..."),
+        None => visible(text, &[]),
+    }
+}
+
+/// Writes a path on one line.
+pub fn path(path: &Path) -> String {
+    shown(&path.to_string_lossy(), LONGEST_TEXT).into_owned()
 }
 
 /// Writes rows of cells as columns in line, those of numbers flush right.

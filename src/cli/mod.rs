@@ -5,7 +5,6 @@ mod yaml;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::builder::StyledStr;
@@ -20,10 +19,12 @@ use crate::pipeline::UsageError;
 use crate::pipeline::cache::{self, is_view};
 use crate::pipeline::call::Call;
 use crate::pipeline::context::{COMMON, Caller, Common, Context, threads_of};
-use crate::pipeline::options::in_one_line;
+use crate::pipeline::options::{SeveralErrors, in_one_line};
 use crate::pipeline::paths::{Role, path_kind};
+use crate::pipeline::terminal::{print, tell};
 use crate::source::{quiet_damage, split_sheet};
 use crate::stages::{Stages, init, inspect, run};
+use crate::table::frame::Format;
 use crate::table::keys::resolved;
 
 const PIPELINE: &str = "pipeline.yaml";
@@ -149,14 +150,23 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     quiet_damage();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let Err(error) = run(&arguments) else { return 0 };
-    if let Some(refused) = error.downcast_ref::<clap::Error>() {
-        let _ = refused.print();
-        return u8::from(refused.use_stderr()) * 2;
+    match error.downcast_ref::<clap::Error>() {
+        // Help, and the version: our own words, in colours.
+        Some(asked) if !asked.use_stderr() => {
+            let _ = asked.print();
+            return 0;
+        }
+        Some(refused) => tell(refused.to_string().trim_end()),
+        None => {
+            let lines = match error.downcast_ref() {
+                Some(SeveralErrors(lines)) => lines.clone(),
+                None => vec![format!("{error:#}")],
+            };
+            let lines: Vec<_> = lines.iter().map(|line| shown(line, LONGEST_ERROR)).collect();
+            tell(&format!("error: {}", lines.join("\n")));
+        }
     }
-    let text = format!("{error:#}");
-    let lines: Vec<_> = text.lines().map(|line| shown(line, LONGEST_ERROR)).collect();
-    let _ = writeln!(std::io::stderr(), "error: {}", lines.join("\n"));
-    if error.is::<UsageError>() { 2 } else { 1 }
+    if error.is::<UsageError>() || error.is::<clap::Error>() { 2 } else { 1 }
 }
 
 fn run(arguments: &[OsString]) -> anyhow::Result<()> {
@@ -175,21 +185,21 @@ fn run(arguments: &[OsString]) -> anyhow::Result<()> {
             let calls = calls_of(&pipeline, out, seed)?;
             match dry_run {
                 true => run::dry_run(&calls)?,
-                false => run::run(&calls, &Context::new(common, Caller::Run))?,
+                false => return run::run(&calls, &Context::new(common, Caller::Run)),
             }
         }
         Tool::Init { start, out, quiet } => {
             let written = init::init(start, &out)?;
             if quiet { String::new() } else { written }
         }
-        Tool::Inspect(inspect) => inspect.run()?,
+        Tool::Inspect(inspect) => return print(&inspect.run()?, inspect.format),
         Tool::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut command(), "rockfrag", &mut script);
             String::from_utf8(script)?
         }
     };
-    print(&text)
+    print(&text, Format::Text)
 }
 
 fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
@@ -198,9 +208,9 @@ fn run_stage(command: &Command, user: &[OsString]) -> anyhow::Result<()> {
     let context = Context::new(call.common.clone(), Caller::Command);
     let done = cache::run(&call, &context, &HashMap::new())?;
     if !done.ran && !context.common.quiet {
-        let _ = writeln!(std::io::stderr(), "{}: up to date", call.name);
+        tell(&format!("{}: up to date", call.name));
     }
-    print(&done.summary)?;
+    print(&done.summary, call.stage.format())?;
     if !context.common.quiet {
         run::warn(&done.warnings);
     }
@@ -298,14 +308,5 @@ fn set_threads(common: &Common) -> anyhow::Result<()> {
     match threads_of(common.threads)? {
         Some(threads) => Ok(threads.build_global()?),
         None => Ok(()),
-    }
-}
-
-/// Prints to stdout; a closed pipe (`| head`) is not an error.
-fn print(text: &str) -> anyhow::Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        done => Ok(done?),
     }
 }

@@ -8,7 +8,7 @@ use super::peaks::JointPeaks;
 use super::surface::{self, Kind};
 use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures, Suite};
-use crate::number::counted;
+use crate::number::{counted, name};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
 use crate::warning::Warning;
@@ -130,12 +130,13 @@ impl Model {
                     _ if overturning.is_of_outcomes() => {
                         format!(", calibrated on {}, for", counted(n, "observed outcome"))
                     }
-                    _ => format!(", calibrated on {} of {structure} to", counted(n, "response")),
+                    _ => format!(", calibrated on {} of {} to", counted(n, "response"), name(structure)),
                 };
                 format!("rockfrag's universal surface{calibrated} {motions}{place}")
             }
             Model::Paper { overturning: CurveFit { n, structure, .. }, .. } => {
                 let (responses, motions) = (counted(*n as usize, "response"), self.kind().words());
+                let structure = name(structure);
                 format!(
                     "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
                 )

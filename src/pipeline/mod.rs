@@ -7,6 +7,7 @@
 //! context   what a call would make, and output, progress and warnings of the running stage
 //! stream    concurrent reading, work and writing
 //! options   option types of several stages, and mistakes in options
+//! terminal  all that is printed
 //! ```
 
 pub mod cache;
@@ -15,12 +16,14 @@ pub mod context;
 pub mod options;
 pub mod paths;
 pub mod stream;
+pub mod terminal;
 
 use std::path::PathBuf;
 
 use self::context::Context;
 pub use self::options::UsageError;
 use self::paths::Read;
+use crate::table::frame::Format;
 
 /// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the
 /// paths, the options enter the key of what is made.
@@ -40,6 +43,11 @@ pub trait Stage {
     /// running the stage gives it.
     fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
         Ok(Some(summary.to_string()))
+    }
+
+    /// Returns the form of what it prints.
+    fn format(&self) -> Format {
+        Format::Text
     }
 
     /// Runs the stage. Returns the text to print.

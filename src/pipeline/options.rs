@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
-use crate::number::count;
+use crate::number::{self, count};
 
 /// A mistake in a call, rather than in a file: the command exits with 2.
 #[derive(Debug, thiserror::Error)]
@@ -18,6 +18,11 @@ impl UsageError {
         UsageError(message.into()).into()
     }
 }
+
+/// Several things that are wrong, a line each.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("; "))]
+pub struct SeveralErrors(pub Vec<String>);
 
 /// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
 pub fn number<T: FromStr + PartialOrd + Clone>(
@@ -85,7 +90,7 @@ pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {
         return text.to_string();
     }
     let first: String = text.lines().take(most - 1).map(|line| format!("{line}\n")).collect();
-    let file = file.file_name().unwrap_or_default().to_string_lossy();
+    let file = number::path(file.file_name().unwrap_or_default().as_ref());
     format!("{first}and {} more, in {file}\n", count(lines + 1 - most))
 }
 

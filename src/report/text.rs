@@ -1,6 +1,8 @@
 //! Text of figures and of the page. Marked text has italics and small letters below or above the line:
 //! `*P*_{ro}`, `10^{-3}`; a backslash takes the next letter as it stands, as [`literal`] does for names.
 
+use crate::number::is_hidden;
+
 /// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
@@ -81,9 +83,9 @@ pub fn file_words(marked: &str) -> String {
     parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-").to_lowercase()
 }
 
-/// Escapes text for HTML, SVG and their attributes; drops what XML cannot hold.
+/// Escapes text for HTML, SVG and their attributes; drops what is no letter to read.
 pub fn escape(text: &str) -> String {
-    let clean = text.replace(|letter: char| letter.is_control() && letter != '\n', "");
+    let clean = text.replace(|letter: char| is_hidden(letter) && letter != '\n', "");
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

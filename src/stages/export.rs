@@ -12,6 +12,7 @@ use crate::fragility::{LimitStates, Peak};
 use crate::hazard::{SitesInGeneral, strongest};
 use crate::inputs::Renames;
 use crate::keyword::keywords;
+use crate::number;
 use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
@@ -109,7 +110,7 @@ impl Stage for Export {
                 context.write_file(&files[1], parameters(&model)?.as_bytes())?;
             }
         }
-        let (file, number, over) = (files[files.len() - 1].display(), model.functions.len(), self.over);
+        let (file, number, over) = (number::path(&files[files.len() - 1]), model.functions.len(), self.over);
         let most = model.functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
         Ok(format!("{file}: {number} structure(s) over {over}, up to {most} levels each\n"))
     }

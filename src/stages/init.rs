@@ -1,11 +1,12 @@
 //! init: a folder to start from. It replaces nothing.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use chrono::Local;
 use clap::ValueEnum;
 
+use crate::number;
 use crate::pipeline::UsageError;
 use crate::table::writer::{Existing, Written, persist};
 
@@ -52,8 +53,10 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     let written =
         files.iter().map(|(path, text)| Written::new(path, text.replace("TODAY", &today).as_bytes()));
     persist(written.collect::<Result<_, _>>()?, Existing::Kept)?;
-    let mut text: String = files.iter().map(|(path, _)| format!("wrote {}\n", path.display())).collect();
-    let there = if folder == Path::new("") { String::new() } else { format!("cd {} && ", folder.display()) };
+    let wrote = |(path, _): &(PathBuf, _)| format!("wrote {}\n", number::path(path));
+    let mut text: String = files.iter().map(wrote).collect();
+    let there =
+        if folder == Path::new("") { String::new() } else { format!("cd {} && ", number::path(folder)) };
     let before = if start == Start::Records { "put your records into the folder records, then " } else { "" };
     writeln!(text, "next: {before}{there}rockfrag run")?;
     Ok(text)

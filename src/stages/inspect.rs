@@ -1,6 +1,5 @@
 //! inspect: what a file holds and where it came from.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use arrow_schema::Field;
@@ -10,6 +9,7 @@ use parquet::file::statistics::Statistics;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use crate::number::visible;
 use crate::table::file::Table;
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
@@ -26,7 +26,7 @@ pub struct Inspect {
     head: Option<usize>,
     /// text, csv or json
     #[arg(long, default_value = "text")]
-    format: Format,
+    pub format: Format,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -62,21 +62,19 @@ impl Inspect {
         if self.format == Format::Csv {
             return Ok(shown);
         }
-        let mut text = format!("{}: {} rows\n", self.file.display(), table.rows());
-        match made {
-            None => text += "not written by rockfrag\n",
-            Some(made) => {
-                writeln!(text, "made by {}, rockfrag {}", made.stage, made.version)?;
-                for (name, values) in &made.arguments {
-                    writeln!(text, "  --{name} {}", text_of(values))?;
-                }
-                for warning in made.warnings.lines() {
-                    writeln!(text, "  warning: {warning}")?;
-                }
-            }
-        }
-        Ok(cut(&format!("{text}\n{shown}")))
+        let mut lines = vec![format!("{}: {} rows", self.file.display(), table.rows())];
+        lines.extend(made.map_or(vec!["not written by rockfrag".to_string()], origin));
+        let lines = lines.iter().map(|line| format!("{}\n", visible(line, &[])));
+        Ok(cut(&(lines.collect::<String>() + "\n" + &shown)))
     }
+}
+
+/// What made a table, in lines.
+fn origin(made: Provenance) -> Vec<String> {
+    let options = made.arguments.iter().map(|(name, values)| format!("  --{name} {}", text_of(values)));
+    let warnings = made.warnings.lines().into_iter().map(|line| format!("  warning: {line}"));
+    let first = format!("made by {}, rockfrag {}", made.stage, made.version);
+    std::iter::once(first).chain(options).chain(warnings).collect()
 }
 
 /// The columns of a terminal.

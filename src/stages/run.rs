@@ -2,17 +2,18 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
-use std::io::Write as _;
 use std::time::Instant;
 
 use anyhow::Context as _;
 use serde_json::{Map, Value};
 
 use super::export::UNNAMED;
+use crate::number::{LONGEST_TEXT, shown};
 use crate::pipeline::cache;
 use crate::pipeline::call::{Call, Planned};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
+use crate::pipeline::terminal::{print, tell};
 use crate::table::provenance::text_of;
 use crate::warning::Warnings;
 
@@ -21,8 +22,8 @@ const ANSWERS: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];
 /// Warnings that are printed.
 const SHOWN: usize = 3;
 
-/// Runs the stages that are not up to date. Returns the text of the last answer, or else of the last stage.
-pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
+/// Runs the stages that are not up to date, and prints the text of the last answer, or else of the last stage.
+pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<()> {
     let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), HashMap::new());
     let answer = calls.iter().rposition(|call| ANSWERS.contains(&&*call.name)).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
@@ -31,7 +32,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
         if !context.common.quiet {
             let seconds = start.elapsed().as_secs_f64();
             let took = if done.ran { format!("{seconds:.2} s") } else { "up to date".to_string() };
-            let _ = writeln!(std::io::stderr(), "{:20} {took}", call.name);
+            tell(&format!("{:20} {took}", call.name));
         }
         made.extend(done.keys);
         warnings.join(&done.warnings);
@@ -42,7 +43,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<String> {
     if !context.common.quiet {
         warn(&warnings);
     }
-    Ok(printed)
+    print(&printed, calls[answer].stage.format())
 }
 
 /// Prints the weightiest warnings.
@@ -53,7 +54,7 @@ pub fn warn(warnings: &Warnings) {
         more => format!(" ({more} more: rockfrag inspect)"),
     };
     for (place, line) in lines.iter().take(SHOWN).enumerate() {
-        let _ = writeln!(std::io::stderr(), "warning: {line}{}", if place + 1 == SHOWN { &more } else { "" });
+        tell(&format!("warning: {line}{}", if place + 1 == SHOWN { &more } else { "" }));
     }
 }
 
@@ -86,13 +87,13 @@ pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
             Ok(_) => "up to date".to_string(),
             Err(reason) => format!("run: {reason}"),
         };
-        writeln!(text, "{}: {would}", call.name)?;
+        writeln!(text, "{}: {}", call.name, shown(&would, LONGEST_TEXT))?;
         for (name, value) in &call.options {
-            writeln!(text, "    --{name} {}", text_of(value))?;
+            writeln!(text, "    --{name} {}", shown(&text_of(value), LONGEST_TEXT))?;
         }
         for Read { flag, paths, .. } in call.stage.inputs().iter().filter(|read| !read.paths.is_empty()) {
             let paths: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-            writeln!(text, "    --{flag} {}", paths.join(" "))?;
+            writeln!(text, "    --{flag} {}", shown(&paths.join(" "), LONGEST_TEXT))?;
         }
         planned.extend(plan.keys());
     }

@@ -275,3 +275,83 @@ fn a_change_of_unit_leaves_no_digits() {
     let widths: Vec<f64> = rows.iter().map(|row| number(row, "width_m")).collect();
     assert!(widths.contains(&0.0018) && widths.contains(&0.4), "{widths:?}");
 }
+
+/// A name that would colour, ring and reorder a terminal, and begin a line of its own.
+const HOSTILE: &str = "\u{1b}[31m\u{7}\u{9b}5m\u{202e}gnp\u{2066}\nforged: up to date";
+
+/// The same as JSON and YAML have it.
+const ESCAPED: &str = r"\u001b[31m\u0007\u009b5m\u202egnp\u2066\nforged: up to date";
+
+/// Whether a letter is none of a printed text.
+fn is_raw(letter: char) -> bool {
+    letter.is_control() && letter != '\n'
+        || ('\u{202a}'..='\u{202e}').contains(&letter)
+        || ('\u{2066}'..='\u{2069}').contains(&letter)
+}
+
+#[test]
+fn nothing_of_a_file_moves_or_reorders_the_terminal_or_begins_a_line() {
+    let quoted = format!("\"{HOSTILE}\"");
+    let list = format!("name,width,height\n{quoted},0.5,1.9\nB,0.5,2\n");
+    let json = format!(r#"{{"name": "{ESCAPED}", "p": 1.0, "alpha": 0.2, "eta": 0.9}}"#);
+    let folder = folder(&[
+        ("list.csv", &list),
+        ("wrong.csv", &format!("name,width,height\n{quoted},0.5,{quoted}\nB,0.5,2\n")),
+        ("heading.csv", &format!("name,width,{quoted}\na,0.5,2\n")),
+        ("run.yaml", &format!("evaluate:\n  structure: [{json}]\n  pga: 0.5\n  pgv: 0.4\n")),
+        ("option.yaml", &format!("evaluate:\n  \"{ESCAPED}\": 1\n")),
+        ("value.yaml", &format!("evaluate:\n  pga: \"{ESCAPED}\"\n")),
+    ]);
+    let sine: Vec<f64> = (0..300).map(|k| 9.0 * (0.05 * f64::from(k)).sin()).collect();
+    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&sine, &[0.1; 50]]);
+    let simulate = rockfrag(folder.path(), "simulate --structure").arg(&json).output().unwrap();
+    assert!(simulate.status.success());
+    let page = "evaluate --structures list.csv --pga 0.5 --pgv 0.4 --out page.html";
+    succeed(folder.path(), page);
+    let html = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert!(!html.contains(is_raw));
+    for (call, code) in [
+        (page, 0),
+        ("inspect responses.parquet", 0),
+        ("inspect responses.parquet --head 3 --format json", 0),
+        ("evaluate --structures list.csv --pga 0.5 --pgv 0.4", 0),
+        ("evaluate --structures list.csv --pga 0.5 --pgv 0.4 --format json", 0),
+        ("run run.yaml --dry-run", 0),
+        ("run run.yaml", 0),
+        ("run option.yaml", 2),
+        ("run value.yaml", 2),
+        ("evaluate --structures wrong.csv --pga 0.5 --pgv 0.4", 1),
+        ("evaluate --structures heading.csv --pga 0.5 --pgv 0.4", 1),
+    ] {
+        let output = rockfrag(folder.path(), call).output().unwrap();
+        let [out, err] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert_eq!(output.status.code(), Some(code), "{call}: {err}");
+        let printed = out + &err;
+        assert!(!printed.contains(is_raw), "{call}: {printed:?}");
+        assert!(!printed.contains("\nforged"), "{call}: {printed:?}");
+        assert!(code == 0 || err.lines().count() == 1, "{call}: {err:?}");
+    }
+    let rows = evaluated(folder.path(), "--structures list.csv --pga 0.5");
+    assert!(rows.iter().any(|row| row["structure"] == HOSTILE), "JSON says what the list says");
+}
+
+#[test]
+fn names_that_xml_cannot_hold_are_drawn_and_kept() {
+    let folder =
+        folder(&[("list.csv", "name,width,height\na\u{fffe}\u{ffff}\u{85}b\u{202e},0.5,2\nc,0.6,2\n")]);
+    std::fs::write(folder.path().join("hazard.csv"), include_str!("../../data/hazard.csv")).unwrap();
+    for out in ["o.html", "o.svg", "o.png", "o.xlsx", "o.parquet"] {
+        let call = format!("evaluate --structures list.csv --hazard hazard.csv --out {out}");
+        succeed(folder.path(), &call);
+        let first = std::fs::read(folder.path().join(out)).unwrap();
+        succeed(folder.path(), &format!("{call} --force"));
+        assert!(std::fs::read(folder.path().join(out)).unwrap() == first, "{out}");
+    }
+    succeed(folder.path(), "export --structures list.csv --to openquake --out o.xml");
+    for file in ["o.html", "o.svg", "o.xml"] {
+        let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
+        let stays = |letter: char| is_raw(letter) || ['\u{fffe}', '\u{ffff}'].contains(&letter);
+        assert!(!text.contains(stays), "{file}");
+    }
+    succeed(folder.path(), "report --in o.parquet");
+}

@@ -165,6 +165,10 @@ impl Stage for Evaluate {
         Ok((self.format == Format::Text).then(|| summary.to_string()))
     }
 
+    fn format(&self) -> Format {
+        self.format
+    }
+
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         if let Some(path) = &self.input {

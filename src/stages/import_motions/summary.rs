@@ -6,6 +6,7 @@ use anyhow::bail;
 
 use crate::number::listed;
 use crate::number::{count, counted, fixed};
+use crate::pipeline::options::SeveralErrors;
 use crate::records::processing::ImportedMotion;
 use crate::units::G_M_S2;
 
@@ -62,9 +63,10 @@ impl Summary {
             bail!("{found}; expected horizontal ones at the surface (--vertical imports vertical ones)");
         }
         if is_empty || !self.refused.is_empty() && !keep_going {
-            let others = if is_empty { "" } else { "\n--keep-going imports the others" };
+            let others = if is_empty { "" } else { " (--keep-going imports the others)" };
             let records = counted(self.refused.len(), "record");
-            bail!("{records} cannot be imported:\n{}{others}", self.refused.join("\n"));
+            let first = format!("{records} cannot be imported{others}:");
+            bail!(SeveralErrors([vec![first], self.refused.clone()].concat()));
         }
         Ok(())
     }
