@@ -9,8 +9,10 @@ pub use crate::statistics::Limited;
 
 /// Writes a number with this many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
-    // Adding 0 turns -0 into 0.
-    let text = format!("{:.decimals$}", value + 0.0);
+    let text = format!("{value:.decimals$}");
+    // What rounds to zero has no sign.
+    let is_zero = text.bytes().all(|byte| b"-0.".contains(&byte));
+    let text = if is_zero { text.trim_start_matches('-') } else { &text };
     let (first, whole) = (usize::from(text.starts_with('-')), text.find('.').unwrap_or(text.len()));
     let with_comma = |(place, sign): (usize, char)| {
         let comma = place > first && place < whole && (whole - place).is_multiple_of(3);

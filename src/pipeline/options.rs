@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::Serialize;
 
-use crate::number::{self, count};
+use crate::number::{self, count, rounded};
 
 /// A mistake in a call, rather than in a file: the command exits with 2.
 #[derive(Debug, thiserror::Error)]
@@ -57,7 +57,7 @@ impl FromStr for Steps {
             if !(step > 0.0 && (0.0..MOST_STEPS).contains(&steps)) {
                 return Err(EXPECTED_STEPS);
             }
-            values = (0..=steps as usize).map(|k| first + step * k as f64).collect();
+            values = (0..=steps as usize).map(|k| rounded(first + step * k as f64)).collect();
         }
         let is_rising = values.iter().all(|value| value.is_finite()) && values.is_sorted_by(|a, b| a < b);
         if is_rising { Ok(Steps(values)) } else { Err(EXPECTED_STEPS) }

@@ -49,6 +49,14 @@ fn records_are_known_by_name_and_content() {
 }
 
 #[test]
+fn steps_have_the_digits_that_were_given() {
+    let folder = folder(&[("r.csv", &record(0.3))]);
+    succeed(folder.path(), &format!("{IMPORT} r.csv --scale 0.1:0.3:0.1 --out m.parquet"));
+    let ids = ids(folder.path(), "m.parquet");
+    assert!(ids.iter().all(|id| id.len() < 10), "{ids:?}");
+}
+
+#[test]
 fn all_records_of_a_folder_are_read_and_nothing_that_was_written_there() {
     let folder = folder(&[]);
     let path = |name: &str| folder.path().join("records").join(name);

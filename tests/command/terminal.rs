@@ -355,3 +355,11 @@ fn names_that_xml_cannot_hold_are_drawn_and_kept() {
     }
     succeed(folder.path(), "report --in o.parquet");
 }
+
+#[test]
+fn what_rounds_to_zero_has_no_sign() {
+    for (value, text) in [(-0.001, "0.00"), (-0.0, "0.00"), (-0.006, "-0.01"), (-1234.5, "-1,234.50")] {
+        assert_eq!(rockfrag::number::fixed(value, 2), text);
+    }
+    assert_eq!(rockfrag::number::fixed(f64::NEG_INFINITY, 0), "-inf");
+}
