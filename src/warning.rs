@@ -138,13 +138,16 @@ impl Warnings {
         self.0.remove(&warning);
     }
 
-    /// Joins the warnings of another stage about the same subjects: the one about more of them stays.
+    /// Joins the warnings of another stage, which may be about the same subjects.
     pub fn join(&mut self, others: &Warnings) {
         for (warning, others) in &others.0 {
             let subjects = self.0.entry(*warning).or_default();
-            if others.count >= subjects.count {
-                *subjects = others.clone();
-            }
+            let new = others.named.iter().filter(|name| !subjects.named.contains(name));
+            let named = [subjects.named.clone(), new.cloned().collect()].concat();
+            // Of subjects without a name it is not known whether they are the same.
+            subjects.count = subjects.count.max(others.count).max(named.len());
+            subjects.named = named;
+            subjects.named.truncate(NAMED);
         }
     }
 }

@@ -363,3 +363,17 @@ fn what_rounds_to_zero_has_no_sign() {
     }
     assert_eq!(rockfrag::number::fixed(f64::NEG_INFINITY, 0), "-inf");
 }
+
+#[test]
+fn a_run_warns_of_the_objects_of_all_its_stages() {
+    let slender = |name: &str| format!("{{ name: {name}, width: 0.06, height: 2 }}");
+    let [one, other] = [["a", "b"], ["c", "d"]].map(|names| names.map(slender).join(", "));
+    let pipeline = format!(
+        "simulate: {{ in: motions.parquet, structure: [{one}] }}\n\
+         evaluate: {{ pga: 0.5, pgv: 0.4, structure: [{other}] }}\n"
+    );
+    let folder = folder(&[("pipeline.yaml", &pipeline)]);
+    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[0.1; 300]]);
+    let warned = succeed(folder.path(), "run").1;
+    assert!(warned.contains("a, b, c and 1 more"), "{warned}");
+}
