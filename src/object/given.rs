@@ -1,6 +1,6 @@
 //! An object as it is given: its shape, the place where it stands, and how well both are known.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::str::FromStr;
 
 use super::field::Field;
@@ -115,9 +115,14 @@ impl FromStr for Object {
         let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
         // A mapping of a pipeline file or of Python is JSON, whose values may have commas.
         let Ok(mapping) = serde_json::from_str::<BTreeMap<String, Value>>(text) else {
+            let mut given = HashSet::new();
             for pair in text.split(',') {
                 let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-                object.set(&name.trim().replace('_', "-"), value.trim())?;
+                let name = name.trim().replace('_', "-");
+                object.set(&name, value.trim())?;
+                if let Some(name) = given.replace(name) {
+                    return Err(format!("{name} is given twice; expected one value"));
+                }
             }
             return Ok(object);
         };

@@ -195,6 +195,14 @@ fn slips_are_named() {
         let call = format!("evaluate --width 0.8 --height 2.2 {arguments} {HAZARD}");
         fail(folder.path(), &call, 2, &named);
     }
+    for twice in ["name=a,p=1,p=2", "name=a,centre-height=1,centre_height=1"] {
+        fail(
+            folder.path(),
+            &format!("evaluate --structure {twice},alpha=0.2,eta=0.9 --pga 0.5"),
+            2,
+            &["twice"],
+        );
+    }
     for (list, named) in [
         ("name,width (m),width (cm),height\na,0.5,50,2\n", "columns 'width (m)'"),
         ("name,width\",height\"\na,20,75\n", "cm"),
