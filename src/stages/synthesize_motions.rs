@@ -115,7 +115,7 @@ impl Stage for SynthesizeMotions {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = Table::open(&self.input)?.part(self.partition);
-        let (scenarios, suites) = (rows::stream::<Scenario>(&self.input, &table)?, &self.suite);
+        let (scenarios, suites) = (rows::stream::<Scenario>(&table)?, &self.suite);
         let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
         let site = site(&self.site)?;

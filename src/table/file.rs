@@ -60,6 +60,8 @@ impl fmt::Display for Partition {
 }
 
 impl Partition {
+    const WHOLE: Partition = Partition { index: 0, of: 1 };
+
     pub fn file_name(self) -> String {
         format!("part-{:05}.parquet", self.index)
     }
@@ -88,7 +90,8 @@ pub struct Table {
 struct TableFile {
     path: Arc<Path>,
     metadata: ArrowReaderMetadata,
-    /// Which partition it is, and the key that all partitions of its table share; none of a whole table.
+    /// Which partition it is, a whole table being the only one, and the key that all partitions of its table
+    /// share; none of a table of another program.
     part: Option<(Partition, String)>,
 }
 
@@ -139,14 +142,15 @@ impl Table {
         }
     }
 
-    /// Checks that the first file, of the table at `path`, has these columns.
-    pub fn expect<'a>(
-        &self,
-        path: &Path,
-        columns: impl IntoIterator<Item = &'a str>,
-    ) -> Result<(), TableError> {
-        let missing = columns.into_iter().find(|column| self.schema().index_of(column).is_err());
-        missing.map_or(Ok(()), |column| Err(TableError::missing_column(path, column)))
+    /// Checks that each file has these columns.
+    pub fn expect<'a>(&self, columns: impl IntoIterator<Item = &'a str> + Clone) -> Result<(), TableError> {
+        for TableFile { path, metadata, .. } in &self.files {
+            let mut columns = columns.clone().into_iter();
+            if let Some(missing) = columns.find(|column| metadata.schema().index_of(column).is_err()) {
+                return Err(TableError::missing_column(path, missing));
+            }
+        }
+        Ok(())
     }
 
     pub fn rows(&self) -> usize {
@@ -250,7 +254,8 @@ impl TableFile {
             }
             None => {
                 let made = Provenance::from_footer(metadata.metadata());
-                let part = made.and_then(|made| Some((made.partition()?.parse().ok()?, made.whole())));
+                let part = |made: &Provenance| made.partition().and_then(|part| part.parse().ok());
+                let part = made.map(|made| (part(&made).unwrap_or(Partition::WHOLE), made.whole()));
                 Ok(TableFile { path: path.into(), metadata, part })
             }
         }
@@ -322,15 +327,13 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
             other.name()
         ));
     }
+    if let Some([one, other]) = files.array_windows().find(|[one, other]| one.part == other.part) {
+        return Some(format!("{} and {} have the same rows; leave out one", one.name(), other.name()));
+    }
     let parts: Vec<Partition> = files.iter().flat_map(|file| Some(file.part.as_ref()?.0)).collect();
     let mut all = (0..*of).map(|index| Partition { index, of: *of });
-    match all.find(|part| !parts.contains(part)) {
-        Some(part) => Some(format!("partition {part} is missing; make it with --partition {part}")),
-        None if files.len() > *of => {
-            Some(format!("{} files; expected the {of} partitions of one table", files.len()))
-        }
-        None => None,
-    }
+    let missing = all.find(|part| !parts.contains(part))?;
+    Some(format!("partition {missing} is missing; make it with --partition {missing}"))
 }
 
 /// Checks that the `wanted` columns of a row group are not too large.

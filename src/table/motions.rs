@@ -74,7 +74,7 @@ pub type Part<'a> = Box<dyn FnOnce() -> Result<Vec<Sampled>, TableError> + Send 
 /// Opens a motions table, or a partition of it.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
     let table = Table::open_partition(path, partition)?;
-    table.expect(path, ["motion_id", "dt_s", ACCELERATION])?;
+    table.expect(["motion_id", "dt_s", ACCELERATION])?;
     match table.rows() {
         0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
         _ => Ok(table),

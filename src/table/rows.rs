@@ -106,18 +106,17 @@ fn put_together(field: &FieldRef, columns: &mut impl Iterator<Item = ArrayRef>) 
 /// Reads all rows of a table. A column of optional values may be missing.
 pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     let table = Table::open(path)?;
-    let batches = stream(path, &table)?.collect::<Result<Vec<Vec<R>>, _>>()?;
+    let batches = stream(&table)?.collect::<Result<Vec<Vec<R>>, _>>()?;
     Ok(batches.into_iter().flatten().collect())
 }
 
-/// Reads the rows of the table at `path` some at a time.
+/// Reads the rows of a table some at a time.
 pub fn stream<'a, R: Row>(
-    path: &Path,
     table: &'a Table,
 ) -> Result<impl Iterator<Item = Result<Vec<R>, TableError>> + Send + use<'a, R>, TableError> {
     let schema = schema::<R>();
     let required = schema.fields().iter().filter(|field| !field.is_nullable());
-    table.expect(path, required.map(|field| field.name().as_str()))?;
+    table.expect(required.map(|field| field.name().as_str()))?;
     let batches = table.batches(move |name| schema.index_of(name).is_ok());
     Ok(batches.map(|batch| from_batch(&batch?)))
 }

@@ -381,3 +381,27 @@ fn a_flipped_bit_among_the_numbers_is_an_error() {
         fail(folder.path(), &simulate, 1, &["motions.parquet"]);
     }
 }
+
+#[test]
+fn files_that_are_no_parts_of_one_table_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for name in ["many", "copies", "foreign"] {
+        std::fs::create_dir(path(name)).unwrap();
+    }
+    write_motions(&path("motions.parquet"), 0.01, &[&sine(), &[0.1; 50]]);
+    succeed(folder.path(), "simulate --width 0.5 --height 2 --out many/a.parquet");
+    std::fs::copy(path("many/a.parquet"), path("copies/a.parquet")).unwrap();
+    std::fs::copy(path("many/a.parquet"), path("copies/c.parquet")).unwrap();
+    succeed(folder.path(), "simulate --width 0.6 --height 2 --out many/b.parquet");
+    write_motions(&path("foreign/a.parquet"), 0.01, &[&sine()]);
+    let ids: ArrayRef = Arc::new(Int64Array::from(vec![7]));
+    write(&path("foreign/b.parquet"), vec![("motion_id", ids), ("acceleration_m_s2", lists(&[&sine()]))]);
+    for (call, named) in [
+        ("fit-pro --in many", ["a.parquet", "b.parquet"]),
+        ("fit-pex --in copies", ["a.parquet", "c.parquet"]),
+        ("simulate --in foreign", ["b.parquet", "no column 'dt_s'"]),
+    ] {
+        fail(folder.path(), &format!("{call} --out out.parquet"), 1, &named);
+    }
+}
