@@ -80,7 +80,7 @@ impl Stage for Simulate {
         let (objects, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
         let second = match objects.iter().any(|directions| directions.len() > 1) {
-            true => motions::second_of_pairs(&self.input)?,
+            true => motions::second_of_pairs(&self.input, self.partition)?,
             false => HashSet::new(),
         };
         if !second.is_empty() {

@@ -123,8 +123,9 @@ fn read(
     })
 }
 
-/// The names of motions that are the second of two horizontal components of an instrument.
-pub fn second_of_pairs(path: &Path) -> Result<HashSet<String>, TableError> {
+/// The names of motions, of a table or a partition of it, that are the second of two horizontal components of
+/// an instrument.
+pub fn second_of_pairs(path: &Path, partition: Option<Partition>) -> Result<HashSet<String>, TableError> {
     #[derive(Serialize, Deserialize)]
     struct Component {
         motion_id: String,
@@ -133,8 +134,15 @@ pub fn second_of_pairs(path: &Path) -> Result<HashSet<String>, TableError> {
         dt_s: f64,
         azimuth_deg: Option<f64>,
     }
+    let part = partition.filter(|_| path.is_dir());
+    let file = part.map_or(Ok(path.to_path_buf()), |part| part.file_of(path))?;
     let (mut names, mut origins) = (Vec::new(), Vec::new());
-    for Component { motion_id, earthquake, station, dt_s, azimuth_deg } in rows::read(path)? {
+    for Component { motion_id, earthquake, station, dt_s, azimuth_deg } in rows::read(&file)? {
+        if part.is_some() && azimuth_deg.is_some() {
+            let problem =
+                "components, whose pairs may be in other partitions; expected one file of all motions";
+            return Err(TableError::table(&file, problem));
+        }
         names.push(motion_id);
         origins.push((Origin { earthquake, station, azimuth_deg, ..Origin::default() }, dt_s));
     }

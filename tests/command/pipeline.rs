@@ -1,6 +1,8 @@
 //! A run: what depends on a change is run again, and nothing else; threads and partitions do not matter.
 
-use crate::common::{FILES, SMALL, bytes, fail, folder_with, made, ran, rows, succeed};
+use crate::common::{
+    FILES, SMALL, bytes, fail, folder_with, lists, made, numbers, ran, rows, succeed, texts, write,
+};
 
 #[test]
 fn what_depends_on_a_change_is_run_again_and_nothing_else() {
@@ -79,6 +81,25 @@ fn partitions_make_the_rows_of_the_whole() {
     std::fs::remove_file(folder.path().join("parts/part-00001.parquet")).unwrap();
     fail(folder.path(), "fit-pro --in parts --out again.parquet", 1, &["parts", "1/3"]);
     fail(folder.path(), &format!("{simulate} 3/3"), 2, &["3/3"]);
+}
+
+#[test]
+fn a_partition_of_an_object_with_a_depth_needs_no_other() {
+    let folder = folder_with(SMALL);
+    succeed(folder.path(), "sample-scenarios --mw 6.5 --re 5 --samples 4");
+    for stage in ["synthesize-motions", "simulate --in motions --width 0.5 --depth 0.4 --height 1.9"] {
+        succeed(folder.path(), &format!("{stage} --partition 0/2"));
+    }
+    let one = folder.path().join("motions/part-00000.parquet");
+    std::fs::remove_file(&one).unwrap();
+    // Pairs of components may stand in different partitions.
+    let (id, dt, along) = (texts(&["a"]), numbers(&[0.01]), numbers(&[90.0]));
+    let samples = lists(&[&[0.1; 50]]);
+    let columns =
+        vec![("motion_id", id), ("dt_s", dt), ("azimuth_deg", along), ("acceleration_m_s2", samples)];
+    write(&one, columns);
+    let simulate = "simulate --in motions --width 0.5 --depth 0.4 --height 1.9 --partition 0/2";
+    fail(folder.path(), simulate, 1, &["part-00000.parquet", "one file"]);
 }
 
 #[test]
