@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 use std::collections::HashSet;
+use std::error::Error;
 use std::fmt;
-use std::fs::File;
-use std::io::Read;
+use std::fs::{DirEntry, File};
+use std::io::{self, ErrorKind, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -281,7 +282,8 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
         return Err(TableError::table(path, "a folder; expected a Parquet file"));
     }
     let mut start = [0; 4];
-    if (&file).read(&mut start).is_ok() && start != *b"PAR1" {
+    (&file).read(&mut start).map_err(|source| TableError::io(path, source))?;
+    if start != *b"PAR1" {
         return Err(TableError::table(path, "not a Parquet file; expected Parquet"));
     }
     let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
@@ -294,8 +296,9 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
 
 /// Returns the files and folders in a folder that are not hidden, in the order of their names.
 pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
-    let entries = std::fs::read_dir(folder).map_err(|source| TableError::io(folder, source))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let entries = std::fs::read_dir(folder).and_then(|entries| entries.collect::<io::Result<Vec<_>>>());
+    let entries = entries.map_err(|source| TableError::io(folder, source))?;
+    let mut paths: Vec<PathBuf> = entries.iter().map(DirEntry::path).collect();
     paths.retain(|path| path.file_name().is_some_and(|name| !name.to_string_lossy().starts_with('.')));
     paths.sort_unstable();
     Ok(paths)
@@ -350,9 +353,15 @@ fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &ProjectionMask) 
 }
 
 /// Calls `read`; a panic of the decoder is an error of a damaged file.
-fn guarded<T, E: ToString>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
+fn guarded<T, E: Error>(path: &Path, read: impl FnOnce() -> Result<T, E>) -> Result<T, TableError> {
     match source::guarded(read) {
-        Some(read) => read.map_err(|cause| TableError::parquet(path, cause)),
+        Some(Ok(read)) => Ok(read),
+        Some(Err(error)) => Err(match error.source().and_then(|cause| cause.downcast_ref()) {
+            Some(cause) if io::Error::kind(cause) != ErrorKind::UnexpectedEof => {
+                TableError::io(path, io::Error::new(cause.kind(), cause.to_string()))
+            }
+            _ => TableError::parquet(path, error),
+        }),
         None => Err(TableError::parquet(path, "it is damaged")),
     }
 }

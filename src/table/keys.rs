@@ -77,11 +77,10 @@ pub fn key_of(path: &Path) -> Result<String, TableError> {
 pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
     let mut file = InputFile { name, path: path.to_path_buf(), ..InputFile::default() };
     file.modified = modified_at(path);
-    if is_table(path)
-        && let Ok(Some(made)) = Provenance::read(path)
-    {
-        file.key = made.key_of_content();
-        return Ok(file);
+    match is_table(path).then(|| Provenance::read(path)) {
+        Some(Ok(Some(made))) => return Ok(InputFile { key: made.key_of_content(), ..file }),
+        Some(Err(error @ TableError::Io { .. })) => return Err(error),
+        _ => {}
     }
     let mut hasher = blake3::Hasher::new();
     let hashed = match source::is_pipe(path) || path == Path::new("-") {

@@ -39,6 +39,9 @@ use arrow_schema::DataType;
 pub enum TableError {
     #[error("{}: no such file", .0.display())]
     Missing(PathBuf),
+    /// What may be read another time.
+    #[error("{}: {cause}", path.display())]
+    Io { path: PathBuf, cause: std::io::Error },
     #[error("{}: {problem}", path.display())]
     Table { path: PathBuf, problem: String },
 }
@@ -47,7 +50,7 @@ impl TableError {
     pub fn io(path: &Path, cause: std::io::Error) -> TableError {
         match cause.kind() {
             std::io::ErrorKind::NotFound => TableError::Missing(path.to_path_buf()),
-            _ => TableError::table(path, cause.to_string()),
+            _ => TableError::Io { path: path.to_path_buf(), cause },
         }
     }
 

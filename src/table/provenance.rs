@@ -8,7 +8,6 @@ use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::number::visible;
 use crate::warning::Warnings;
 
 /// Key of the JSON among the key-value metadata.

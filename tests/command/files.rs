@@ -424,3 +424,11 @@ fn a_file_that_may_not_grow_is_an_error_and_leaves_nothing() {
     }
     succeed(folder.path(), "init");
 }
+
+#[test]
+fn what_cannot_be_read_is_not_called_damaged() {
+    let folder = folder(&[]);
+    symlink("/proc/self/mem", folder.path().join("mem.parquet")).unwrap();
+    // Input/output error
+    fail(folder.path(), "inspect mem.parquet", 1, &["mem.parquet", "os error 5"]);
+}

@@ -1,5 +1,6 @@
 //! The tables of a report, each known by its columns, whatever its name.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, Event, LimitStates, Peak};
@@ -281,8 +282,15 @@ fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
         return Ok(vec![path.to_path_buf()]);
     }
     let mut files = file::tables(path)?;
-    let folders = file::entries(path)?.into_iter().filter(|entry| entry.is_dir());
-    files.extend(folders.filter(|folder| Table::open(folder).is_ok()));
+    for folder in file::entries(path)?.into_iter().filter(|entry| entry.is_dir()) {
+        match Table::open(&folder) {
+            Ok(_) => files.push(folder),
+            Err(TableError::Io { path, cause }) if cause.kind() != ErrorKind::PermissionDenied => {
+                return Err(TableError::io(&path, cause));
+            }
+            Err(_) => {}
+        }
+    }
     Ok(files)
 }
 
