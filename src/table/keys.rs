@@ -48,7 +48,11 @@ pub fn resolved(path: &Path) -> PathBuf {
     let mut resolved = PathBuf::new();
     for part in std::path::absolute(path).unwrap_or(path.to_path_buf()).components() {
         match part {
-            std::path::Component::ParentDir => drop(resolved.pop()),
+            std::path::Component::ParentDir => {
+                // Above a link is what is above its target.
+                resolved = resolved.canonicalize().unwrap_or(resolved);
+                resolved.pop();
+            }
             part => resolved.push(part),
         }
     }

@@ -103,6 +103,19 @@ fn a_partition_of_an_object_with_a_depth_needs_no_other() {
 }
 
 #[test]
+fn a_path_back_from_a_link_is_where_the_link_leads() {
+    let pipeline = SMALL
+        .replace("{ suite", "{ out: link/../m.parquet, suite")
+        .replace("simulate:\n", "simulate:\n  in: link/../m.parquet\n");
+    let folder = folder_with(&pipeline);
+    std::fs::create_dir_all(folder.path().join("far/away")).unwrap();
+    std::os::unix::fs::symlink("far/away", folder.path().join("link")).unwrap();
+    assert_eq!(ran(&succeed(folder.path(), "run").1).len(), FILES.len());
+    assert!(folder.path().join("far/m.parquet").exists());
+    assert!(ran(&succeed(folder.path(), "run").1).is_empty());
+}
+
+#[test]
 fn a_failing_stage_stops_the_run_and_names_itself() {
     let folder = folder_with(&SMALL.replace("p: 1.0", "p: 100"));
     fail(folder.path(), "run", 2, &["frame", "p is 100"]);
