@@ -27,7 +27,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     let pipe: Box<dyn Read> =
         if is_stdin { Box::new(io::stdin()) } else { Box::new(std::fs::File::open(path)?) };
     if pipe.take(MOST_PIPED).read_to_end(&mut bytes)? as u64 == MOST_PIPED {
-        return Err(io::Error::other("a pipe or device without an end; expected a table"));
+        return Err(io::Error::other("a pipe or device without an end; expected a file"));
     }
     pipes.insert(path.to_path_buf(), bytes.clone());
     Ok(bytes)

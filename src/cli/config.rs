@@ -12,6 +12,7 @@ use super::yaml;
 use crate::keyword::hint;
 use crate::pipeline::UsageError;
 use crate::pipeline::paths::{PathKind, path_kind, split_list};
+use crate::source;
 use crate::stages::run;
 use crate::table::provenance::text_of;
 
@@ -33,8 +34,8 @@ impl Config {
     }
 
     fn parse(path: &Path, commands: &[Command]) -> Result<Config, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
-        let parsed = match yaml::parse(&text)? {
+        let text = source::read(path).map(String::from_utf8).map_err(|error| error.to_string())?;
+        let parsed = match yaml::parse(&text.map_err(|_| "not text in UTF-8".to_string())?)? {
             Value::Object(parsed) => parsed,
             Value::Null => Map::new(),
             other => return Err(format!("{other}; expected sections of options")),

@@ -317,6 +317,10 @@ fn a_pipe_is_read_once_and_never_replaced() {
     }
     let (code, _, stderr) = shell(&format!("rockfrag evaluate {BLOCK} --hazard /dev/zero"));
     assert!(code == Some(1) && stderr.contains("/dev/zero"), "{stderr}");
+    for call in ["run /dev/zero", "evaluate --width 0.5 --height 2 --config /dev/zero"] {
+        let (code, _, stderr) = shell(&format!("ulimit -v 4000000; rockfrag {call}"));
+        assert!(code == Some(2) && stderr.contains("device"), "{call}: {stderr}");
+    }
     let (code, _, stderr) = shell("rockfrag evaluate --structures - --hazard h.csv < list.csv");
     assert_eq!(code, Some(0), "{stderr}");
     let evaluate = format!("rockfrag evaluate {BLOCK} --pga 0.3 --pgv 0.3 --force --out p.parquet");
