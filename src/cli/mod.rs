@@ -305,8 +305,6 @@ fn refuse(pipeline: &Path, problem: &str) -> anyhow::Error {
 }
 
 fn set_threads(common: &Common) -> anyhow::Result<()> {
-    match threads_of(common.threads)? {
-        Some(threads) => Ok(threads.build_global()?),
-        None => Ok(()),
-    }
+    let threads = threads_of(common.threads)?.unwrap_or_default().build_global();
+    threads.map_err(|error| anyhow::anyhow!("a thread cannot start: {error}"))
 }

@@ -1,7 +1,7 @@
 //! Concurrent reading, work and writing in order, in memory bounded by short queues.
 
 use std::sync::mpsc::sync_channel;
-use std::thread;
+use std::thread::{self, Builder};
 
 use rayon::prelude::*;
 
@@ -18,7 +18,7 @@ pub fn pipelined<A: Send, B: Send>(
     thread::scope(|scope| {
         let (to_work, from_source) = sync_channel(QUEUE);
         let (to_sink, from_work) = sync_channel::<Vec<B>>(QUEUE);
-        scope.spawn(move || {
+        Builder::new().spawn_scoped(scope, move || {
             for batch in source {
                 let last = batch.is_err();
                 // The queue is closed if a later step failed; that step returns the error.
@@ -26,8 +26,9 @@ pub fn pipelined<A: Send, B: Send>(
                     break;
                 }
             }
-        });
-        let writer = scope.spawn(move || from_work.into_iter().flatten().try_for_each(&mut sink));
+        })?;
+        let writer = Builder::new()
+            .spawn_scoped(scope, move || from_work.into_iter().flatten().try_for_each(&mut sink))?;
         let mut worked = Ok(true);
         for batch in from_source {
             let done = batch.and_then(|batch| batch.into_par_iter().map(&work).collect());

@@ -377,3 +377,15 @@ fn a_run_warns_of_the_objects_of_all_its_stages() {
     let warned = succeed(folder.path(), "run").1;
     assert!(warned.contains("a, b, c and 1 more"), "{warned}");
 }
+
+#[test]
+fn a_thread_that_cannot_start_is_an_error() {
+    let folder = folder(&[]);
+    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[0.1; 300]]);
+    for call in ["simulate", "simulate --threads 2", "evaluate --width 0.5 --height 2 --pga 0.5 --pgv 0.4"] {
+        // No machine has the memory for such a stack.
+        let output = rockfrag(folder.path(), call).env("RUST_MIN_STACK", "100000000000000").output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && !stderr.contains("panicked"), "{call}: {stderr}");
+    }
+}
