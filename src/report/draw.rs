@@ -42,7 +42,7 @@ const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation San
 
 /// Writes a figure as an SVG file on white.
 pub fn svg(figure: &Figure) -> String {
-    let (body, height) = drawn(figure, FILE_WIDTH);
+    let (body, height) = drawn(figure, FILE_WIDTH, Ink::in_file);
     let width = FILE_WIDTH;
     let captions = figure.panels.iter().map(|panel| words(&panel.caption));
     let caption: Vec<String> =
@@ -63,7 +63,7 @@ pub fn html_of_panels(figure: &Figure) -> String {
     // As high over its width as in the file.
     let across = PAGE_WIDTH * figure.columns.max(1) as f64 / FILE_WIDTH;
     let height = (figure.height * across).max(LEAST_HEIGHT);
-    let (mut pen, mut shared, mut panels) = (Pen::default(), String::new(), String::new());
+    let (mut pen, mut shared, mut panels) = (Pen::new(Ink::in_page), String::new(), String::new());
     // A legend that all panels share stands above them.
     let is_shared = figure.panels.windows(2).all(|pair| labels(&pair[0]) == labels(&pair[1]));
     let is_shared = is_shared && figure.panels.len() > 1;
@@ -78,14 +78,14 @@ pub fn html_of_panels(figure: &Figure) -> String {
         let mut panel = panel.clone();
         panel.layers.iter_mut().filter(|_| is_shared).for_each(|layer| layer.label.clear());
         let alone = Figure { columns: 1, height, panels: vec![panel], ..Figure::default() };
-        let (body, height) = drawn(&alone, PAGE_WIDTH);
+        let (body, height) = drawn(&alone, PAGE_WIDTH, Ink::in_page);
         panels += &format!(
             "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n\
              {body}</svg>\n<figcaption>{caption}</figcaption></figure>\n"
         );
     }
     let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
-    Ink::in_page(format!("{shared}<div class=\"{class}\">\n{panels}</div>\n"))
+    format!("{shared}<div class=\"{class}\">\n{panels}</div>\n")
 }
 
 /// Dots per inch of PNG files.
@@ -120,8 +120,8 @@ fn named(png: &[u8]) -> Vec<u8> {
 }
 
 /// Draws all panels in rows below one legend, so wide; returns the height too.
-fn drawn(figure: &Figure, width: f64) -> (String, f64) {
-    let mut pen = Pen::default();
+fn drawn(figure: &Figure, width: f64, colour: fn(Ink) -> &'static str) -> (String, f64) {
+    let mut pen = Pen::new(colour);
     let across = width / figure.columns.max(1) as f64;
     let mut top = pen.legend(legend(&figure.panels), width);
     for row in figure.panels.chunks(figure.columns.max(1)) {
@@ -237,7 +237,7 @@ impl Pen {
 
     /// The mark of a layer in the legend, from this place to the right.
     fn legend_mark(&mut self, layer: &Layer, from: Point) {
-        let (colour, y) = (layer.ink.colour(), from.y);
+        let (colour, y) = ((self.colour)(layer.ink), from.y);
         let [middle, end] = [0.5, 1.0].map(|part| Point::new(from.x + part * MARK, y));
         match layer.shape {
             Shape::Points => self.dots(&[middle], 2.0, colour, 1.0),
@@ -299,7 +299,7 @@ impl Pen {
             };
             self.label(Point::new(room, at + 0.35 * SMALL), SMALL, " text-anchor=\"end\"", ink, &words);
         }
-        self.stroke(&lines, Ink::Rule.colour(), 0.45, "");
+        self.stroke(&lines, (self.colour)(Ink::Rule), 0.45, "");
         let mut axis = course(&[Point::new(left, bottom), Point::new(right, bottom)]);
         for tick in place.x.ticks((width / 28.0) as usize) {
             let at = place.across(tick.value);
@@ -309,14 +309,14 @@ impl Pen {
                 self.label(Point::new(at, bottom + 10.5), SMALL, middle, Ink::Muted, &words);
             }
         }
-        self.stroke(&axis, Ink::Muted.colour(), 0.6, "");
+        self.stroke(&axis, (self.colour)(Ink::Muted), 0.6, "");
         let label = Point::new(left + 0.5 * width, bottom + 21.0);
         self.label(label, SMALL, middle, Ink::Muted, &panel.x.label);
     }
 
     /// Draws the marks of a layer, each value at its place.
     fn marks(&mut self, layer: &Layer, has_rows: bool, place: &Place) {
-        let (colour, marks) = (layer.ink.colour(), &layer.marks);
+        let (colour, marks) = ((self.colour)(layer.ink), &layer.marks);
         let places: Vec<Point> = marks.iter().map(|mark| place.at(mark.x, mark.y)).collect();
         match layer.shape {
             Shape::Points => {

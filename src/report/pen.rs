@@ -27,48 +27,54 @@ impl Point {
 }
 
 impl Ink {
-    /// The colours in a file and the names of those on the page. Data: Okabe & Ito's palette without its
+    /// The colours in a file, and those on the page. Data: Okabe & Ito's palette without its
     /// yellow, too faint on white; then the bands of a probability, from rare to frequent.
     const COLOURS: [(&'static str, &'static str); 12] = [
-        ("#1b1f24", "--ink"),
-        ("#5d646d", "--muted"),
-        ("#d8dce1", "--rule"),
-        ("#0069a8", "--data0"),
-        ("#cf5412", "--data1"),
-        ("#00916b", "--data2"),
-        ("#c06a97", "--data3"),
-        ("#d99400", "--data4"),
-        ("#4aa3d8", "--data5"),
-        ("#4f86a6", "--band0"),
-        ("#d98a00", "--band1"),
-        ("#b8321f", "--band2"),
+        ("#1b1f24", "var(--ink)"),
+        ("#5d646d", "var(--muted)"),
+        ("#d8dce1", "var(--rule)"),
+        ("#0069a8", "var(--data0)"),
+        ("#cf5412", "var(--data1)"),
+        ("#00916b", "var(--data2)"),
+        ("#c06a97", "var(--data3)"),
+        ("#d99400", "var(--data4)"),
+        ("#4aa3d8", "var(--data5)"),
+        ("#4f86a6", "var(--band0)"),
+        ("#d98a00", "var(--band1)"),
+        ("#b8321f", "var(--band2)"),
     ];
 
-    pub fn colour(self) -> &'static str {
+    fn colours(self) -> (&'static str, &'static str) {
         match self {
-            Ink::Text => Ink::COLOURS[0].0,
-            Ink::Muted => Ink::COLOURS[1].0,
-            Ink::Rule => Ink::COLOURS[2].0,
-            Ink::Data(number) => Ink::COLOURS[3 + number % 6].0,
-            Ink::Band(number) => Ink::COLOURS[9 + number.min(2)].0,
+            Ink::Text => Ink::COLOURS[0],
+            Ink::Muted => Ink::COLOURS[1],
+            Ink::Rule => Ink::COLOURS[2],
+            Ink::Data(number) => Ink::COLOURS[3 + number % 6],
+            Ink::Band(number) => Ink::COLOURS[9 + number.min(2)],
         }
     }
 
-    /// The drawing in the colours of the page.
-    pub fn in_page(drawing: String) -> String {
-        Ink::COLOURS
-            .iter()
-            .fold(drawing, |drawing, (hex, name)| drawing.replace(hex, &format!("var({name})")))
+    pub fn in_file(self) -> &'static str {
+        self.colours().0
+    }
+
+    pub fn in_page(self) -> &'static str {
+        self.colours().1
     }
 }
 
 /// Writes the elements of a picture.
-#[derive(Default)]
 pub struct Pen {
     pub text: String,
+    /// The colour of an ink, in a file or on the page.
+    pub colour: fn(Ink) -> &'static str,
 }
 
 impl Pen {
+    pub fn new(colour: fn(Ink) -> &'static str) -> Pen {
+        Pen { text: String::new(), colour }
+    }
+
     /// Writes a text beside its place.
     pub fn beside(&mut self, at: Point, words: &Words) {
         let (right, down, style) = match words.side {
@@ -90,7 +96,7 @@ impl Pen {
         if marked.is_empty() {
             return;
         }
-        let (x, y, letters, colour) = (round(at.x), round(at.y), round(size), ink.colour());
+        let (x, y, letters, colour) = (round(at.x), round(at.y), round(size), (self.colour)(ink));
         let _ =
             write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
         let mut drop = 0.0;

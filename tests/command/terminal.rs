@@ -357,6 +357,15 @@ fn names_that_xml_cannot_hold_are_drawn_and_kept() {
 }
 
 #[test]
+fn a_name_that_is_a_colour_stays_a_name() {
+    let folder = folder(&[("list.csv", "name,width,height\n#0069a8,0.5,2\nc,0.6,2\n")]);
+    std::fs::write(folder.path().join("hazard.csv"), include_str!("../../data/hazard.csv")).unwrap();
+    succeed(folder.path(), "evaluate --structures list.csv --hazard hazard.csv --out o.html");
+    let html = std::fs::read_to_string(folder.path().join("o.html")).unwrap();
+    assert!(!html.contains(">var(--") && html.contains("\"var(--muted)\""));
+}
+
+#[test]
 fn what_rounds_to_zero_has_no_sign() {
     for (value, text) in [(-0.001, "0.00"), (-0.0, "0.00"), (-0.006, "-0.01"), (-1234.5, "-1,234.50")] {
         assert_eq!(rockfrag::number::fixed(value, 2), text);
