@@ -3,10 +3,10 @@
 
 use libfuzzer_sys::fuzz_target;
 use rockfrag::inputs::{Grid, objects};
-use rockfrag::keyword::VariantArray;
 use rockfrag::records::{Format, ReadOptions, read_records};
 use rockfrag::rocking::Record;
 use rockfrag::units::Unit;
+use strum::VariantArray;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&first, text)) = bytes.split_first() else { return };

@@ -90,8 +90,6 @@ pub mod fragility;
 pub mod hazard;
 #[doc(hidden)]
 pub mod inputs;
-#[doc(hidden)]
-pub mod keyword;
 pub mod motion;
 #[doc(hidden)]
 pub mod number;
@@ -109,6 +107,8 @@ pub mod report;
 pub mod rocking;
 #[doc(hidden)]
 pub mod source;
+#[doc(hidden)]
+pub mod spelling;
 #[doc(hidden)]
 pub mod stages;
 pub mod statistics;

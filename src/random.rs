@@ -3,21 +3,23 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// Purpose of random numbers. Streams of different purposes are independent.
-    pub enum Purpose {
-        /// Order of the strata of a Latin hypercube; the row is the cell times the dimensions plus the
-        /// dimension.
-        Strata = "strata",
-        /// Place of a sample in its stratum, or in the unit cube; the row is the scenario.
-        Sample = "sample",
-        /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
-        Noise = "noise",
-        /// Rows of a resample; the row is the replicate.
-        Bootstrap = "bootstrap",
-    }
+/// Purpose of random numbers. Streams of different purposes are independent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Purpose>)]
+pub enum Purpose {
+    /// Order of the strata of a Latin hypercube; the row is the cell times the dimensions plus the
+    /// dimension.
+    Strata,
+    /// Place of a sample in its stratum, or in the unit cube; the row is the scenario.
+    Sample,
+    /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
+    Noise,
+    /// Rows of a resample; the row is the replicate.
+    Bootstrap,
 }
 
 /// Returns the random stream of a seed, a purpose and a row: ChaCha with 8 rounds, its key from seed and

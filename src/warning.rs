@@ -4,43 +4,45 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::keyword::keywords;
 use crate::number::shown;
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// A warning that could change a decision, the most important first.
-    #[derive(PartialOrd, Ord)]
-    #[expect(missing_docs, reason = "text() says it")]
-    pub enum Warning {
-        UnusualScenario = "unusual_scenario",
-        ImplausibleRecord = "implausible_record",
-        OtherPeak = "other_peak",
-        AtRim = "at_rim",
-        LoweredPeak = "lowered_peak",
-        ImplausibleSize = "implausible_size",
-        LowRestitution = "low_restitution",
-        HazardEndsEarly = "hazard_ends_early",
-        HazardExtrapolated = "hazard_extrapolated",
-        HazardStartsLate = "hazard_starts_late",
-        MedianHazard = "median_hazard",
-        NotFitted = "not_fitted",
-        OtherStructure = "other_structure",
-        Extrapolated = "extrapolated",
-        UnusualStructure = "unusual_structure",
-        PoorFit = "poor_fit",
-        NoEvents = "no_events",
-        FewEvents = "few_events",
-        FewClusters = "few_clusters",
-        ScanEndsEarly = "scan_ends_early",
-        ScanStartsLate = "scan_starts_late",
-        UnreadableFile = "unreadable_file",
-        NoPartner = "no_partner",
-        LeftOut = "left_out",
-        OneDirection = "one_direction",
-        NotGiven = "not_given",
-        Repeated = "repeated",
-        UnusedColumns = "unused_columns",
-    }
+/// A warning that could change a decision, the most important first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Warning>)]
+pub enum Warning {
+    UnusualScenario,
+    ImplausibleRecord,
+    OtherPeak,
+    AtRim,
+    LoweredPeak,
+    ImplausibleSize,
+    LowRestitution,
+    HazardEndsEarly,
+    HazardExtrapolated,
+    HazardStartsLate,
+    MedianHazard,
+    NotFitted,
+    OtherStructure,
+    Extrapolated,
+    UnusualStructure,
+    PoorFit,
+    NoEvents,
+    FewEvents,
+    FewClusters,
+    ScanEndsEarly,
+    ScanStartsLate,
+    UnreadableFile,
+    NoPartner,
+    LeftOut,
+    OneDirection,
+    NotGiven,
+    Repeated,
+    UnusedColumns,
 }
 
 impl Warning {

@@ -18,7 +18,7 @@ const LAYERS: [&[&str]; 8] = [
         "rocking",
         "random",
         "statistics",
-        "keyword",
+        "spelling",
         "number",
         "plausibility",
         "source",

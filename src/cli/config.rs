@@ -9,10 +9,10 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use serde_json::{Map, Value};
 
 use super::yaml;
-use crate::keyword::hint;
 use crate::pipeline::UsageError;
 use crate::pipeline::paths::{PathKind, path_kind, split_list};
 use crate::source;
+use crate::spelling::hint;
 use crate::stages::run;
 use crate::table::provenance::text_of;
 

@@ -2,9 +2,9 @@
 
 use super::FragilityModel;
 use crate::fragility::{LimitState, Peak};
-use crate::keyword::VariantArray;
 use crate::report::text::escape;
 use crate::units::{CM_PER_M, G_M_S2};
+use strum::VariantArray;
 
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.

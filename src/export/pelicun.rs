@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::{FragilityModel, Function, GAP};
 use crate::fragility::{LimitState, Peak};
-use crate::keyword::VariantArray;
 use crate::units::G_M_S2;
+use strum::VariantArray;
 
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];

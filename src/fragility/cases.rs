@@ -3,26 +3,28 @@
 use std::collections::BTreeMap;
 
 use super::measure_names::{Measure, has_logarithm};
-use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::{Outcome, Structure};
+use crate::spelling::unknown_word;
 use crate::statistics::Range;
 
 /// The most cases of one structure and suite.
 pub(crate) const MOST_CASES: usize = 20_000_000;
 
-keywords! {
-    /// The event whose probability is fitted.
-    pub enum Event {
-        /// Overturning given rocking: P_ro.
-        Overturning = "overturning",
-        /// Rocking: 1 - P_nr.
-        Rocking = "rocking",
-        /// A demand above the limit state in safe rocking: P_ex.
-        Exceeding = "exceeding",
-        /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
-        Failure = "failure",
-    }
+/// The event whose probability is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Event>)]
+pub enum Event {
+    /// Overturning given rocking: P_ro.
+    Overturning,
+    /// Rocking: 1 - P_nr.
+    Rocking,
+    /// A demand above the limit state in safe rocking: P_ex.
+    Exceeding,
+    /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
+    Failure,
 }
 
 impl Event {

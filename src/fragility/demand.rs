@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use super::cases::{Cases, Sample, grouped};
 use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
-use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
+use crate::spelling::unknown_word;
 use crate::statistics::{Estimate, FitStatus, LinearFit, held_out_log_score, least_squares};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
@@ -183,16 +183,18 @@ pub fn fit_demand(
     fits
 }
 
-keywords! {
-    /// The form of a regression of demand.
-    pub enum DemandModel {
-        /// On one measure.
-        Univariate = "univariate",
-        /// On two measures.
-        Plane = "plane",
-        /// On two measures, on one side of the transition.
-        Biplanar = "biplanar",
-    }
+/// The form of a regression of demand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<DemandModel>)]
+pub enum DemandModel {
+    /// On one measure.
+    Univariate,
+    /// On two measures.
+    Plane,
+    /// On two measures, on one side of the transition.
+    Biplanar,
 }
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.

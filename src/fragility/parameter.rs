@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::measure_names::Measure;
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::statistics::Estimate;
 use crate::statistics::distributions::t_quantile;
 
@@ -12,26 +12,28 @@ pub(super) fn quantile(confidence: f64, degrees: Option<f64>) -> f64 {
     t_quantile(0.5 * (1.0 + confidence), degrees.unwrap_or(f64::INFINITY))
 }
 
-keywords! {
-    /// A parameter of a fit.
-    pub enum Parameter {
-        /// ln a (Eqs. 16 and 17).
-        LnA = "ln_a",
-        /// Slope on the first measure.
-        B1 = "b1",
-        /// Slope on the second measure.
-        B2 = "b2",
-        /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
-        Beta = "beta",
-        /// Dispersion of the demand over its slope, beta / b1.
-        Zeta = "zeta",
-        /// Exponent of the first measure of a hybrid (Eq. 23).
-        Lambda = "lambda",
-        /// Logarithm of the median intensity (Eqs. 20 and 24).
-        Mu = "mu",
-        /// Median intensity, exp(mu).
-        Theta = "theta",
-    }
+/// A parameter of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Parameter>)]
+pub enum Parameter {
+    /// ln a (Eqs. 16 and 17).
+    LnA,
+    /// Slope on the first measure.
+    B1,
+    /// Slope on the second measure.
+    B2,
+    /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
+    Beta,
+    /// Dispersion of the demand over its slope, beta / b1.
+    Zeta,
+    /// Exponent of the first measure of a hybrid (Eq. 23).
+    Lambda,
+    /// Logarithm of the median intensity (Eqs. 20 and 24).
+    Mu,
+    /// Median intensity, exp(mu).
+    Theta,
 }
 
 /// A parameter of a fit: a row of pex.parameters.parquet or pro.parameters.parquet.

@@ -1,18 +1,20 @@
 //! How PGA and PGV of motions go together: what one of them predicts of the other.
 
-use crate::keyword::keywords;
 use crate::motion::Peaks;
+use crate::spelling::unknown_word;
 use crate::statistics::least_squares;
 use crate::units::G_M_S2;
 
-keywords! {
-    /// A peak of the ground motion.
-    pub enum Peak {
-        /// Peak ground acceleration, m/s2.
-        Pga = "pga",
-        /// Peak ground velocity, m/s.
-        Pgv = "pgv",
-    }
+/// A peak of the ground motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Peak>)]
+pub enum Peak {
+    /// Peak ground acceleration, m/s2.
+    Pga,
+    /// Peak ground velocity, m/s.
+    Pgv,
 }
 
 impl Peak {

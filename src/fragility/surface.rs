@@ -4,25 +4,27 @@
 use std::sync::LazyLock;
 
 use super::peaks::{JointPeaks, RatioGiven};
-use crate::keyword::keywords;
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
+use crate::spelling::unknown_word;
 use crate::statistics::Range;
 
-keywords! {
-    /// Kinds of motion that the surface knows.
-    #[derive(Default)]
-    pub enum Kind {
-        /// Recorded motions.
-        #[default]
-        Recorded = "recorded",
-        /// Combined synthetic motions on rock: pulse and high frequencies.
-        Csgm = "csgm",
-        /// Coherent pulses alone.
-        Pulse = "pulse",
-        /// High frequencies alone.
-        Hfc = "hfc",
-    }
+/// Kinds of motion that the surface knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Default)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Kind>)]
+pub enum Kind {
+    /// Recorded motions.
+    #[default]
+    Recorded,
+    /// Combined synthetic motions on rock: pulse and high frequencies.
+    Csgm,
+    /// Coherent pulses alone.
+    Pulse,
+    /// High frequencies alone.
+    Hfc,
 }
 
 impl Kind {

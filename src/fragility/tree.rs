@@ -1,21 +1,28 @@
 //! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
 
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::statistics::Estimate;
 
 /// The 97.5 % quantile of the normal distribution.
 pub const Z_95: f64 = 1.959_963_984_540_054;
 
-keywords! {
-    /// Limit states, each within the one before (Table I).
-    pub enum LimitState {
-        /// LS1: rocking.
-        Rocking = "LS1",
-        /// LS2: a demand above the limit, or overturning.
-        Failure = "LS2",
-        /// LS3: overturning.
-        Overturning = "LS3",
-    }
+/// Limit states, each within the one before (Table I).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(parse_err_ty = String, parse_err_fn = unknown_word::<LimitState>)]
+pub enum LimitState {
+    /// LS1: rocking.
+    #[serde(rename = "LS1")]
+    #[strum(serialize = "LS1")]
+    Rocking,
+    /// LS2: a demand above the limit, or overturning.
+    #[serde(rename = "LS2")]
+    #[strum(serialize = "LS2")]
+    Failure,
+    /// LS3: overturning.
+    #[serde(rename = "LS3")]
+    #[strum(serialize = "LS3")]
+    Overturning,
 }
 
 /// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0

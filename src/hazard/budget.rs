@@ -1,9 +1,9 @@
 //! The error budget: how much each source of uncertainty moves a result, and the limits that follow.
 
 use crate::fragility::Z_95;
-use crate::keyword::VariantArray;
 use crate::object::{Part, Unknown};
 use crate::statistics::Estimate;
+use strum::VariantArray;
 
 /// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part:
 /// downwards and upwards, since a rate saturates.

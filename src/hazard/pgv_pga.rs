@@ -5,27 +5,35 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::curve::HazardCurve;
 use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
-use crate::keyword::keywords;
 use crate::object::{Part, Unknown};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
+use crate::spelling::unknown_word;
 use crate::statistics::normal;
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
-keywords! {
-    /// Source of PGV / PGA.
-    pub enum VelocitySource {
-        /// Curves of PGA and PGV.
-        Velocity = "pgv",
-        /// Curves of PGA and of the spectral acceleration at 1 s.
-        Spectrum = "sa",
-        /// A ratio that the user gives.
-        Given = "ratio",
-        /// The motions that the model was fitted to.
-        Motions = "motions",
-        /// Ground-motion models, at an average site.
-        Sites = "sites",
-    }
+/// Source of PGV / PGA.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<VelocitySource>)]
+pub enum VelocitySource {
+    /// Curves of PGA and PGV.
+    #[serde(rename = "pgv")]
+    #[strum(serialize = "pgv")]
+    Velocity,
+    /// Curves of PGA and of the spectral acceleration at 1 s.
+    #[serde(rename = "sa")]
+    #[strum(serialize = "sa")]
+    Spectrum,
+    /// A ratio that the user gives.
+    #[serde(rename = "ratio")]
+    #[strum(serialize = "ratio")]
+    Given,
+    /// The motions that the model was fitted to.
+    Motions,
+    /// Ground-motion models, at an average site.
+    Sites,
 }
 
 /// PGV / PGA of the motions of a site.

@@ -2,9 +2,9 @@
 //! cancels.
 
 use crate::fragility::Z_95;
-use crate::keyword::VariantArray;
 use crate::object::Part;
 use crate::statistics::Estimate;
+use strum::VariantArray;
 
 /// An annual rate, and the standard deviations of its logarithm by part.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,8 +4,8 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
 use super::site::Site;
-use crate::keyword::keywords;
 use crate::object::{Object, Subject};
+use crate::spelling::unknown_word;
 use crate::statistics::Limited;
 
 /// The base of an object, m.
@@ -46,14 +46,16 @@ pub struct Bases {
     pub end: Option<SearchEnd>,
 }
 
-keywords! {
-    /// What has no rate for wider bases.
-    pub enum SearchEnd {
-        /// The domain of the model.
-        Model = "model",
-        /// The hazard curve.
-        Hazard = "hazard",
-    }
+/// What has no rate for wider bases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<SearchEnd>)]
+pub enum SearchEnd {
+    /// The domain of the model.
+    Model,
+    /// The hazard curve.
+    Hazard,
 }
 
 /// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.

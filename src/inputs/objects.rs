@@ -6,12 +6,12 @@ use std::path::Path;
 use super::floors::{self, Building, Storey};
 use super::words::{is_one_of, joined, means, words};
 use super::{Grid, Heading, InputError, Renames};
-use crate::keyword::VariantArray;
 use crate::number::rounded;
 use crate::object::{Field, Object, Place, Reason};
 use crate::plausibility::judge_lengths;
 use crate::units::{Quantity, Unit};
 use crate::warning::{Warning, Warnings};
+use strum::VariantArray;
 
 /// What a column is about.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,33 +2,37 @@
 
 use super::fourier::Complex64;
 
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// Treatment of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The
-    /// literature leaves open what to do where the pulse is larger.
-    pub enum Difference {
-        /// |D|.
-        Absolute = "absolute",
-        /// D; a negative one shifts the phase by half a cycle.
-        Signed = "signed",
-        /// max(D, 0).
-        Clamp = "clamp",
-        /// |H|: the sum of both motions.
-        None = "none",
-    }
+/// Treatment of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The
+/// literature leaves open what to do where the pulse is larger.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Difference>)]
+pub enum Difference {
+    /// |D|.
+    Absolute,
+    /// D; a negative one shifts the phase by half a cycle.
+    Signed,
+    /// max(D, 0).
+    Clamp,
+    /// |H|: the sum of both motions.
+    None,
 }
 
-keywords! {
-    /// When the pulse peaks in the high-frequency motion.
-    pub enum Epoch {
-        /// At the peak of the window.
-        EnvelopePeak = "envelope-peak",
-        /// At the peak ground acceleration of the high frequencies.
-        Pga = "pga",
-        /// At the peak ground velocity of the high frequencies.
-        Pgv = "pgv",
-    }
+/// When the pulse peaks in the high-frequency motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case", parse_err_ty = String, parse_err_fn = unknown_word::<Epoch>)]
+pub enum Epoch {
+    /// At the peak of the window.
+    EnvelopePeak,
+    /// At the peak ground acceleration of the high frequencies.
+    Pga,
+    /// At the peak ground velocity of the high frequencies.
+    Pgv,
 }
 
 impl Difference {

@@ -4,17 +4,19 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 
 use super::scenario::Scenario;
-use crate::keyword::keywords;
 use crate::random::{Purpose, stream};
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// Sampling of the four random parameters in a cell.
-    pub enum Design {
-        /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
-        Lhs = "lhs",
-        /// Independent samples.
-        Random = "random",
-    }
+/// Sampling of the four random parameters in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Design>)]
+pub enum Design {
+    /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
+    Lhs,
+    /// Independent samples.
+    Random,
 }
 
 /// Number of random parameters: Vp, Tp, gamma and nu.

@@ -1,6 +1,6 @@
 //! Earthquake scenarios, the distributions of their random parameters (section 2.1.1), and suites of motions.
 
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::statistics::normal;
 use crate::units::CM_PER_M;
 
@@ -73,19 +73,21 @@ pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }
 
-keywords! {
-    /// A kind of ground motion in a file.
-    #[derive(Hash)]
-    pub enum Suite {
-        /// The coherent pulse alone.
-        Pulse = "pulse",
-        /// The combined synthetic ground motion: pulse and high frequencies.
-        Csgm = "csgm",
-        /// The stochastic high-frequency component alone.
-        Hfc = "hfc",
-        /// A recorded motion.
-        Record = "record",
-    }
+/// A kind of ground motion in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Hash)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Suite>)]
+pub enum Suite {
+    /// The coherent pulse alone.
+    Pulse,
+    /// The combined synthetic ground motion: pulse and high frequencies.
+    Csgm,
+    /// The stochastic high-frequency component alone.
+    Hfc,
+    /// A recorded motion.
+    Record,
 }
 
 impl Suite {

@@ -3,48 +3,50 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
-use crate::keyword::keywords;
 use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
+use crate::spelling::unknown_word;
 use crate::units::Quantity;
 
-keywords! {
-    /// A number that may be known of an object. Lengths are in m.
-    pub enum Field {
-        /// Width of the base of a block, body or column.
-        Width = "width",
-        /// Depth of the base.
-        Depth = "depth",
-        /// Height of the block, body or column.
-        Height = "height",
-        /// Height of the centre of mass above the base.
-        CentreHeight = "centre-height",
-        /// Distance of the centre of mass from the middle of the width.
-        CentreOffset = "centre-offset",
-        /// Moment of inertia about the centre of mass, per unit mass, m2.
-        Inertia = "inertia",
-        /// Mass of the beam of a frame over that of all columns.
-        BeamMassRatio = "beam-mass-ratio",
-        /// Frequency parameter, rad/s.
-        P = "p",
-        /// Slenderness, rad.
-        Alpha = "alpha",
-        /// Coefficient of restitution.
-        Eta = "eta",
-        /// First period of the building, s.
-        Period = "period",
-        /// Height of the floor over that of the roof.
-        Level = "level",
-        /// Standard deviation of ln(period).
-        PeriodSd = "period-sd",
-        /// Coefficient of friction.
-        Friction = "friction",
-        /// Standard deviation of eta.
-        EtaSd = "eta-sd",
-        /// Standard deviation of the height of the centre of mass.
-        CentreHeightSd = "centre-height-sd",
-        /// Standard deviation of the offset of the centre of mass.
-        CentreOffsetSd = "centre-offset-sd",
-    }
+/// A number that may be known of an object. Lengths are in m.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case", parse_err_ty = String, parse_err_fn = unknown_word::<Field>)]
+pub enum Field {
+    /// Width of the base of a block, body or column.
+    Width,
+    /// Depth of the base.
+    Depth,
+    /// Height of the block, body or column.
+    Height,
+    /// Height of the centre of mass above the base.
+    CentreHeight,
+    /// Distance of the centre of mass from the middle of the width.
+    CentreOffset,
+    /// Moment of inertia about the centre of mass, per unit mass, m2.
+    Inertia,
+    /// Mass of the beam of a frame over that of all columns.
+    BeamMassRatio,
+    /// Frequency parameter, rad/s.
+    P,
+    /// Slenderness, rad.
+    Alpha,
+    /// Coefficient of restitution.
+    Eta,
+    /// First period of the building, s.
+    Period,
+    /// Height of the floor over that of the roof.
+    Level,
+    /// Standard deviation of ln(period).
+    PeriodSd,
+    /// Coefficient of friction.
+    Friction,
+    /// Standard deviation of eta.
+    EtaSd,
+    /// Standard deviation of the height of the centre of mass.
+    CentreHeightSd,
+    /// Standard deviation of the offset of the centre of mass.
+    CentreOffsetSd,
 }
 
 const SIDE: &str = "a side above 0 m, up to 50 m: is it in cm or mm?";

@@ -3,30 +3,32 @@
 
 use super::given::{Object, Reason};
 use crate::fragility::{Direction, Kind, Model, Z_95};
-use crate::keyword::keywords;
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
+use crate::spelling::unknown_word;
 use crate::warning::Warning;
 
-keywords! {
-    /// What an error comes from.
-    pub enum Part {
-        /// Parameters of the fragility model.
-        Fit = "fit",
-        /// Magnitude of the earthquakes.
-        Magnitude = "magnitude",
-        /// Level of PGV / PGA.
-        Velocity = "velocity",
-        /// Coefficient of restitution.
-        Eta = "eta",
-        /// Centre of mass and inertia.
-        Object = "object",
-        /// Building under the object.
-        Floor = "floor",
-        /// The hazard itself, where its fractiles are given.
-        Hazard = "hazard",
-    }
+/// What an error comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Part>)]
+pub enum Part {
+    /// Parameters of the fragility model.
+    Fit,
+    /// Magnitude of the earthquakes.
+    Magnitude,
+    /// Level of PGV / PGA.
+    Velocity,
+    /// Coefficient of restitution.
+    Eta,
+    /// Centre of mass and inertia.
+    Object,
+    /// Building under the object.
+    Floor,
+    /// The hazard itself, where its fractiles are given.
+    Hazard,
 }
 
 impl Part {

@@ -11,7 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::ThreadPoolBuilder;
 
 use super::options::{UsageError, number};
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
@@ -58,14 +58,16 @@ pub struct Common {
     pub progress: Bars,
 }
 
-keywords! {
-    /// When to draw progress bars: if stderr is a terminal, or never.
-    #[derive(Default)]
-    pub enum Bars {
-        #[default]
-        Auto = "auto",
-        Never = "never",
-    }
+/// When to draw progress bars: if stderr is a terminal, or never.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(Default)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Bars>)]
+pub enum Bars {
+    #[default]
+    Auto,
+    Never,
 }
 
 /// What a call would make.

@@ -7,12 +7,12 @@ use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{Direction, HorizontalPair, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use super::{Origin, RecordedMotion};
-use crate::keyword::keywords;
 use crate::motion::measures::peak;
 use crate::motion::pulse::largest_velocity;
 use crate::motion::{LONGEST_MOTION, MeasurePlan, MotionMeasures, Suite, measures};
 use crate::number::significant;
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use crate::spelling::unknown_word;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -128,13 +128,15 @@ impl PulseColumns {
     }
 }
 
-keywords! {
-    /// Whether to search for pulses.
-    #[expect(missing_docs, reason = "the words say it")]
-    pub enum PulseSearch {
-        Find = "find",
-        Skip = "skip",
-    }
+/// Whether to search for pulses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[expect(missing_docs, reason = "the words say it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<PulseSearch>)]
+pub enum PulseSearch {
+    Find,
+    Skip,
 }
 
 /// Options of the processing.

@@ -1,7 +1,7 @@
 //! A record as in its file, and options for reading files.
 
 use crate::inputs::words::is_vertical;
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::units::Unit;
 
 /// Where a record is from, as named in its file.
@@ -65,16 +65,20 @@ pub struct HeaderPga {
     pub rounding_m_s2: f64,
 }
 
-keywords! {
-    /// A text format, in order of detection.
-    #[expect(missing_docs, reason = "the words say it")]
-    pub enum Format {
-        Cosmos = "cosmos",
-        Knet = "knet",
-        Esm = "esm",
-        PeerAt2 = "at2",
-        Csv = "csv",
-    }
+/// A text format, in order of detection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[expect(missing_docs, reason = "the words say it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Format>)]
+pub enum Format {
+    Cosmos,
+    Knet,
+    Esm,
+    #[serde(rename = "at2")]
+    #[strum(serialize = "at2")]
+    PeerAt2,
+    Csv,
 }
 
 /// Options for reading files.

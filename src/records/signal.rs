@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::keyword::keywords;
 use crate::motion::fourier::{even_smooth_at_least, invert, transform};
 use crate::motion::measures::{peak, velocity};
+use crate::spelling::unknown_word;
 
 /// Order n of the high-pass, in each direction.
 const HIGH_PASS_ORDER: i32 = 4;
@@ -17,14 +17,16 @@ const KAISER_BETA: f64 = 8.0;
 /// Corner of the resampling filter as a fraction of the lower Nyquist frequency.
 const CORNER: f64 = 0.9;
 
-keywords! {
-    /// Baseline to remove from an acceleration: nothing, its mean, or its least-squares line.
-    #[expect(missing_docs, reason = "the words say it")]
-    pub enum Baseline {
-        None = "none",
-        Mean = "mean",
-        Linear = "linear",
-    }
+/// Baseline to remove from an acceleration: nothing, its mean, or its least-squares line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[expect(missing_docs, reason = "the words say it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Baseline>)]
+pub enum Baseline {
+    None,
+    Mean,
+    Linear,
 }
 
 impl Baseline {

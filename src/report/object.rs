@@ -8,10 +8,10 @@ use super::probabilities::{self, Row};
 use super::text::{literal, words};
 use crate::fragility::{LimitState, Peak, Z_95};
 use crate::hazard::{Fragility, intensity_in_words};
-use crate::keyword::VariantArray;
 use crate::number::{self, PERCENT, RATE};
 use crate::object::Part;
 use crate::table::answers::ObjectRow;
+use strum::VariantArray;
 
 /// Height of the area of the data of a panel, points.
 pub const HEIGHT: f64 = 150.0;

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::response::{Outcome, Response};
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 
 /// Halvings of a step between levels where the structure rocks: the resolution.
 const HALVINGS: i32 = 4;
@@ -203,16 +203,18 @@ impl ScanResponse {
     }
 }
 
-keywords! {
-    /// Whether and where a structure overturns in a scan.
-    pub enum CapacityStatus {
-        /// Overturns from an intensity within the scan.
-        Overturns = "overturns",
-        /// Safe at all simulated intensities.
-        Safe = "safe",
-        /// Overturns at the lowest intensity of the scan.
-        Below = "below",
-    }
+/// Whether and where a structure overturns in a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<CapacityStatus>)]
+pub enum CapacityStatus {
+    /// Overturns from an intensity within the scan.
+    Overturns,
+    /// Safe at all simulated intensities.
+    Safe,
+    /// Overturns at the lowest intensity of the scan.
+    Below,
 }
 
 /// The overturning capacity of a structure in a scan.

@@ -12,7 +12,7 @@ use super::response::{Response, free_rocking};
 use super::structure::Structure;
 use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
 use super::uplift::Uplift;
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 use crate::statistics::numerics::first;
 use crate::units::G_PER_M_S2;
 
@@ -62,18 +62,20 @@ fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f6
     Rocking { side, theta, velocity: velocity + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4) }
 }
 
-keywords! {
-    /// An event of a rocking structure in the solver.
-    pub enum SolverEvent {
-        /// The structure leaves its base.
-        Uplift = "uplift",
-        /// The structure strikes its base and continues on the other side.
-        Impact = "impact",
-        /// The structure comes to rest.
-        Rest = "rest",
-        /// Its rotation reaches pi/2.
-        Overturn = "overturn",
-    }
+/// An event of a rocking structure in the solver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<SolverEvent>)]
+pub enum SolverEvent {
+    /// The structure leaves its base.
+    Uplift,
+    /// The structure strikes its base and continues on the other side.
+    Impact,
+    /// The structure comes to rest.
+    Rest,
+    /// Its rotation reaches pi/2.
+    Overturn,
 }
 
 /// A point of a traced response: a sample of the record, or an event between two samples.

@@ -11,12 +11,12 @@ use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metad
 use crate::fragility::{LimitStates, Peak};
 use crate::hazard::{SitesInGeneral, strongest};
 use crate::inputs::Renames;
-use crate::keyword::keywords;
 use crate::number;
 use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
 use crate::pipeline::{Stage, UsageError};
+use crate::spelling::unknown_word;
 use crate::statistics::numerics::{equal_ratios, first};
 use crate::warning::Warnings;
 
@@ -43,12 +43,14 @@ pub struct Export {
     structures: StructureArgs,
 }
 
-keywords! {
-    /// A program that reads fragility.
-    enum Program {
-        OpenQuake = "openquake",
-        Pelicun = "pelicun",
-    }
+/// A program that reads fragility.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase", parse_err_ty = String, parse_err_fn = unknown_word::<Program>)]
+enum Program {
+    OpenQuake,
+    Pelicun,
 }
 
 /// The file, without its ending, if none is given.

@@ -2,26 +2,28 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::keyword::keywords;
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// Whether a fit is usable, and if not, why.
-    pub enum FitStatus {
-        /// Usable.
-        Ok = "ok",
-        /// Squares and products of the predictors improve the fit (p < 0.01).
-        PoorFit = "poor_fit",
-        /// Demand or probability decreases with the measure.
-        WrongSign = "wrong_sign",
-        /// The predictors separate events from the other cases: the likelihood has no maximum.
-        Separated = "separated",
-        /// Fewer than five events, or fewer than five other cases.
-        TooFewEvents = "too_few_events",
-        /// A measure is constant, or a combination of others, or there are fewer cases than coefficients.
-        Degenerate = "degenerate",
-        /// The iterations did not converge.
-        NotConverged = "not_converged",
-    }
+/// Whether a fit is usable, and if not, why.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<FitStatus>)]
+pub enum FitStatus {
+    /// Usable.
+    Ok,
+    /// Squares and products of the predictors improve the fit (p < 0.01).
+    PoorFit,
+    /// Demand or probability decreases with the measure.
+    WrongSign,
+    /// The predictors separate events from the other cases: the likelihood has no maximum.
+    Separated,
+    /// Fewer than five events, or fewer than five other cases.
+    TooFewEvents,
+    /// A measure is constant, or a combination of others, or there are fewer cases than coefficients.
+    Degenerate,
+    /// The iterations did not converge.
+    NotConverged,
 }
 
 impl FitStatus {

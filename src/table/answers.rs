@@ -6,10 +6,10 @@ use crate::fragility::{Direction, Kind, Peak};
 use crate::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
-use crate::keyword::VariantArray;
 use crate::object::{Object, Part};
 use crate::statistics::Limited;
 use crate::warning::Warning;
+use strum::VariantArray;
 
 /// What is predicted for an object.
 #[derive(Debug, Clone, Default)]

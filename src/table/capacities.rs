@@ -4,26 +4,28 @@ use serde::{Deserialize, Serialize};
 
 use super::responses::OutcomeWord;
 use crate::fragility::grouped;
-use crate::keyword::keywords;
 use crate::rocking::Capacity;
+use crate::spelling::unknown_word;
 use crate::statistics::{FitStatus, Limited};
 
-keywords! {
-    /// A measure that grows with a motion in proportion.
-    pub enum ScaledMeasure {
-        /// The factor itself.
-        Scale = "scale",
-        /// Peak ground acceleration, g.
-        Pga = "pga",
-        /// Peak ground velocity, m/s.
-        Pgv = "pgv",
-        /// PGA / (g tan alpha).
-        Im4 = "im4",
-        /// p PGV / (g tan alpha).
-        Im5 = "im5",
-        /// wm PGV / (g tan alpha).
-        Im6 = "im6",
-    }
+/// A measure that grows with a motion in proportion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<ScaledMeasure>)]
+pub enum ScaledMeasure {
+    /// The factor itself.
+    Scale,
+    /// Peak ground acceleration, g.
+    Pga,
+    /// Peak ground velocity, m/s.
+    Pgv,
+    /// PGA / (g tan alpha).
+    Im4,
+    /// p PGV / (g tan alpha).
+    Im5,
+    /// wm PGV / (g tan alpha).
+    Im6,
 }
 
 /// The capacity of a structure under a motion.

@@ -8,16 +8,18 @@ use serde_json::Value;
 use super::columns::{integers, numbers};
 use super::file::{NARROW_BATCH, Table};
 use crate::fragility::Group;
-use crate::keyword::keywords;
 use crate::number::{aligned, fixed, significant};
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// Format of a printed table.
-    pub enum Format {
-        Text = "text",
-        Csv = "csv",
-        Json = "json",
-    }
+/// Format of a printed table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Format>)]
+pub enum Format {
+    Text,
+    Csv,
+    Json,
 }
 
 /// Reads the first rows of a table, at most this many; a list is shown by its length.

@@ -2,17 +2,21 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::keyword::keywords;
 use crate::motion::IntensityMeasures;
 use crate::rocking::{Outcome, SolverEvent};
+use crate::spelling::unknown_word;
 
-keywords! {
-    /// An outcome but for its demand, which has its own column.
-    pub enum OutcomeWord {
-        NoRocking = "no_rocking",
-        SafeRocking = "safe_rocking",
-        Overturned = "overturning",
-    }
+/// An outcome but for its demand, which has its own column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<OutcomeWord>)]
+pub enum OutcomeWord {
+    NoRocking,
+    SafeRocking,
+    #[serde(rename = "overturning")]
+    #[strum(serialize = "overturning")]
+    Overturned,
 }
 
 impl From<Outcome> for OutcomeWord {

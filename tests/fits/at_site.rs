@@ -9,10 +9,10 @@ use rockfrag::hazard::{
     Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
     SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
-use rockfrag::keyword::VariantArray;
 use rockfrag::motion::Peaks;
 use rockfrag::number::Limited;
 use rockfrag::object::{Object, Part, Restitution, Subject};
+use strum::VariantArray;
 
 /// A curve that ends where nothing is stronger.
 fn curve() -> HazardCurve {

@@ -8,11 +8,11 @@ use rockfrag::fragility::{
     Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
     p_failure_given_rocking,
 };
-use rockfrag::keyword::VariantArray;
 use rockfrag::motion::{IntensityMeasures, Peaks};
 use rockfrag::rocking::{Outcome, Structure};
 use rockfrag::statistics::Estimate;
 use rockfrag::warning::Warning;
+use strum::VariantArray;
 
 use crate::common::{cases, close, equipment, random, read, rocking};
 

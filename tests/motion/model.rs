@@ -6,7 +6,6 @@ use proptest::prelude::*;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
-use rockfrag::keyword::VariantArray;
 use rockfrag::motion::pulse::largest_velocity;
 use rockfrag::motion::site::SiteTableError;
 use rockfrag::motion::stochastic::{CONSTANT, PEAK_SHARE, Source, StochasticModel, Window};
@@ -14,6 +13,7 @@ use rockfrag::motion::{
     Design, Difference, Epoch, Grid, MeasurePlan, MotionModel, Pulse, Scenario, SiteAmplification, Suite,
     Synthesizer, Synthetic, measures,
 };
+use strum::VariantArray;
 
 const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
 

@@ -1,9 +1,9 @@
 //! Formats of the agencies: reading returns what was written, and damage causes no harm.
 
 use proptest::prelude::*;
-use rockfrag::keyword::VariantArray;
 use rockfrag::records::{Format, ReadOptions, RecordFileError, RecordedMotion, read_records};
 use rockfrag::units::Unit;
+use strum::VariantArray;
 
 use crate::writers::*;
 

@@ -6,29 +6,33 @@ use std::ops::RangeInclusive;
 use crate::fragility::Peak;
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, InputError};
-use crate::keyword::keywords;
 use crate::units::Quantity;
 
-keywords! {
-    /// A measure of motions.
-    pub enum Measure {
-        Pga = "PGA",
-        Pgv = "PGV",
-        /// Spectral acceleration at 1 s.
-        Spectral = "SA(1.0 s)",
-        /// At another period.
-        Other = "SA",
-    }
+/// A measure of motions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+pub enum Measure {
+    #[strum(serialize = "PGA")]
+    Pga,
+    #[strum(serialize = "PGV")]
+    Pgv,
+    /// Spectral acceleration at 1 s.
+    #[strum(serialize = "SA(1.0 s)")]
+    Spectral,
+    /// At another period.
+    #[strum(serialize = "SA")]
+    Other,
 }
 
-keywords! {
-    /// Which of several curves of a measure.
-    pub enum Statistic {
-        Mean = "mean",
-        Median = "median",
-        Low = "16 %",
-        High = "84 %",
-    }
+/// Which of several curves of a measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "snake_case")]
+pub enum Statistic {
+    Mean,
+    Median,
+    #[strum(serialize = "16 %")]
+    Low,
+    #[strum(serialize = "84 %")]
+    High,
 }
 
 /// How a column expresses frequency.

@@ -88,7 +88,7 @@ impl Curve {
         let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
         let unit = if measure == Measure::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
-        judge_hazard(measure.into(), &points).map_err(InputError::Implausible)?;
+        judge_hazard(&measure.to_string(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }

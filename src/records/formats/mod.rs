@@ -24,8 +24,8 @@ pub use error::RecordFileError;
 
 use super::{Format, HeaderPga, ReadOptions, RecordedMotion};
 use crate::inputs::decode;
-use crate::keyword::VariantArray;
 use crate::motion::measures::peak;
+use strum::VariantArray;
 
 /// Accepted relative difference of the samples from the peak in the header, which some programs round or take
 /// before a correction.

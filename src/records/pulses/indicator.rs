@@ -2,9 +2,9 @@
 //! motions using wavelet analysis", BSSA 97(5).
 
 use super::wavelet::{Wavelet, WaveletTransform};
-use crate::keyword::keywords;
 use crate::motion::measures::peak;
 use crate::records::rotation::Parts;
+use crate::spelling::unknown_word;
 
 /// Range of pulse periods, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
@@ -39,18 +39,20 @@ pub struct PulseIndicator {
     pub verdict: Verdict,
 }
 
-keywords! {
-    /// Whether a record has a pulse.
-    pub enum Verdict {
-        /// There is an early pulse.
-        Pulse = "pulse",
-        /// The indicator is too low.
-        NoPulse = "no_pulse",
-        /// The pulse is late, and so no effect of directivity.
-        Late = "late",
-        /// The peak velocity is below 0.3 m/s.
-        Weak = "weak",
-    }
+/// Whether a record has a pulse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Verdict>)]
+pub enum Verdict {
+    /// There is an early pulse.
+    Pulse,
+    /// The indicator is too low.
+    NoPulse,
+    /// The pulse is late, and so no effect of directivity.
+    Late,
+    /// The peak velocity is below 0.3 m/s.
+    Weak,
 }
 
 impl PulseIndicator {

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use crate::fragility::{Calibration, Cases, Event, LimitStates, Peak};
 use crate::hazard::{Fragility, FragilityPoint};
-use crate::keyword::keywords;
 use crate::paper;
 use crate::report::answers::Evaluation;
 use crate::report::figures::Fits;
@@ -28,28 +27,40 @@ use crate::units::G_M_S2;
 /// The most responses that are drawn of a file.
 const MOST_TRACES: usize = 50;
 
-keywords! {
-    /// What a table holds, in words.
-    pub enum Kind {
-        Motions = "motions",
-        Traces = "responses over time",
-        Stripes = "stripes",
-        Responses = "responses",
-        Capacities = "overturning intensities",
-        CapacityFits = "distributions of overturning intensities",
-        Rates = "annual rates",
-        Fragility = "fragility curves",
-        Probabilities = "probabilities under motions",
-        Calibrations = "calibrations",
-        Curves = "curves of overturning",
-        Planes = "regressions of the demand",
-        Parameters = "parameters of fits",
-        Paper = "numbers of the paper",
-        Reliability = "observed shares",
-        Validation = "validation",
-        Scenarios = "scenarios",
-        Other = "another program's table",
-    }
+/// What a table holds, in words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "snake_case")]
+pub enum Kind {
+    Motions,
+    #[strum(serialize = "responses over time")]
+    Traces,
+    Stripes,
+    Responses,
+    #[strum(serialize = "overturning intensities")]
+    Capacities,
+    #[strum(serialize = "distributions of overturning intensities")]
+    CapacityFits,
+    #[strum(serialize = "annual rates")]
+    Rates,
+    #[strum(serialize = "fragility curves")]
+    Fragility,
+    #[strum(serialize = "probabilities under motions")]
+    Probabilities,
+    Calibrations,
+    #[strum(serialize = "curves of overturning")]
+    Curves,
+    #[strum(serialize = "regressions of the demand")]
+    Planes,
+    #[strum(serialize = "parameters of fits")]
+    Parameters,
+    #[strum(serialize = "numbers of the paper")]
+    Paper,
+    #[strum(serialize = "observed shares")]
+    Reliability,
+    Validation,
+    Scenarios,
+    #[strum(serialize = "another program's table")]
+    Other,
 }
 
 /// Columns by which a table is known; the first kind of which it has all counts.

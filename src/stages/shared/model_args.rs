@@ -6,7 +6,6 @@ use serde::Serialize;
 use std::collections::HashSet;
 
 use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
-use crate::keyword::keywords;
 use crate::motion::Suite;
 use crate::number::listed;
 use crate::object::{Object, Subject};
@@ -14,20 +13,23 @@ use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{FitsFolder, Read};
 use crate::rocking::Structure;
+use crate::spelling::unknown_word;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
 use crate::warning::Warning;
 
-keywords! {
-    /// The model that predicts.
-    pub enum ModelName {
-        /// The universal surface, calibrated where there are fits.
-        Calibrated = "calibrated",
-        /// The two planes and the lognormal curve of the paper.
-        Paper = "paper",
-    }
+/// The model that predicts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<ModelName>)]
+pub enum ModelName {
+    /// The universal surface, calibrated where there are fits.
+    Calibrated,
+    /// The two planes and the lognormal curve of the paper.
+    Paper,
 }
 
 #[derive(Debug, Clone, Args, Serialize)]
