@@ -21,7 +21,7 @@ BUILT := $(filter target/release/rockfrag,$(ROCKFRAG))
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
-target/release/rockfrag: Cargo.toml Cargo.lock $(shell find src data -type f)
+target/release/rockfrag: Cargo.toml Cargo.lock $(shell find src data core -type f)
 	cargo build --release --locked
 
 $(OUT)/scenarios.parquet: pipeline.yaml | $(BUILT)

@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 fn main() {
     let root = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let mut hash = FNV_OFFSET;
-    for folder in ["src", "data"] {
+    // A package from the registry has no core/: there the lock file has its checksum.
+    for folder in
+        ["src", "data", "core/src", "core/data"].into_iter().filter(|folder| root.join(folder).is_dir())
+    {
         println!("cargo:rerun-if-changed={folder}");
         add_folder(&mut hash, &root.join(folder), folder);
     }

@@ -4,8 +4,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use rockfrag::motion::{Design, Grid, MeasurePlan, MotionModel, Scenario, Suite, Synthesizer};
-use rockfrag::rocking::{Problem, Record, Structure, reference, simulate_all};
+use rockfrag_core::motion::{Design, Grid, MeasurePlan, MotionModel, Scenario, Suite, Synthesizer};
+use rockfrag_core::rocking::{Problem, Record, Structure, reference, simulate_all};
 
 /// Combined motions of some samples of each of the 35 cells.
 fn scenarios(samples: usize) -> Vec<Scenario> {

@@ -1,7 +1,7 @@
 //! The response of a block over time to a record in a file of AT2, COSMOS, ESM, K-NET or CSV.
 
-use rockfrag::records::{ReadOptions, read_records};
-use rockfrag::rocking::{Outcome, Record, Structure, trace};
+use rockfrag::inputs::records::{ReadOptions, read_records};
+use rockfrag_core::rocking::{Outcome, Record, Structure, trace};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).ok_or("expected the file of a record")?;

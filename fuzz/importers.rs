@@ -2,10 +2,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use rockfrag::inputs::records::{Format, ReadOptions, read_records};
 use rockfrag::inputs::{Grid, objects};
-use rockfrag::records::{Format, ReadOptions, read_records};
-use rockfrag::rocking::Record;
-use rockfrag::units::Unit;
+use rockfrag_core::rocking::Record;
+use rockfrag_core::units::Unit;
 use strum::VariantArray;
 
 fuzz_target!(|bytes: &[u8]| {

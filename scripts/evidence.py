@@ -78,7 +78,7 @@ def one_sines():
 
 def left_out():
     """Observed and expected of each earthquake, by the calibration to all others."""
-    surface = Surface(open(ROOT / "data/universal.csv"))
+    surface = Surface(open(ROOT / "core/data/universal.csv"))
     records = of.read([FOLDER / "records.parquet"])
     figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2))
     for event, axes, name in (("pro", both[0], "overturning"), ("pex", both[1], "demand above 0.1")):
@@ -146,7 +146,7 @@ def p58():
         run("floor-motions", "--in", "ground.parquet", "--period", period, "--level", 1,
              "--out", f"roof{period}.parquet", "--force")  # fmt: skip
         floors[f"roof, T1 {period} s"] = pl.read_parquet(f"roof{period}.parquet")
-    rows, components = [], pl.read_csv(ROOT / "tests/reference/fits/p58.csv")
+    rows, components = [], pl.read_csv(ROOT / "core/tests/reference/fits/p58.csv")
     for depth, height, median in components.select("depth_in", "height_in", "median_pfv_m_s").rows():
         size = "--width", depth * INCH, "--height", height * INCH
         ours = json.loads(run("evaluate", *size, "--over", "pgv", "--format", "json"))[0]

@@ -1,8 +1,8 @@
 """The paper's set-up with the seeds 1 to 20, and what the published planes are beside them: python
 scripts/seed_spread.py ROCKFRAG
 
-Writes data/seed_spread.csv, each published number as ours has it (column `ours` of compare-paper), a row a seed; and the
-columns t2 and t2_p of data/paper.csv: Hotelling's T2 of each published plane of Table II about ours over seeds, whether
+Writes core/data/seed_spread.csv, each published number as ours has it (column `ours` of compare-paper), a row a seed; and the
+columns t2 and t2_p of core/data/paper.csv: Hotelling's T2 of each published plane of Table II about ours over seeds, whether
 its four printed numbers (ln a, b1, b2, R2), which depend on each other, could be those of one more seed. The rounding of
 the print counts as an error of variance width^2 / 12. T2 (n - k) / (k (n - 1)) of k numbers and n seeds is F with k and
 n - k degrees of freedom (Hotelling 1931, Annals of Mathematical Statistics 2, 360-378). Needs pandas, pyarrow and scipy.
@@ -27,9 +27,9 @@ with tempfile.TemporaryDirectory() as folder:
         ours = pd.read_parquet(f"{folder}/out/paper.parquet").dropna(subset="ours")
         numbers.append(ours.assign(seed=seed).rename(columns={"ours": "value"}))
 seeds = pd.concat(numbers)[["quantity", "suite", "structure", "seed", "value"]]
-seeds.to_csv(ROOT / "data/seed_spread.csv", index=False)
+seeds.to_csv(ROOT / "core/data/seed_spread.csv", index=False)
 
-paper = pd.read_csv(ROOT / "data/paper.csv", dtype=str, keep_default_na=False)
+paper = pd.read_csv(ROOT / "core/data/paper.csv", dtype=str, keep_default_na=False)
 ours = seeds.pivot(index=["suite", "structure", "seed"], columns="quantity", values="value")
 published = paper.set_index(["suite", "structure", "quantity"]).sort_index()
 paper[["t2", "t2_p"]] = ""
@@ -45,4 +45,4 @@ for row in paper[paper.quantity.isin(["low_plane", "high_plane"])].itertuples():
     t2 = difference @ np.linalg.solve(covariance, difference)
     p = stats.f.sf(t2 * (n - k) / (k * (n - 1)), k, n - k)
     paper.loc[row.Index, ["t2", "t2_p"]] = repr(float(t2)), repr(float(p))
-paper.to_csv(ROOT / "data/paper.csv", index=False)
+paper.to_csv(ROOT / "core/data/paper.csv", index=False)

@@ -2,15 +2,15 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use rockfrag::fragility::{beta, mu};
-use rockfrag::object::{Object, structure_warnings};
 use rockfrag::pipeline::UsageError;
-use rockfrag::records::implausibility::implausibility;
-use rockfrag::rocking::{Ground, Record, TracePoint, simulate, trace};
-use rockfrag::statistics::distributions::t_quantile;
-use rockfrag::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
 use rockfrag::table::responses::OutcomeWord;
-use rockfrag::units::G_M_S2;
+use rockfrag_core::fragility::{beta, mu};
+use rockfrag_core::object::{Object, structure_warnings};
+use rockfrag_core::records::implausibility::implausibility;
+use rockfrag_core::rocking::{Ground, Record, TracePoint, simulate, trace};
+use rockfrag_core::statistics::distributions::t_quantile;
+use rockfrag_core::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
+use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
 use crate::run::run;

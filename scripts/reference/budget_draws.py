@@ -16,7 +16,7 @@ import site_rates as R
 from sites import X, Y
 
 DRAWS = 10_000
-# As src/hazard has them: the line of generic sites (level, slope, scatter, rise with magnitude, sd of
+# As core/src/hazard has them: the line of generic sites (level, slope, scatter, rise with magnitude, sd of
 # the level), the scatter of a line by two curves and the sds of its level by SA(1.0 s) or not; PGV by SA(1.0 s).
 GIVEN_PGA, SCATTER, SD_BY_CURVES = (-2.86, -0.06, 0.58, 0.30, 0.28), 0.42, {False: 0.08, True: 0.12}
 BY_SPECTRUM = 0.090, 0.36, 0.13
@@ -50,7 +50,7 @@ def matched(pga, pgv, scatter):
 
 def expected_magnitude():
     """Intercept and slope of magnitude on ln(PGV / PGA)."""
-    lines = open(R.ROOT / "data/universal.csv").read().splitlines()
+    lines = open(R.ROOT / "core/data/universal.csv").read().splitlines()
     cells = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
     return [float(cell) for cell in cells[2:4]]
 

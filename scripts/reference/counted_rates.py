@@ -1,4 +1,4 @@
-"""Annual rates counted by numpy and scipy, for tests/fits/counted_rates.rs: python counted_rates.py
+"""Annual rates counted by numpy and scipy, for core/tests/fits/counted_rates.rs: python counted_rates.py
 MOTIONS.csv ANSWERS.csv
 
 Motions of 35 cells with a PGA (g) and whether each overturns a structure, in the order of their PGA; annual

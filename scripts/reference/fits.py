@@ -1,4 +1,4 @@
-"""Data for the fits and the scores of measures, and other programs' answers: python fits.py tests/reference/fits
+"""Data for the fits and the scores of measures, and other programs' answers: python fits.py core/tests/reference/fits
 
 cases.csv has two measures, a demand and an event, 20 rows a cell; nearly_separated.csv classes that barely
 overlap, so that the slope is steep and Newton's steps are long; capacities.csv samples of overturning

@@ -1,5 +1,5 @@
 """Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy:
-python fragility.py > tests/reference/fits/fragility_answers.csv
+python fragility.py > core/tests/reference/fits/fragility_answers.csv
 
 The surface is that of scripts/universal/surface.py; the lines of PGV/PGA and the usual magnitude are those of
 sites.py. Intensities are PGA in g or PGV in m/s.
@@ -26,7 +26,7 @@ LEVEL_AT = {"pga": 0.4 * G, "pgv": 0.4}
 STRUCTURES = [(2.2, 0.25, 0.91), (1.5, 0.15, 0.95), (3.5, 0.35, 0.85)]
 INTENSITIES = {"pga": (0.3, 0.5, 0.8, 1.5, 3.0), "pgv": (0.15, 0.4, 0.9, 2.5)}
 LIMIT_STATE = 0.2
-surface = Surface(open(root / "data/universal.csv"))
+surface = Surface(open(root / "core/data/universal.csv"))
 
 
 def branch(event, cases):

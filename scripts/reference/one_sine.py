@@ -1,5 +1,5 @@
 """Amplitudes between which one cycle of a sine overturns a slender block, by linear theory: python one_sine.py
-tests/reference/rocking
+core/tests/reference/rocking
 
 With r = amplitude/(g alpha), x = theta/alpha and time in 1/p, x'' = x - s - r sin(w t) on the side s = 1 or -1
 has a closed form; only the times of impact, where x' falls to eta x', are roots. Writes to one_sine.csv by w/p

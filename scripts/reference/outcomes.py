@@ -1,4 +1,4 @@
-"""What stood and what fell, and other programs' calibrations to it: python outcomes.py tests/reference/fits
+"""What stood and what fell, and other programs' calibrations to it: python outcomes.py core/tests/reference/fits
 
 outcomes.csv has four lists of blocks: `town`, of one earthquake; `towns`, of twelve; `stood` and `fell`, in which
 all did. outcomes_answers.csv: c, ln s and m of greatest posterior density by scipy (the root of its gradient), and
@@ -21,7 +21,7 @@ from surface import NO_LIMIT, Surface  # noqa: E402
 G = 9.81
 # Standard deviation of c between structures (docs/review/universal.md).
 BETWEEN = 0.71
-surface = Surface(open(root_folder / "data/universal.csv"))
+surface = Surface(open(root_folder / "core/data/universal.csv"))
 PRIOR = surface.prior("pro", "recorded")
 TAU = surface.numbers["calibration", "recorded", "pro"][6]
 

@@ -1,7 +1,7 @@
 """Answers for a motions file in quadruple precision: python rocking.py MOTIONS.parquet ANSWERS.csv
 P:ALPHA:ETA ...
 
-tests/reference/rocking/motions.parquet has sixty: velocity pulses, pulses under decaying noise, half-sine and
+core/tests/reference/rocking/motions.parquet has sixty: velocity pulses, pulses under decaying noise, half-sine and
 rectangular pulses, and records that touch the uplift threshold of alpha = 0.15 exactly. By another formulation than the program's own: Taylor series of phi = alpha - |theta| of order 20 in steps
 between samples, events by scanning and bisection, in numbers of 113 bits. The condition is the relative
 change of the demand under motions stronger by 1e-15. Needs gmpy2 and pyarrow; 60 motions and two structures

@@ -33,7 +33,7 @@ random = np.random.default_rng(1)
 
 def calibration():
     """c, ln s, m and their standard deviations, of P_ro under recorded motions."""
-    lines = open(ROOT / "data/universal.csv").read().splitlines()
+    lines = open(ROOT / "core/data/universal.csv").read().splitlines()
     cells = next(line.split(",") for line in lines if line.startswith("calibration,recorded,pro"))
     return [float(cell) for cell in cells[3:9]]
 

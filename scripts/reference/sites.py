@@ -2,9 +2,9 @@
 
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA,
 PGV and magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in
-general (src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
+general (core/src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
 the sites `judge`, of yet others, judge both, and nothing is chosen by them; the sites `magnitude` tell which
-magnitude is to be given. Writes FOLDER/sites.npz and, to tests/reference/fits, the levels of the first two by
+magnitude is to be given. Writes FOLDER/sites.npz and, to core/tests/reference/fits, the levels of the first two by
 Vs30 and the means of the first three at the rate of once in 2475 years, and prints the lines. Needs
 openquake.engine (scripts/check_exports.sh tells how).
 """
@@ -220,7 +220,7 @@ def by_spectrum(data, among):
 
 
 if __name__ == "__main__":
-    folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "tests/reference/fits"
+    folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "core/tests/reference/fits"
     names, made = [], []
     for kind, (geometries, models, rho) in SETS.items():
         for (geometry, sources), (model, vs30) in itertools.product(geometries.items(), models):

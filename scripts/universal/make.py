@@ -1,4 +1,4 @@
-"""Makes data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES STUDY STUDY RESPONSES..."""
+"""Makes core/data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES STUDY STUDY RESPONSES..."""
 
 import sys
 

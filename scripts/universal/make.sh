@@ -31,8 +31,8 @@ for list in records blocks; do
     call simulate --in records.motions.parquet --structures $list.csv --out $list.parquet
 done
 
-surface="$root/data/universal.csv"
+surface="$root/core/data/universal.csv"
 python3 "$here/make.py" "$surface" training.motions.parquet records.parquet \
     study_101.parquet study_103.parquet training_?.parquet
-python3 "$here/answers.py" "$surface" study_101.parquet blocks.parquet "$root/tests/reference/fits"
+python3 "$here/answers.py" "$surface" study_101.parquet blocks.parquet "$root/core/tests/reference/fits"
 python3 "$here/judge.py" "$surface" .

@@ -1,5 +1,5 @@
 """The universal surface: logits of P_ro and P_ex as sums of products of features, and what is added to them
-near uplift (data/universal.csv defines both). Cases are rows of a frame with p_rad_s, eta, im4, im5, mw (null
+near uplift (core/data/universal.csv defines both). Cases are rows of a frame with p_rad_s, eta, im4, im5, mw (null
 where it is unknown) and limit."""
 
 from functools import reduce
@@ -64,7 +64,7 @@ def magnitude(cases, line):
 
 
 class Surface:
-    """What the lines of data/universal.csv hold: numbers by words, such as ("uplift", "csgm", "pro")."""
+    """What the lines of core/data/universal.csv hold: numbers by words, such as ("uplift", "csgm", "pro")."""
 
     def __init__(self, lines):
         self.numbers = {}

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
+use rockfrag_core::spelling::hint;
 use serde_json::{Map, Value};
 
 use super::yaml;
 use crate::pipeline::UsageError;
 use crate::pipeline::paths::{PathKind, path_kind, split_list};
 use crate::source;
-use crate::spelling::hint;
 use crate::stages::run;
 use crate::table::provenance::text_of;
 

@@ -10,8 +10,7 @@ mod pelicun;
 
 pub use openquake::discrete;
 pub use pelicun::{metadata, parameters};
-
-use crate::fragility::{LimitStates, Peak};
+use rockfrag_core::fragility::{LimitStates, Peak};
 
 /// Distance below a jump of the last level before it, relative to the intensity of the jump: far enough for
 /// pelicun, which keeps six digits where it converts units.

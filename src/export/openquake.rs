@@ -1,10 +1,11 @@
 //! NRML 0.5, the XML of OpenQuake: a fragilityModel. PGA is in g, PGV in cm/s.
 
-use super::FragilityModel;
-use crate::fragility::{LimitState, Peak};
-use crate::report::text::escape;
-use crate::units::{CM_PER_M, G_M_S2};
+use rockfrag_core::fragility::{LimitState, Peak};
+use rockfrag_core::units::{CM_PER_M, G_M_S2};
 use strum::VariantArray;
+
+use super::FragilityModel;
+use crate::report::text::escape;
 
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.

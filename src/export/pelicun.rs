@@ -2,12 +2,12 @@
 //! is in g, PGV in m/s. pelicun draws one uniform number for all limit states of a component, which keeps
 //! each within the one before.
 
+use rockfrag_core::fragility::{LimitState, Peak};
+use rockfrag_core::units::G_M_S2;
 use serde_json::{Map, Value, json};
+use strum::VariantArray;
 
 use super::{FragilityModel, Function, GAP};
-use crate::fragility::{LimitState, Peak};
-use crate::units::G_M_S2;
-use strum::VariantArray;
 
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];

@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
+
 use super::words::means;
 use super::{Grid, Heading, InputError, decode};
-use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::source;
 
 /// The line above the table of records in PEER's search results, which have others.

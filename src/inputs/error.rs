@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use crate::hazard::{HazardError, MatchError};
+use rockfrag_core::hazard::{HazardError, MatchError};
 
 /// What is wrong with a file. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,7 +1,8 @@
 //! Floors as people write them, as the level and the first period of a building.
 
+use rockfrag_core::object::Place;
+
 use super::words::{is_one_of, joined, means};
-use crate::object::Place;
 
 /// Height of a storey, m.
 const STOREY_M: f64 = 3.5;

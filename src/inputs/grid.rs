@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
+use rockfrag_core::units::Unit;
 
 use super::decode::decode;
 use super::error::{InputError, expect_few_cells};
@@ -14,7 +15,6 @@ use super::words::words;
 use super::workbook;
 use crate::number::counted;
 use crate::source;
-use crate::units::Unit;
 
 /// Rows at the end of a table that show how it is written.
 const SHOWN: usize = 400;

@@ -1,7 +1,8 @@
 //! Headings: names and units.
 
+use rockfrag_core::units::{Quantity, Unit};
+
 use super::words::joined;
-use crate::units::{Quantity, Unit};
 
 /// The longest text that may say a unit: a search for one in every part of a long line would not end.
 const LONGEST: usize = 100;

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, Float64Array, StringArray};
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::units::Quantity;
 
 use super::hazard::{expect_motions_alone, peak};
 use super::objects::describes_object;
 use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Renames};
-use crate::fragility::Peak;
-use crate::units::Quantity;
 
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
 pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>, InputError> {

@@ -12,6 +12,7 @@
 //! objects      lists of objects
 //! intensities  tables of motions by their peaks
 //! about        tables about records
+//! records      records in the formats of networks
 //! floors       floors as people write them: level and first period
 //! words        words of lists in several languages
 //! error        what is wrong with a file
@@ -27,6 +28,7 @@ mod heading;
 pub mod intensities;
 mod numbers;
 pub mod objects;
+pub mod records;
 mod rename;
 mod unpack;
 pub mod words;

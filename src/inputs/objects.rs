@@ -3,15 +3,16 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use rockfrag_core::object::{Field, Object, Place, Reason};
+use rockfrag_core::plausibility::judge_lengths;
+use rockfrag_core::units::{Quantity, Unit};
+use rockfrag_core::warning::{Warning, Warnings};
+use strum::VariantArray;
+
 use super::floors::{self, Building, Storey};
 use super::words::{is_one_of, joined, means, words};
 use super::{Grid, Heading, InputError, Renames};
 use crate::number::rounded;
-use crate::object::{Field, Object, Place, Reason};
-use crate::plausibility::judge_lengths;
-use crate::units::{Quantity, Unit};
-use crate::warning::{Warning, Warnings};
-use strum::VariantArray;
 
 /// What a column is about.
 #[derive(Debug, Clone, Copy, PartialEq)]

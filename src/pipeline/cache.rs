@@ -6,13 +6,14 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use rockfrag_core::warning::Warnings;
+
 use super::call::{Call, Planned};
 use super::context::{Caller, Context, Plan};
 use super::options::UsageError;
 use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
-use crate::warning::Warnings;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Done {

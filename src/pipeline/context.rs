@@ -9,15 +9,15 @@ use arrow_schema::SchemaRef;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::ThreadPoolBuilder;
+use rockfrag_core::spelling::unknown_word;
+use rockfrag_core::warning::Warnings;
 
 use super::options::{UsageError, number};
-use crate::spelling::unknown_word;
 use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{Existing, TableWriter, Written, persist};
-use crate::warning::Warnings;
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;

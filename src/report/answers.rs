@@ -1,12 +1,12 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
-use crate::fragility::Peak;
-use crate::hazard::{Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
-use crate::number::{self, Limited, PERCENT};
-use crate::table::answers::{Answer, ObjectRow, RatesRow, TargetBases};
-use crate::warning::UNNAMED;
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
+use rockfrag_core::warning::UNNAMED;
 
 use super::text::literal;
+use crate::number::{self, Limited, PERCENT};
+use crate::table::answers::{Answer, ObjectRow, RatesRow, TargetBases};
 
 /// An object, and how often it reaches each limit state.
 pub type Rated = Answer<RatesRow>;

@@ -2,10 +2,11 @@
 
 use std::ops::RangeInclusive;
 
+use rockfrag_core::statistics::Range;
+
 use super::figure::{Axis, Panel, Scale};
 use super::text::minus;
 use crate::number;
-use crate::statistics::Range;
 
 /// An axis with a range.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,14 +1,15 @@
 //! The page of two evaluations, before and after: joined by the names of the objects.
 
+use rockfrag_core::hazard::{RateByParts, ratio_of_rates};
+use rockfrag_core::object::Part;
+
 use super::answers::{Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row, Value};
 use super::text::literal;
-use crate::hazard::{RateByParts, ratio_of_rates};
 use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
-use crate::object::Part;
 
 /// Objects that are named in a sentence and in a line.
 const NAMED: usize = 4;

@@ -1,7 +1,8 @@
 //! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
+use rockfrag_core::statistics::{Estimate, Range};
+
 use super::text::words;
-use crate::statistics::{Estimate, Range};
 
 /// One picture: panels in rows.
 #[derive(Debug, Clone, PartialEq, Default)]

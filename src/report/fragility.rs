@@ -1,13 +1,14 @@
 //! The page of fragilities: the intensities of one peak at which half of the motions overturn each object.
 
+use rockfrag_core::fragility::{LimitState, Peak};
+use rockfrag_core::hazard::{Fragility, Lognormal, intensity_in_words};
+
 use super::answers::Outline;
 use super::figure::{Figure, Ink, Layer};
 use super::list::doubts;
 use super::object::{HEIGHT, averaged, curve, curves_panel, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
 use super::text::{literal, words};
-use crate::fragility::{LimitState, Peak};
-use crate::hazard::{Fragility, Lognormal, intensity_in_words};
 use crate::number::{self, significant};
 use crate::table::answers::{Answer, FragilityRow, ObjectRow};
 

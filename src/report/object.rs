@@ -1,17 +1,18 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
+use rockfrag_core::fragility::{LimitState, Peak, Z_95};
+use rockfrag_core::hazard::{Fragility, intensity_in_words};
+use rockfrag_core::object::Part;
+use strum::VariantArray;
+
 use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
 use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row};
 use super::text::{literal, words};
-use crate::fragility::{LimitState, Peak, Z_95};
-use crate::hazard::{Fragility, intensity_in_words};
 use crate::number::{self, PERCENT, RATE};
-use crate::object::Part;
 use crate::table::answers::ObjectRow;
-use strum::VariantArray;
 
 /// Height of the area of the data of a panel, points.
 pub const HEIGHT: f64 = 150.0;

@@ -1,8 +1,9 @@
 //! Probabilities of overturning in rows: names, values with their limits, words beside them, and a target.
 
+use rockfrag_core::statistics::Range;
+
 use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
 use crate::number::{Limited, OF_HUNDRED, PERCENT};
-use crate::statistics::Range;
 
 /// A row of a panel.
 pub struct Row {

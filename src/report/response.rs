@@ -1,5 +1,9 @@
 //! One response: rotation and ground motion over time, with its events; and the block as it moves.
 
+use rockfrag_core::rocking::{SolverEvent, Structure};
+use rockfrag_core::statistics::Range;
+use rockfrag_core::units::G_M_S2;
+
 use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Words};
 use super::figures::common::called;
 use super::figures::envelope;
@@ -7,10 +11,7 @@ use super::page::Page;
 use super::pen::round;
 use super::text::{escape, file_words, literal, words};
 use crate::number;
-use crate::rocking::{SolverEvent, Structure};
-use crate::statistics::Range;
 use crate::table::responses::TraceRow;
-use crate::units::G_M_S2;
 
 /// A structure under a motion: a row at each sample and event, one or more.
 #[derive(Debug, Clone)]

@@ -4,17 +4,17 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use rockfrag_core::fragility::DemandFit;
+use rockfrag_core::paper;
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::studies::paper::{Comparison, compare};
 use serde::Serialize;
 
 use super::Stages;
-use crate::fragility::DemandFit;
 use crate::number::{aligned, counted, fixed};
-use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{Input, Output, Read};
-use crate::rocking::Structure;
-use crate::studies::paper::{Comparison, compare};
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;

@@ -3,22 +3,22 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use rockfrag_core::fragility::{LimitStates, Peak};
+use rockfrag_core::hazard::{SitesInGeneral, strongest};
+use rockfrag_core::object::{Object, Place, Subject};
+use rockfrag_core::spelling::unknown_word;
+use rockfrag_core::statistics::numerics::{equal_ratios, first};
+use rockfrag_core::warning::Warnings;
 use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
 use super::shared::objects::{StructureArgs, named, on_ground};
 use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metadata, parameters};
-use crate::fragility::{LimitStates, Peak};
-use crate::hazard::{SitesInGeneral, strongest};
 use crate::inputs::Renames;
 use crate::number;
-use crate::object::{Object, Place, Subject};
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{FragilityOutput, Read};
 use crate::pipeline::{Stage, UsageError};
-use crate::spelling::unknown_word;
-use crate::statistics::numerics::{equal_ratios, first};
-use crate::warning::Warnings;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args, Serialize)]

@@ -5,21 +5,21 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use rockfrag_core::fragility::{
+    Calibration, DemandFit, DemandModel, Parameter, Predictors, fit_demand, sd_of_one_plane,
+};
+use rockfrag_core::paper;
+use rockfrag_core::statistics::FitStatus;
 use serde::Serialize;
 
 use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
-use crate::fragility::{
-    Calibration, DemandFit, DemandModel, Parameter, Predictors, fit_demand, sd_of_one_plane,
-};
 use crate::number::significant;
-use crate::paper;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Input, Output, Read, part};
-use crate::statistics::FitStatus;
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
 #[derive(Debug, Args, Serialize)]

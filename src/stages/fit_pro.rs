@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use rockfrag_core::fragility::{Calibration, CurveFit, Event, Measure, Parameter, Predictors, fit_curves};
 use serde::Serialize;
 
 use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::{observed, responses};
-use crate::fragility::{Calibration, CurveFit, Event, Measure, Parameter, Predictors, fit_curves};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use arrow_array::RecordBatch;
 use arrow_schema::Schema;
 use clap::Args;
+use rockfrag_core::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
+use rockfrag_core::object::Field;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::each;
 use super::shared::objects::field;
-use crate::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
-use crate::object::Field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;

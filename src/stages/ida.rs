@@ -5,29 +5,29 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
+use rockfrag_core::plausibility::MOST_SCALED;
+use rockfrag_core::rocking::{
+    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
+    simulate_all,
+};
+use rockfrag_core::statistics::FitStatus;
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, each, warnings};
 use super::shared::objects::StructureArgs;
-use crate::fragility::{Cluster, KnownCapacity, fit_capacities};
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines, number};
 use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::{Stage, UsageError};
-use crate::plausibility::MOST_SCALED;
-use crate::rocking::{
-    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
-    simulate_all,
-};
-use crate::statistics::FitStatus;
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
 use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::responses::ResponseRow;
 use crate::table::{frame, rows};
-use crate::units::G_M_S2;
-use crate::warning::{Warning, Warnings};
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are
 /// bisected, and few enough to hear an interrupt within a second.

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use anyhow::Context as _;
+use rockfrag_core::warning::Warnings;
 use serde_json::{Map, Value};
 
 use super::export::UNNAMED;
@@ -15,7 +16,6 @@ use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
 use crate::pipeline::terminal::{print, tell};
 use crate::table::provenance::text_of;
-use crate::warning::Warnings;
 
 /// Stages whose text is what people make a folder for.
 const ANSWERS: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];

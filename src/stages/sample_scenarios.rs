@@ -5,17 +5,17 @@ use std::path::PathBuf;
 
 use clap::Args;
 use rayon::prelude::*;
+use rockfrag_core::motion::{Design, Grid, Scenario};
+use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
-use crate::motion::{Design, Grid, Scenario};
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, steps};
 use crate::pipeline::paths::{Output, Read};
-use crate::plausibility::{DISTANCES_KM, MAGNITUDES};
 use crate::table::rows;
-use crate::warning::{Warning, Warnings};
 
 /// Sample earthquake scenarios on a magnitude-distance grid
 #[derive(Debug, Args, Serialize)]

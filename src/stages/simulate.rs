@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use rockfrag_core::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace};
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
 use super::shared::motions::{Measures, each, warnings};
@@ -16,12 +18,10 @@ use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
-use crate::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace};
 use crate::table::file::{Partition, Table};
 use crate::table::motions::{self, Motion, Sampled, is_of_motion};
 use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
-use crate::warning::{Warning, Warnings};
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy, and few enough for
 /// its caches.

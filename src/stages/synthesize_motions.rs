@@ -5,13 +5,13 @@ use std::sync::Mutex;
 
 use anyhow::Context as _;
 use clap::Args;
-use serde::{Deserialize, Serialize};
-
-use crate::inputs::{Grid, Heading};
-use crate::motion::{
+use rockfrag_core::motion::{
     Difference, Epoch, LONGEST_MOTION, MeasurePlan, MotionMeasures, MotionModel, Scenario, SiteAmplification,
     StochasticModel, Suite, Synthesizer,
 };
+use serde::{Deserialize, Serialize};
+
+use crate::inputs::{Grid, Heading};
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};

@@ -3,20 +3,20 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use rockfrag_core::fragility::{Case, Cases, Event, Kind, Model, Scenarios};
+use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
-use crate::fragility::{Case, Cases, Event, Kind, Model, Scenarios};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::{Input, Output, Read, part};
-use crate::studies::{Forecasts, ReliabilityBin, Validation};
 use crate::table::frame;
 use crate::table::keys::key_of;
 use crate::table::provenance::Provenance;
 use crate::table::rows;
-use crate::warning::{Warning, Warnings};
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args, Serialize)]

@@ -1,14 +1,13 @@
 //! The outputs of evaluate: what is predicted for each object, and points of fragility curves.
 
-use serde::{Deserialize, Serialize};
-
-use crate::fragility::{Direction, Kind, Peak};
-use crate::hazard::{
+use rockfrag_core::fragility::{Direction, Kind, Peak};
+use rockfrag_core::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
-use crate::object::{Object, Part};
-use crate::statistics::Limited;
-use crate::warning::Warning;
+use rockfrag_core::object::{Object, Part};
+use rockfrag_core::statistics::Limited;
+use rockfrag_core::warning::Warning;
+use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
 /// What is predicted for an object.

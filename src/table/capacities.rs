@@ -1,12 +1,12 @@
 //! The outputs of ida: capacities, one row for each motion and structure, and their distributions.
 
+use rockfrag_core::fragility::Group;
+use rockfrag_core::rocking::Capacity;
+use rockfrag_core::spelling::unknown_word;
+use rockfrag_core::statistics::{FitStatus, Limited};
 use serde::{Deserialize, Serialize};
 
 use super::responses::OutcomeWord;
-use crate::fragility::grouped;
-use crate::rocking::Capacity;
-use crate::spelling::unknown_word;
-use crate::statistics::{FitStatus, Limited};
 
 /// A measure that grows with a motion in proportion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -67,4 +67,23 @@ pub struct Stripe {
     pub outcome: OutcomeWord,
 }
 
-grouped!(CapacityRow, CapacityFitRow, Stripe);
+impl CapacityRow {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}
+
+impl CapacityFitRow {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}
+
+impl Stripe {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}

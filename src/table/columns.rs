@@ -9,10 +9,10 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::{Decimal128Type, Float16Type, Float32Type, Float64Type};
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray, RecordBatch, downcast_integer};
 use arrow_schema::DataType;
+use rockfrag_core::plausibility::range_of_column;
+use rockfrag_core::rocking::Structure;
 
 use super::{TableError, dictionary};
-use crate::plausibility::range_of_column;
-use crate::rocking::Structure;
 
 /// Consecutive rows of a table.
 #[derive(Debug, Clone)]

@@ -3,13 +3,13 @@
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, PolarsError};
+use rockfrag_core::fragility::Group;
+use rockfrag_core::spelling::unknown_word;
 use serde_json::Value;
 
 use super::columns::{integers, numbers};
 use super::file::{NARROW_BATCH, Table};
-use crate::fragility::Group;
 use crate::number::{aligned, fixed, significant};
-use crate::spelling::unknown_word;
 
 /// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -8,6 +8,10 @@ use std::sync::Arc;
 use arrow_array::builder::{Float32Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
 use arrow_schema::{DataType, Field, Schema};
+use rockfrag_core::motion::MotionMeasures;
+use rockfrag_core::records::Origin;
+use rockfrag_core::records::rotation::pairs;
+use rockfrag_core::rocking::{Record, RecordError};
 use serde::{Deserialize, Serialize};
 
 use super::TableError;
@@ -15,10 +19,6 @@ use super::columns::Batch;
 use super::dictionary;
 use super::file::{Partition, RowGroup, Table};
 use super::rows::{self, side_by_side};
-use crate::motion::MotionMeasures;
-use crate::records::Origin;
-use crate::records::rotation::pairs;
-use crate::rocking::{Record, RecordError};
 
 /// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use std::time::SystemTime;
 
 use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
+use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-
-use crate::warning::Warnings;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";

@@ -1,10 +1,9 @@
 //! The outputs of simulate: responses, one row for each motion and structure, and traces.
 
+use rockfrag_core::motion::IntensityMeasures;
+use rockfrag_core::rocking::{Outcome, SolverEvent};
+use rockfrag_core::spelling::unknown_word;
 use serde::{Deserialize, Serialize};
-
-use crate::motion::IntensityMeasures;
-use crate::rocking::{Outcome, SolverEvent};
-use crate::spelling::unknown_word;
 
 /// An outcome but for its demand, which has its own column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

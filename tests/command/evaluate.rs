@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use rockfrag::rocking::Structure;
-use rockfrag::units::G_M_S2;
-use rockfrag::warning::Warning;
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::Warning;
 use serde_json::Value;
 
 use crate::common::{evaluated, fail, folder, folder_with, near, number, succeed};

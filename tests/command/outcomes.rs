@@ -82,7 +82,7 @@ struct Component {
 fn blocks_of_fema_p58_overturn_at_these_velocities() {
     // Unanchored components that fall over, E.20.22.102a to 125a; ours_m_s is by an independent run.
     let components: Vec<Component> =
-        csv::Reader::from_path(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/fits/p58.csv"))
+        csv::Reader::from_path(concat!(env!("CARGO_MANIFEST_DIR"), "/core/tests/reference/fits/p58.csv"))
             .unwrap()
             .into_deserialize()
             .map(Result::unwrap)

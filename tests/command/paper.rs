@@ -1,18 +1,19 @@
 //! The paper's run as it is shipped, without the report: its numbers, and the schemas of all files that the
 //! stages write.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use arrow_schema::{FieldRef, Schema};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ArrowReaderOptions};
-use rockfrag::fragility::{CurveFit, DemandFit, DemandModel, Event, Group, Measure, ParameterRow};
-use rockfrag::fragility::{lambda, mu};
-use rockfrag::studies::{ReliabilityBin, Validation};
+use rockfrag::table::answers::FragilityRow;
 use rockfrag::table::responses::ResponseRow;
 use rockfrag::table::rows;
+use rockfrag_core::fragility::{CurveFit, DemandFit, DemandModel, Event, Group, Measure, ParameterRow};
+use rockfrag_core::fragility::{lambda, mu};
+use rockfrag_core::studies::{ReliabilityBin, Validation};
 
 use crate::common::{fail, folder_with, objects, succeed};
 
@@ -246,11 +247,18 @@ fn every_file_has_its_schema() {
     std::fs::write(folder.join("record.csv"), record).unwrap();
     let about = "file,magnitude,distance (km),earthquake\nother.csv,6.1,,B\nrecord.csv,7.3,4.5,A\n";
     std::fs::write(folder.join("about.csv"), about).unwrap();
+    std::fs::write(folder.join("hazard.csv"), include_str!("../../data/hazard.csv")).unwrap();
+    std::fs::write(folder.join("peaks.csv"), "pga_m_s2,pgv_m_s\n4,0.5\n").unwrap();
     for call in [
         "import-motions record.csv --out out/records.parquet --accept-implausible --about about.csv",
         "simulate --in out/motions.parquet --p 2.5 --alpha 0.2 --eta 0.92 --trace 1 --out out/one.parquet",
         "ida --in out/records.parquet --p 2.5 --alpha 0.2 --eta 0.92 --out out/ida.parquet",
         "report --in out/ida.parquet --out read.html",
+        "floor-motions --in out/records.parquet --period 0.5 --level 1 --out out/floor.parquet",
+        "evaluate --width 0.5 --height 2 --out out/evaluate.over.parquet",
+        "evaluate --width 0.5 --height 2 --pga 0.4 --out out/evaluate.motion.parquet",
+        "evaluate --width 0.5 --height 2 --hazard hazard.csv --target 1% --out out/evaluate.hazard.parquet",
+        "evaluate --width 0.5 --height 2 --in peaks.csv --out out/evaluate.in.parquet",
     ] {
         succeed(folder, call);
     }
@@ -275,7 +283,12 @@ fn every_file_has_its_schema() {
     let mut text: String =
         files.iter().map(|path| format!("{}\n{}", name(path), columns(&schema(path)))).collect();
     text += &format!("validation.parquet\n{}", columns(&rows::schema::<Validation>()));
+    text += &format!("evaluate.over.csv\n{}", columns(&rows::schema::<FragilityRow>()));
     text += &format!("validation.reliability.parquet\n{}", columns(&rows::schema::<ReliabilityBin>()));
     assert!(!text.contains("NOT IN"), "{text}");
+    let written: HashSet<&str> = text.split_whitespace().collect();
+    let unwritten = rockfrag::table::dictionary::names().filter(|name| !written.contains(name));
+    // Spectral accelerations are named by their period; `inspect` alone prints meanings.
+    assert_eq!(unwritten.collect::<Vec<_>>(), ["sa_*_m_s2", "meaning"]);
     insta::assert_snapshot!(text);
 }

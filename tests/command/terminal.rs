@@ -1,11 +1,11 @@
 //! What one sees at a terminal: words, lists, traces.
 
 use rockfrag::cli::stage_commands;
-use rockfrag::rocking::SolverEvent;
 use rockfrag::table::capacities::CapacityFitRow;
 use rockfrag::table::file::Table;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
+use rockfrag_core::rocking::SolverEvent;
 use std::path::Path;
 
 use crate::common::write_motions;

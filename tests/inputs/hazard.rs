@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use rockfrag::hazard::{Hazard, PeakHazard};
 use rockfrag::inputs::{InputError, Rename, Renames, hazard};
-use rockfrag::units::G_M_S2;
-use rockfrag::warning::Warnings;
+use rockfrag_core::hazard::{Hazard, PeakHazard};
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::Warnings;
 
 use super::packed::utf_16;
 

@@ -2,8 +2,8 @@
 
 use rockfrag::inputs::objects::{self, Common};
 use rockfrag::inputs::{InputError, Rename, Renames};
-use rockfrag::object::{Object, structure_warnings};
-use rockfrag::warning::Warning;
+use rockfrag_core::object::{Object, structure_warnings};
+use rockfrag_core::warning::Warning;
 
 use super::packed::{Cells, csv, ods, utf_16, xlsx};
 

@@ -1,8 +1,9 @@
 //! Formats of the agencies: reading returns what was written, and damage causes no harm.
 
 use proptest::prelude::*;
-use rockfrag::records::{Format, ReadOptions, RecordFileError, RecordedMotion, read_records};
-use rockfrag::units::Unit;
+use rockfrag::inputs::records::{Format, ReadOptions, RecordFileError, is_vertical, read_records};
+use rockfrag_core::records::RecordedMotion;
+use rockfrag_core::units::Unit;
 use strum::VariantArray;
 
 use crate::writers::*;
@@ -150,7 +151,7 @@ proptest! {
 fn headers_must_agree_with_options() {
     for Written { format, text, .. } in each_format() {
         let [motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
-        assert!(!motion.origin.is_vertical(), "{format:?}");
+        assert!(!is_vertical(&motion.origin), "{format:?}");
         for options in [
             ReadOptions { dt_s: Some(2.0 * DT), ..ReadOptions::default() },
             ReadOptions { unit: Unit::parse("ft/s2"), ..ReadOptions::default() },

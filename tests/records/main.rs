@@ -1,13 +1,6 @@
-//! Recorded motions: formats, processing, pulses.
+//! Files of records in the formats of the networks.
 
 mod formats;
-mod known_records;
-mod plausibility;
-mod processing;
-mod pulses;
-mod references;
-#[path = "../shared/mod.rs"]
-mod shared;
 mod slips;
 mod traits;
 mod writers;

@@ -1,7 +1,7 @@
 //! Files of records with common mistakes: each is read as intended, or refused for the right reason.
 
-use rockfrag::records::{RecordFileError, read_records};
-use rockfrag::units::Unit;
+use rockfrag::inputs::records::{RecordFileError, read_records};
+use rockfrag_core::units::Unit;
 
 use crate::writers::*;
 

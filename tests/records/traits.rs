@@ -1,7 +1,8 @@
 //! Traits of real files: each is read as the agency means it, or refused.
 
-use rockfrag::records::{ReadOptions, RecordFileError, RecordedMotion, read_records};
-use rockfrag::units::Unit;
+use rockfrag::inputs::records::{ReadOptions, RecordFileError, is_vertical, read_records};
+use rockfrag_core::records::RecordedMotion;
+use rockfrag_core::units::Unit;
 
 use crate::writers::*;
 
@@ -93,7 +94,7 @@ fn vertical_components_have_many_names() {
     ];
     for (index, text) in verticals.iter().enumerate() {
         assert_ne!(*text, plain, "{index}");
-        assert!(read(text)[0].origin.is_vertical(), "{index}");
+        assert!(is_vertical(&read(text)[0].origin), "{index}");
     }
     let horizontals =
         [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
@@ -103,11 +104,11 @@ fn vertical_components_have_many_names() {
         "CHY101-V", "Vert.", "UP1", "U-D2",
     ] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(read(&text)[0].origin.is_vertical(), "{name}");
+        assert!(is_vertical(&read(&text)[0].origin), "{name}");
     }
     for name in ["N", "090", "N90E", "H1", "TR", "LN", "E-W", "H-Z14000", "U1"] {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(!read(&text)[0].origin.is_vertical(), "{name}");
+        assert!(!is_vertical(&read(&text)[0].origin), "{name}");
     }
 }
 
@@ -181,7 +182,7 @@ fn columns_of_directions_are_motions_of_their_own() {
     ] {
         let read = read_csv(&table(heading, unit, 3, seconds), "").unwrap();
         let (vertical, horizontal): (Vec<_>, Vec<_>) =
-            read.iter().partition(|motion| motion.origin.is_vertical());
+            read.iter().partition(|motion| is_vertical(&motion.origin));
         assert_eq!((vertical.len(), horizontal.len()), (1, 2), "{heading}");
         assert_eq!([0, 1].map(|index: usize| horizontal[index].origin.azimuth_deg), azimuths, "{heading}");
         expect_samples(horizontal[0], &motion(400), 2e-6 * G);
@@ -217,7 +218,7 @@ fn clocks_are_times_and_no_samples() {
     ] {
         let read = read_csv(&text, "").unwrap_or_else(|why| panic!("{why}: {}", &text[..80]));
         assert!(read.iter().all(|motion| (motion.dt_s - DT).abs() < 1e-9));
-        assert_eq!(read.iter().filter(|motion| !motion.origin.is_vertical()).count(), 2);
+        assert_eq!(read.iter().filter(|motion| !is_vertical(&motion.origin)).count(), 2);
         expect_samples(&read[0], &motion(400), 1e-6);
     }
     let gap = |k: usize| format!("00:00:{}", second(k + usize::from(k > 100)));

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::records::ReadOptions;
-use rockfrag::units::Unit;
+use rockfrag::inputs::records::ReadOptions;
+use rockfrag_core::units::Unit;
 
 pub const G: f64 = 9.81;
 pub const DT: f64 = 0.01;

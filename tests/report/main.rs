@@ -1,11 +1,6 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
 use resvg::{tiny_skia::Pixmap, usvg};
-use rockfrag::fragility::{
-    Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
-};
-use rockfrag::hazard::{Fragility, FragilityPoint, HazardCurve, RateByIntensity};
-use rockfrag::motion::IntensityMeasures;
 use rockfrag::number::{self, Limited};
 use rockfrag::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
 use rockfrag::report::figures::common::{observed_shares, ratio_bins};
@@ -14,12 +9,17 @@ use rockfrag::report::fragility;
 use rockfrag::report::response::{self, Trace};
 use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list, object};
-use rockfrag::rocking::{Outcome, SolverEvent, Structure};
-use rockfrag::statistics::{Estimate, Range};
-use rockfrag::studies::{ReliabilityBin, observed_share};
 use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use rockfrag::table::motions::Motion;
 use rockfrag::table::responses::TraceRow;
+use rockfrag_core::fragility::{
+    Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
+};
+use rockfrag_core::hazard::{Fragility, FragilityPoint, HazardCurve, RateByIntensity};
+use rockfrag_core::motion::IntensityMeasures;
+use rockfrag_core::rocking::{Outcome, SolverEvent, Structure};
+use rockfrag_core::statistics::{Estimate, Range};
+use rockfrag_core::studies::{ReliabilityBin, observed_share};
 use serde_json::json;
 
 const PLANES: [[f64; 3]; 2] = [[-6.0, 30.0, -2.0], [0.5, 1.5, -2.0]];

@@ -3,10 +3,11 @@
 
 use std::ops::RangeInclusive;
 
-use crate::fragility::Peak;
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::units::Quantity;
+
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, InputError};
-use crate::units::Quantity;
 
 /// A measure of motions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]

@@ -8,17 +8,18 @@ mod openquake;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
+use rockfrag_core::plausibility::{judge_hazard, judge_spectrum};
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::{Warning, Warnings};
+
 pub use self::columns::peak;
 use self::columns::{Column, Frequency, Measure, Statistic, noted_statistic};
 pub use self::motions::{Motions, expect_motions_alone, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Renames};
-use crate::fragility::Peak;
-use crate::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
 use crate::number::period;
-use crate::plausibility::{judge_hazard, judge_spectrum};
-use crate::units::G_M_S2;
-use crate::warning::{Warning, Warnings};
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
 /// ground-motion fields stand for. Also returns warnings about columns that are not used.

@@ -1,12 +1,13 @@
 //! Motions in the rows of a table, by their peaks.
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::motion::{Peaks, judge_medians};
+use rockfrag_core::plausibility::MAGNITUDES;
+use rockfrag_core::warning::{Warning, Warnings};
+
 use super::columns::peak;
-use crate::fragility::Peak;
 use crate::inputs::words::means;
 use crate::inputs::{Grid, InputError};
-use crate::motion::{Peaks, judge_medians};
-use crate::plausibility::MAGNITUDES;
-use crate::warning::{Warning, Warnings};
 
 /// Refuses a row of totals or means.
 pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use rockfrag_core::units::{CM_PER_M, G_M_S2};
+
 use super::Curve;
 use super::columns::{Frequency, Measure, Statistic};
 use crate::inputs::{Grid, Heading, InputError};
-use crate::units::{CM_PER_M, G_M_S2};
 
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
 pub fn name_fields(grid: &mut Grid) {

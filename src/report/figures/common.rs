@@ -1,15 +1,16 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
-use crate::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
-use crate::motion::Suite;
+use rockfrag_core::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
+use rockfrag_core::motion::Suite;
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::Range;
+use rockfrag_core::studies::observed_share;
+use rockfrag_core::warning::UNNAMED;
+
 use crate::number;
 use crate::report::Mark;
 use crate::report::text::literal;
-use crate::rocking::Structure;
-use crate::statistics::Range;
-use crate::studies::observed_share;
 use crate::table::capacities::ScaledMeasure;
-use crate::warning::UNNAMED;
 
 /// The fits that figures show.
 #[derive(Default)]

@@ -2,13 +2,16 @@
 
 use std::f64::consts::TAU;
 
+use rockfrag_core::fragility::{
+    Case, Cases, DemandFit, DemandModel, Group, Measure, Predictors, ln_median_demand,
+};
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::Range;
+
 use super::common::{DEMAND, Fits, by, compare, demands, label, name, rocked, short_label};
-use crate::fragility::{Case, Cases, DemandFit, DemandModel, Group, Measure, Predictors, ln_median_demand};
 use crate::number;
 use crate::report::text::file_words;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::rocking::Structure;
-use crate::statistics::Range;
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;

@@ -1,12 +1,13 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
+use rockfrag_core::fragility::{Calibration, Cases, Kind, Scenarios};
+use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::statistics::Range;
+use rockfrag_core::statistics::numerics::{equal_ratios, first};
+use rockfrag_core::units::G_M_S2;
+
 use super::common::{Fits, called, name, rocked};
-use crate::fragility::{Calibration, Cases, Kind, Scenarios};
-use crate::motion::{IntensityMeasures, Peaks};
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::statistics::Range;
-use crate::statistics::numerics::{equal_ratios, first};
-use crate::units::G_M_S2;
 
 /// The probabilities of which lines are drawn.
 const LEVELS: [(f64, Dash); 4] =

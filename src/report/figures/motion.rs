@@ -1,12 +1,13 @@
 //! Figures 1 and 5: a combined motion and its parts; the responses of two similar structures to similar
 //! motions, which are one in dimensionless axes.
 
+use rockfrag_core::fragility::Cases;
+use rockfrag_core::motion::{Suite, measures};
+use rockfrag_core::rocking::{Record, Structure, simulate, trace};
+
 use super::common::compare;
-use crate::fragility::Cases;
-use crate::motion::{Suite, measures};
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::rocking::{Record, Structure, simulate, trace};
 use crate::table::motions::Motion;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.

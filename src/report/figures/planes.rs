@@ -1,9 +1,9 @@
 //! Figure 9: the two planes of the demand (Eqs. 17 and 18, Table II), seen along the line in which they meet.
 
 use nalgebra::Vector3;
+use rockfrag_core::fragility::{Cases, DemandFit, DemandModel, PLANE};
 
 use super::common::{Fits, compare, demands, name};
-use crate::fragility::{Cases, DemandFit, DemandModel, PLANE};
 use crate::number;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel};
 

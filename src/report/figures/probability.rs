@@ -1,14 +1,15 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
 
+use rockfrag_core::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
+use rockfrag_core::motion::IntensityMeasures;
+use rockfrag_core::statistics::numerics::equal_ratios;
+use rockfrag_core::statistics::scores::sample_quantile;
+use rockfrag_core::statistics::{Estimate, Range};
+
 use super::common::{Fits, by, called, compare, demands, label};
 use super::common::{observed_shares, ratio_bins, rocked};
-use crate::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
-use crate::motion::IntensityMeasures;
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::statistics::numerics::equal_ratios;
-use crate::statistics::scores::sample_quantile;
-use crate::statistics::{Estimate, Range};
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;

@@ -1,12 +1,13 @@
 //! Incremental dynamic analysis and validation.
 
+use rockfrag_core::fragility::p_overturning;
+use rockfrag_core::rocking::CapacityStatus;
+use rockfrag_core::statistics::numerics::equal_ratios;
+use rockfrag_core::studies::ReliabilityBin;
+
 use super::common::{by, observed_shares, scaled_label, title};
-use crate::fragility::p_overturning;
 use crate::report::text::literal;
 use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::rocking::CapacityStatus;
-use crate::statistics::numerics::equal_ratios;
-use crate::studies::ReliabilityBin;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
 

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Fragility, FragilityPoint, intensity_in_words};
+use rockfrag_core::statistics::Limited;
+use rockfrag_core::units::G_M_S2;
+
 use super::object::Predicted;
 use super::words::{about_buildings, line, model, model_of_all, mostly_unknown, table, validity};
-use crate::fragility::Peak;
-use crate::hazard::{Fragility, FragilityPoint, intensity_in_words};
 use crate::number::{aligned, significant};
 use crate::report::fragility::{cells, half_in_words};
-use crate::statistics::Limited;
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
-use crate::units::G_M_S2;
 
 impl Predicted for FragilityRow {
     fn overturning(&self) -> Limited {

@@ -22,31 +22,30 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args};
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
+use rockfrag_core::motion::Peaks;
+use rockfrag_core::object::{Object, Restitution};
+use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use rockfrag_core::records::implausibility::rarity;
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::Warning;
 use serde::Serialize;
 
+use self::object::{Predicted, Prediction};
+use self::point::TreeRow;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{PlaceArgs, StructureArgs, named};
-use crate::fragility::Peak;
-use crate::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use crate::inputs::{Rename, Renames, hazard};
-use crate::motion::Peaks;
-use crate::object::{Object, Restitution};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{AnswersOutput, Read, RowsInput, SheetInput, split_lists};
 use crate::pipeline::{Stage, UsageError};
-use crate::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::records::implausibility::rarity;
 use crate::report::answers::Evaluation;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
 use crate::table::answers::{Answer, FragilityRow, RatesRow};
 use crate::table::frame::{self, Format};
 use crate::table::rows;
-use crate::units::G_M_S2;
-use crate::warning::Warning;
-
-use self::object::{Predicted, Prediction};
-use self::point::TreeRow;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site

@@ -1,17 +1,17 @@
 //! What is predicted for each object of a call, the worst first.
 
 use rayon::prelude::*;
+use rockfrag_core::fragility::Model;
+use rockfrag_core::hazard::Budget;
+use rockfrag_core::motion::Peaks;
+use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::statistics::Limited;
+use rockfrag_core::warning::Warning;
 
-use crate::fragility::Model;
-use crate::hazard::Budget;
-use crate::motion::Peaks;
-use crate::object::{Object, Subject};
 use crate::pipeline::context::Context;
 use crate::stages::shared::model_args::Models;
-use crate::statistics::Limited;
 use crate::table::answers::{Answer, DoubtsRow, ObjectRow};
 use crate::table::rows::Row;
-use crate::warning::Warning;
 
 /// A row of predictions; the default one is that of an object without an answer.
 pub trait Predicted: Row + Default + Send + Sync {

@@ -1,15 +1,15 @@
 //! Answers as pages show them, and what the page of one object shows besides.
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Hazard, HazardCurve, Site, exceedance, probability_in_years};
+use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::statistics::Limited;
 use serde_json::Value;
 
 use super::point::{self, TreeRow};
-use crate::fragility::Peak;
-use crate::hazard::{Hazard, HazardCurve, Site, exceedance, probability_in_years};
-use crate::object::{Object, Subject};
 use crate::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
 use crate::report::{Page, list, object};
 use crate::stages::shared::model_args::Models;
-use crate::statistics::Limited;
 use crate::table::answers::Answer;
 use crate::table::provenance::Provenance;
 

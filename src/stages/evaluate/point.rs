@@ -2,20 +2,20 @@
 
 use std::path::Path;
 
+use rockfrag_core::fragility::{Direction, LimitStates, Scenarios};
+use rockfrag_core::hazard::{Budget, Motion, MotionProbabilities};
+use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
+use rockfrag_core::object::Subject;
+use rockfrag_core::statistics::Limited;
+use rockfrag_core::units::G_M_S2;
 use serde::{Deserialize, Serialize};
 
 use super::object::Predicted;
 use super::words::{
     about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity, where_silent,
 };
-use crate::fragility::{Direction, LimitStates, Scenarios};
-use crate::hazard::{Budget, Motion, MotionProbabilities};
-use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::number::{PERCENT, aligned, fixed, name, plain};
-use crate::object::Subject;
-use crate::statistics::Limited;
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
-use crate::units::G_M_S2;
 
 /// The probabilities of the tree at an intensity; none where they are not known.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Hazard, PeakHazard, Site, VelocitySource};
+use rockfrag_core::statistics::Limited;
+use rockfrag_core::units::G_M_S2;
+
 use super::object::Predicted;
 use super::words::{about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity};
-use crate::fragility::Peak;
-use crate::hazard::{Hazard, PeakHazard, Site, VelocitySource};
 use crate::number::{self, PERCENT, RATE, aligned, count, name, period, plain, significant};
 use crate::report::answers::{Expected, NO_RATE, State, in_years};
-use crate::statistics::Limited;
 use crate::table::answers::{Answer, RatesRow};
-use crate::units::G_M_S2;
 
 impl Predicted for RatesRow {
     fn overturning(&self) -> Limited {

@@ -7,26 +7,26 @@ use std::path::Path;
 
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::Motion;
+use rockfrag_core::motion::{Peaks, judge_medians};
+use rockfrag_core::object::{Object, Restitution, Subject};
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::warning::Warning;
 
 use super::Evaluate;
 use super::point::TreeRow;
-use crate::fragility::Peak;
-use crate::hazard::Motion;
 use crate::inputs::Renames;
 use crate::inputs::intensities;
-use crate::motion::{Peaks, judge_medians};
 use crate::number::counted;
-use crate::object::{Object, Restitution, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
-use crate::rocking::Structure;
 use crate::stages::shared::model_args::Models;
 use crate::table::TableError;
 use crate::table::answers::DoubtsRow;
 use crate::table::columns::Batch;
 use crate::table::file::Table;
 use crate::table::rows;
-use crate::warning::Warning;
 
 /// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
 /// is given each row has its own.

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use rockfrag_core::object::Part;
+use rockfrag_core::warning::Warning;
+
 use crate::number;
-use crate::object::Part;
 use crate::table::answers::{Answer, ObjectRow};
-use crate::warning::Warning;
 
 /// The answer for all objects, the worst of which is the first.
 pub fn text<R>(

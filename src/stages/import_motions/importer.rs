@@ -6,20 +6,20 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use rayon::prelude::*;
+use rockfrag_core::motion::LONGEST_MOTION;
+use rockfrag_core::records::processing::{ImportedMotion, NamedRecord, Processing};
+use rockfrag_core::records::rotation::pairs;
+use rockfrag_core::rocking::Record;
+use rockfrag_core::warning::Warning;
 
 use super::summary::{NotImported, Summary};
+use crate::inputs::records::{self, ReadOptions, read_records};
 use crate::inputs::words::is_vertical;
 use crate::inputs::{About, Known, Member, unpack};
-use crate::motion::LONGEST_MOTION;
 use crate::number::counted;
 use crate::pipeline::context::Context;
-use crate::records::processing::{ImportedMotion, NamedRecord, Processing};
-use crate::records::rotation::pairs;
-use crate::records::{ReadOptions, read_records};
-use crate::rocking::Record;
 use crate::source;
 use crate::table::keys::names_below;
-use crate::warning::Warning;
 
 pub struct Importer {
     pub files: Vec<File>,
@@ -157,7 +157,7 @@ impl Importer {
                 return Err(NotImported::LeftOut("borehole component"));
             }
             // A column that was chosen is imported.
-            if motion.origin.is_vertical() && !self.vertical && self.reading.column.is_none() {
+            if records::is_vertical(origin) && !self.vertical && self.reading.column.is_none() {
                 return Err(NotImported::LeftOut("vertical component"));
             }
             let samples = motion.acceleration_m_s2.len();

@@ -8,24 +8,24 @@ use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use rockfrag_core::motion::MeasurePlan;
+use rockfrag_core::records::processing::{ImportedMotion, Processing, PulseSearch};
+use rockfrag_core::records::rotation::Direction;
+use rockfrag_core::records::signal::{Baseline, Scaling};
+use rockfrag_core::units::{G_M_S2, Unit};
+use rockfrag_core::warning::Warning;
 use serde::Serialize;
 
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
-use crate::motion::MeasurePlan;
+use crate::inputs::records::{Format, ReadOptions};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods, steps};
 use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
-use crate::records::processing::{ImportedMotion, Processing, PulseSearch};
-use crate::records::rotation::Direction;
-use crate::records::signal::{Baseline, Scaling};
-use crate::records::{Format, ReadOptions};
 use crate::table::{motions, rows};
-use crate::units::{G_M_S2, Unit};
-use crate::warning::Warning;
 
 /// Files, or pairs of components, that are processed at once.
 const AT_ONCE: usize = 32;

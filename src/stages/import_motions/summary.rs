@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use anyhow::bail;
+use rockfrag_core::records::processing::ImportedMotion;
+use rockfrag_core::units::G_M_S2;
 
 use crate::number::listed;
 use crate::number::{count, counted, fixed};
 use crate::pipeline::options::SeveralErrors;
-use crate::records::processing::ImportedMotion;
-use crate::units::G_M_S2;
 
 /// Kinds of files that the summary names.
 const NAMED: usize = 10;

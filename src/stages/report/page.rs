@@ -1,23 +1,23 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
+use rockfrag_core::fragility::{Cases, DemandModel, Measure, Parameter};
+use rockfrag_core::rocking::{Outcome, Structure};
+use rockfrag_core::studies::Validation;
+use rockfrag_core::studies::paper::Comparison;
+use rockfrag_core::warning::Warnings;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::tables::{Kind, Tables};
-use crate::fragility::{Cases, DemandModel, Measure, Parameter};
 use crate::number::{self, Limited, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::report::figures::*;
 use crate::report::text::{literal, minus};
 use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
-use crate::rocking::{Outcome, Structure};
 use crate::stages::compare_paper::table_two;
 use crate::stages::evaluate::pages;
-use crate::studies::Validation;
-use crate::studies::paper::Comparison;
 use crate::table::capacities::CapacityFitRow;
-use crate::warning::Warnings;
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;

@@ -3,16 +3,18 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::fragility::{Calibration, Cases, Event, LimitStates, Peak};
-use crate::hazard::{Fragility, FragilityPoint};
-use crate::paper;
+use rockfrag_core::fragility::{Calibration, Cases, Event, LimitStates, Peak};
+use rockfrag_core::hazard::{Fragility, FragilityPoint};
+use rockfrag_core::paper;
+use rockfrag_core::rocking::Outcome;
+use rockfrag_core::studies::paper::Comparison;
+use rockfrag_core::units::G_M_S2;
+
 use crate::report::answers::Evaluation;
 use crate::report::figures::Fits;
 use crate::report::response::Trace;
-use crate::rocking::Outcome;
 use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
-use crate::studies::paper::Comparison;
 use crate::table::TableError;
 use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::file::{self, Table};
@@ -22,7 +24,6 @@ use crate::table::provenance::{Provenance, joined};
 use crate::table::responses::TraceRow;
 use crate::table::rows::{self, Row};
 use crate::table::writer::MOTIONS_IN_GROUP;
-use crate::units::G_M_S2;
 
 /// The most responses that are drawn of a file.
 const MOST_TRACES: usize = 50;

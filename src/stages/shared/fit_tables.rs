@@ -4,11 +4,12 @@ use std::cmp::Ordering;
 use std::ops::Range;
 use std::path::Path;
 
-use crate::fragility::Calibration;
+use rockfrag_core::fragility::Calibration;
+use rockfrag_core::statistics::FitStatus;
+use rockfrag_core::warning::Warnings;
+
 use crate::number::{aligned, count, fixed, significant};
 use crate::pipeline::options::first_lines;
-use crate::statistics::FitStatus;
-use crate::warning::Warnings;
 
 /// Calibrations as a table, the surface beside what was observed, with these headings of cases and events.
 pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: &Path) -> String {

@@ -1,24 +1,25 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
-use anyhow::bail;
-use clap::Args;
-use serde::Serialize;
 use std::collections::HashSet;
 
-use crate::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
-use crate::motion::Suite;
+use anyhow::bail;
+use clap::Args;
+use rockfrag_core::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
+use rockfrag_core::motion::Suite;
+use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::spelling::unknown_word;
+use rockfrag_core::warning::Warning;
+use serde::Serialize;
+
 use crate::number::listed;
-use crate::object::{Object, Subject};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{FitsFolder, Read};
-use crate::rocking::Structure;
-use crate::spelling::unknown_word;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
-use crate::warning::Warning;
 
 /// The model that predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use rockfrag_core::fragility::{Measure, Predictors};
+use rockfrag_core::motion::Dimension;
+use rockfrag_core::rocking::Structure;
 
-use crate::fragility::{Measure, Predictors};
-use crate::motion::Dimension;
 use crate::number::listed;
 use crate::pipeline::UsageError;
-use crate::rocking::Structure;
 use crate::table::TableError;
 use crate::table::file::Table;
 

@@ -3,16 +3,16 @@
 use std::collections::HashSet;
 
 use rayon::prelude::*;
+use rockfrag_core::motion::{IntensityMeasures, Peaks, Suite, measures};
+use rockfrag_core::records::implausibility::implausibility;
+use rockfrag_core::rocking::{Record, Response, Structure};
+use rockfrag_core::warning::{Warning, Warnings};
 
-use crate::motion::{IntensityMeasures, Peaks, Suite, measures};
 use crate::pipeline::context::Progress;
 use crate::pipeline::stream::{batches, pipelined};
-use crate::records::implausibility::implausibility;
-use crate::rocking::{Record, Response, Structure};
 use crate::table::TableError;
 use crate::table::motions::{Motion, Part, Sampled};
 use crate::table::responses::ResponseRow;
-use crate::warning::{Warning, Warnings};
 
 /// Parts of the file that are read at once, for each thread.
 const PARTS_A_THREAD: usize = 4;

@@ -1,17 +1,17 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
 use clap::{ArgGroup, Args};
+use rockfrag_core::object::{Field, Object, Place, Restitution, SD_OF_PERIOD, structure_warnings};
+use rockfrag_core::paper;
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
 use crate::inputs::Renames;
 use crate::inputs::objects::{self, Common};
-use crate::object::{Field, Object, Place, Restitution, SD_OF_PERIOD, structure_warnings};
-use crate::paper;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, StructuresInput};
-use crate::rocking::Structure;
-use crate::warning::{Warning, Warnings};
 
 /// Returns a parser of a number that may be known of an object.
 pub fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {

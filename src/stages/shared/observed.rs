@@ -4,16 +4,16 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
+use rockfrag_core::fragility::ObservedOutcome;
+use rockfrag_core::object::structure_warnings;
+use rockfrag_core::warning::{Warning, Warnings};
 
-use crate::fragility::ObservedOutcome;
 use crate::inputs::hazard::motions;
 use crate::inputs::objects::{self, Common};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
-use crate::object::structure_warnings;
 use crate::table::file::{Table, is_table};
 use crate::table::frame::{self, Format};
-use crate::warning::{Warning, Warnings};
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {

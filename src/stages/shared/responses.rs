@@ -4,12 +4,12 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use rayon::prelude::*;
+use rockfrag_core::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
+use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::rocking::{Outcome, Structure};
 
 use super::motion_columns::MotionColumns;
-use crate::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
-use crate::motion::{IntensityMeasures, Peaks};
 use crate::number::counted;
-use crate::rocking::{Outcome, Structure};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Table;

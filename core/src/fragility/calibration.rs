@@ -1,0 +1,446 @@
+//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, L the logit of
+//! the surface, M the magnitude and g what makes P go to 0 at uplift. c, s and m are estimated from the
+//! responses of one structure to one suite of motions; without responses they are those of the kind of
+//! motion.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use super::cases::{Case, Cases, Event, Group};
+use super::level::{Level, Scenarios};
+use super::measure_names::Measure;
+use super::peaks::{JointPeaks, RatioGiven};
+use super::surface::{self, AtIm4, Cut, Kind, Prior, Section};
+use super::tree::Z_95;
+use crate::motion::{IntensityMeasures, Peaks};
+use crate::rocking::Structure;
+use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
+use crate::statistics::newton::{Objective, maximise};
+use crate::statistics::{Bounds, Estimate, independent_errors, variance};
+use crate::warning::Warning;
+
+/// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
+/// the uplift term g of the [predictor](Predictor), and the magnitude M.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
+pub struct Calibration {
+    pub suite: Option<String>,
+    pub kind: Kind,
+    pub structure: String,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    /// Demand |theta|max / alpha of P_ex; `None` for P_ro.
+    pub limit_state: Option<f64>,
+    pub c: f64,
+    pub ln_s: f64,
+    pub m: f64,
+    /// Covariance of c, ln s and m, row by row.
+    pub covariance: Vec<f64>,
+    /// Standard deviation of the logit between cells or earthquakes.
+    pub tau: f64,
+    pub n: i64,
+    pub n_events: i64,
+    /// Events that the surface for the kind of motion predicts.
+    pub expected: f64,
+    pub n_clusters: i64,
+    /// Least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motions that it was fitted to.
+    pub pga: Bounds,
+    pub pgv: Bounds,
+    pub ratio: Bounds,
+    /// ln(PGV/PGA) of all motions given ln PGA and ln PGV: the fields of RatioGiven.
+    pub ratio_given_pga: Vec<f64>,
+    pub ratio_given_pgv: Vec<f64>,
+}
+
+/// The logit of the surface and its terms for one case, to be calibrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Predictor {
+    /// L, the logit of the surface.
+    pub logit: f64,
+    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
+    /// tells.
+    pub magnitude: f64,
+    /// Standard deviation of M where it is not known, else 0.
+    pub magnitude_sd: f64,
+    /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
+    pub added: f64,
+}
+
+/// What stood or fell in an earthquake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedOutcome {
+    /// The structure that it rocks like.
+    pub structure: Structure,
+    /// Peaks of the motion.
+    pub peaks: Peaks,
+    /// Magnitude, where it is known.
+    pub mw: Option<f64>,
+    /// Number of the earthquake: its outcomes depend on each other.
+    pub earthquake: u32,
+    /// Whether it fell.
+    pub fell: bool,
+}
+
+/// The suite of calibrations to what stood and what fell.
+const OUTCOMES: &str = "outcomes";
+/// With fewer cases on a side the level is uncertain.
+const FEW_EVENTS: i64 = 10;
+/// A peak within this factor of those of the data is like them.
+const LIKE: f64 = 1.2;
+
+impl Calibration {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}
+
+impl Calibration {
+    /// Makes that of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex,
+    /// `None` for P_ro.
+    pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
+        let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
+        let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
+        let peaks = surface::peaks(kind);
+        Calibration {
+            kind,
+            structure: structure.name.clone(),
+            p_rad_s: structure.p_rad_s,
+            alpha_rad: structure.alpha_rad,
+            eta: structure.eta,
+            limit_state,
+            c,
+            ln_s,
+            m,
+            covariance: DMatrix::from_diagonal(&variances).as_slice().to_vec(),
+            tau,
+            ratio_given_pga: peaks.given_pga.to_numbers(),
+            ratio_given_pgv: peaks.given_pgv.to_numbers(),
+            ..Calibration::default()
+        }
+    }
+
+    /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind
+    /// of motion.
+    pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
+        let kind = Kind::from_suite(cases.suite.as_deref());
+        let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
+        let peaks = JointPeaks::fit(cases.all.iter().map(|case| case.peaks)).unwrap_or(surface::peaks(kind));
+        Calibration {
+            suite: cases.suite.clone(),
+            ratio_given_pga: peaks.given_pga.to_numbers(),
+            ratio_given_pgv: peaks.given_pgv.to_numbers(),
+            ..shipped.fitted(&observed(cases, &shipped))
+        }
+    }
+
+    /// Fits c, ln s and m of P_ro to what stood and what fell in earthquakes. Objects that the motion does
+    /// not uplift do not count. The first object stands for all.
+    pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
+        let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
+        let observed = outcomes.iter().filter_map(|outcome| {
+            let ObservedOutcome { structure, peaks, mw, earthquake: cluster, fell } = outcome.clone();
+            let measures = IntensityMeasures::new(&structure, peaks, None, None);
+            let (predictor, expected) = shipped.prediction(&structure, &measures, mw)?;
+            Some(Observed { predictor, happened: fell, expected, peaks, cluster })
+        });
+        let observed: Vec<Observed> = observed.collect();
+        let name = OUTCOMES.to_string();
+        Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(&observed) })
+    }
+
+    /// Returns whether it is fitted to what stood and what fell: it is for other objects, too.
+    pub fn is_of_outcomes(&self) -> bool {
+        self.suite.as_deref() == Some(OUTCOMES)
+    }
+
+    /// Fits it to cases of its kind of motion.
+    fn fitted(&self, cases: &[Observed]) -> Calibration {
+        let (at, covariance, n_clusters) = maximum(cases, &surface::prior(self.kind, self.limit_state));
+        let peaks = cases.iter().map(|case| case.peaks);
+        Calibration {
+            c: at[0],
+            ln_s: at[1],
+            m: at[2],
+            covariance: covariance.as_slice().to_vec(),
+            n: cases.len() as i64,
+            n_events: cases.iter().filter(|case| case.happened).count() as i64,
+            expected: cases.iter().map(|case| case.expected).sum(),
+            n_clusters: n_clusters as i64,
+            pga: peaks.clone().map(|peaks| peaks.pga_m_s2).collect(),
+            pgv: peaks.clone().map(|peaks| peaks.pgv_m_s).collect(),
+            ratio: peaks.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is
+    /// missing.
+    pub fn predictor(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+    ) -> Option<Predictor> {
+        self.branch(structure, mw).predictor_of(structure, measures)
+    }
+
+    /// Returns the predictor of a case that counts, with the probability; none at uplift, or where a measure
+    /// is missing.
+    fn prediction(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+    ) -> Option<(Predictor, f64)> {
+        let branch = self.branch(structure, mw);
+        let predictor = branch.predictor_of(structure, measures)?;
+        let p = branch.probability(&predictor, Level::Estimate);
+        (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
+    }
+
+    /// Makes the calibrated surface ready for a structure and motions of a magnitude, if it is known.
+    pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
+        let section = Section::new(self.kind, structure, self.limit_state, mw);
+        let errors = self.errors().map(|ends| ends.map(Parameters::new)).collect();
+        Branch {
+            calibration: self,
+            section,
+            parameters: Parameters::new([self.c, self.ln_s, self.m]),
+            errors,
+        }
+    }
+
+    /// Computes the calibrated probability given rocking, with limits; none where a measure is missing.
+    pub fn probability(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+        scenarios: Scenarios,
+    ) -> Option<Estimate> {
+        let branch = self.branch(structure, mw);
+        let predictor = branch.predictor_of(structure, measures)?;
+        let [value, low, high] =
+            Level::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
+        Some(Estimate { value, low, high })
+    }
+
+    /// Returns c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
+    fn errors(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+        let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
+        errors.into_iter().map(|ends| ends.map(|b| [b[0], b[1], b[2]]))
+    }
+
+    /// Returns it with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
+    pub(super) fn ends(&self) -> Vec<[Calibration; 2]> {
+        let with = |[c, ln_s, m]: [f64; 3]| Calibration { c, ln_s, m, ..self.clone() };
+        self.errors().map(|ends| ends.map(with)).collect()
+    }
+
+    /// Returns how PGA and PGV go together in the motions that it stands for.
+    pub fn peaks(&self) -> JointPeaks {
+        let usual = surface::peaks(self.kind);
+        JointPeaks {
+            given_pga: RatioGiven::from_numbers(&self.ratio_given_pga).unwrap_or(usual.given_pga),
+            given_pgv: RatioGiven::from_numbers(&self.ratio_given_pgv).unwrap_or(usual.given_pgv),
+        }
+    }
+
+    /// Returns the warnings about it as a whole; none where it is that of a kind of motion.
+    pub fn warnings(&self) -> Vec<Warning> {
+        if self.n == 0 {
+            return Vec::new();
+        }
+        let rarer = self.n_events.min(self.n - self.n_events);
+        let few_events = match (rarer, self.limit_state) {
+            (0, None) => Some(Warning::NoEvents),
+            (0..FEW_EVENTS, _) => Some(Warning::FewEvents),
+            _ => None,
+        };
+        let few_clusters = (self.n_clusters < MIN_CLUSTERS as i64).then_some(Warning::FewClusters);
+        few_events.into_iter().chain(few_clusters).collect()
+    }
+
+    /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
+    /// motion is fitted to all that the surface covers.
+    pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
+        let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
+        let fitted = [(self.pga, pga_m_s2), (self.pgv, pgv_m_s), (self.ratio, pgv_m_s / pga_m_s2)];
+        fitted.iter().all(|(bounds, value)| bounds.has(*value, LIKE))
+    }
+}
+
+/// P_ro or P_ex of a structure under motions of one magnitude: ready for many of them.
+#[derive(Debug, Clone)]
+pub(super) struct Branch<'a> {
+    calibration: &'a Calibration,
+    pub section: Section,
+    parameters: Parameters,
+    /// With each independent error at its 2.5 and 97.5 % quantiles.
+    errors: Vec<[Parameters; 2]>,
+}
+
+/// The three numbers of a calibration.
+#[derive(Debug, Clone, Copy)]
+struct Parameters {
+    c: f64,
+    s: f64,
+    m: f64,
+}
+
+impl Parameters {
+    fn new([c, ln_s, m]: [f64; 3]) -> Parameters {
+        Parameters { c, s: ln_s.exp(), m }
+    }
+}
+
+impl Branch<'_> {
+    /// Returns what the surface says of a motion; none where a measure is missing.
+    fn predictor_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<Predictor> {
+        let ln_seconds = ln_seconds(structure, measures)?;
+        let cut = self.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
+        Some(self.predictor(&cut, ln_seconds, self.section.magnitude(ln_seconds + cut.excess)))
+    }
+
+    /// Returns what the surface says of motions with this ln(PGV / PGA), s, and M - 6.9.
+    pub fn predictor(&self, cut: &Cut, ln_seconds: f64, magnitude: f64) -> Predictor {
+        Predictor {
+            logit: cut.logit(ln_seconds),
+            magnitude,
+            magnitude_sd: self.section.magnitude_sd,
+            added: cut.gain(ln_seconds),
+        }
+    }
+
+    /// Computes the probability, whose logit is c + s L + m (M - 6.9) + g.
+    pub fn probability(&self, predictor: &Predictor, level: Level) -> f64 {
+        logistic(self.logit(predictor, level))
+    }
+
+    /// Computes the logit. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta method, J V J', and of
+    /// one scenario by tau and the spread of an unknown magnitude too.
+    pub fn logit(&self, predictor: &Predictor, level: Level) -> f64 {
+        let Parameters { c, s, m } = match level {
+            Level::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+            _ => self.parameters,
+        };
+        // A magnitude that PGV / PGA tells does not count where P would fall with it: P never falls as PGV
+        // rises.
+        let is_told = predictor.magnitude_sd > 0.0;
+        let magnitude =
+            if is_told && m < 0.0 { self.section.middle_magnitude() } else { predictor.magnitude };
+        let scaled = s * predictor.logit;
+        let logit = c + scaled + m * magnitude + predictor.added;
+        let (sign, scenarios) = match level {
+            Level::Estimate | Level::Error { .. } => return logit,
+            Level::Low(scenarios) => (-1.0, scenarios),
+            Level::High(scenarios) => (1.0, scenarios),
+        };
+        let between = match scenarios {
+            Scenarios::One => self.calibration.tau.hypot(m * predictor.magnitude_sd),
+            Scenarios::Many => 0.0,
+        };
+        let variance = variance(&self.calibration.covariance, &[1.0, scaled, magnitude]);
+        logit + sign * Z_95 * variance.sqrt().hypot(between)
+    }
+}
+
+/// Returns ln(PGV / PGA), s, of a motion; none where a measure is missing.
+fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
+    let im5 = Measure::Im5.value_of(measures)?;
+    Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
+}
+
+fn logistic(z: f64) -> f64 {
+    1.0 / (1.0 + (-z).exp())
+}
+
+/// A response that counts.
+struct Observed {
+    /// What the surface says of it.
+    predictor: Predictor,
+    happened: bool,
+    /// The probability by the surface for the kind of motion.
+    expected: f64,
+    /// Peaks of the motion.
+    peaks: Peaks,
+    /// Cases of one cluster may depend on each other.
+    cluster: u32,
+}
+
+fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
+    let (event, limit_state) = match shipped.limit_state {
+        Some(limit_state) => (Event::Exceeding, limit_state),
+        None => (Event::Overturning, f64::INFINITY),
+    };
+    let counts = cases.all.iter().filter_map(|&Case { outcome, measures, peaks, mw, cluster }| {
+        let happened = event.happened(outcome, limit_state)?;
+        let (predictor, expected) = shipped.prediction(&cases.structure, &measures, mw)?;
+        Some(Observed { predictor, happened, expected, peaks, cluster })
+    });
+    counts.collect()
+}
+
+/// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
+/// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
+/// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
+/// one more cluster.
+fn maximum(cases: &[Observed], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
+    let found = maximise(|at| log_posterior(cases, prior, at), DVector::from_vec(prior.mean.to_vec()));
+    let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
+    let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
+    let slopes: Vec<f64> = cases.iter().map(|case| s * case.predictor.logit).collect();
+    let magnitudes: Vec<f64> = cases.iter().map(|case| case.predictor.magnitude).collect();
+    let scores = cases.iter().map(|Observed { predictor, happened, .. }| {
+        let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
+        f64::from(*happened) - logistic(z)
+    });
+    let (scores, clusters): (Vec<f64>, Vec<u32>) = scores.zip(cases.iter().map(|case| case.cluster)).unzip();
+    let (clustered, clusters) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &clusters);
+    let prior = DMatrix::from_diagonal(&information(prior));
+    let covariance = clustered.map(|clustered| clustered + &bread * prior * &bread);
+    (found.at, covariance.unwrap_or(bread), clusters)
+}
+
+/// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum
+/// of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
+/// derivatives are not those of a maximum, their expectation stands for them.
+fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Objective {
+    let s = at[1].exp();
+    let mut sum = Objective::sum(cases.len(), 3, |case, sum| {
+        let Observed { predictor, happened, .. } = &cases[case];
+        let by = [1.0, s * predictor.logit, predictor.magnitude];
+        let z = at[0] + by[1] + at[2] * by[2] + predictor.added;
+        let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });
+        let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
+        sum.value -= softplus(-sign * z);
+        for row in 0..3 {
+            sum.gradient[row] += score * by[row];
+            (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
+        }
+    });
+    let away = at - DVector::from_vec(prior.mean.to_vec());
+    let precision = information(prior);
+    let bend = sum.gradient[1];
+    sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
+    sum.gradient -= away.component_mul(&precision);
+    sum.information += DMatrix::from_diagonal(&precision);
+    let mut observed = sum.information.clone();
+    observed[(1, 1)] -= bend;
+    if observed.clone().cholesky().is_some() {
+        sum.information = observed;
+    }
+    sum
+}
+
+/// The information of the prior on c, ln s and m.
+fn information(prior: &Prior) -> DVector<f64> {
+    DVector::from_vec(prior.sd.map(|sd| 1.0 / (sd * sd)).to_vec())
+}
+
+/// Computes ln(1 + e^x).
+fn softplus(x: f64) -> f64 {
+    x.max(0.0) + (-x.abs()).exp().ln_1p()
+}

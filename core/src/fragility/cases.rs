@@ -1,0 +1,215 @@
+//! The responses of one structure to one suite of motions.
+
+use std::collections::BTreeMap;
+
+use super::measure_names::{Measure, has_logarithm};
+use crate::motion::{IntensityMeasures, Peaks};
+use crate::rocking::{Outcome, Structure};
+use crate::spelling::unknown_word;
+use crate::statistics::Range;
+
+/// The most cases of one structure and suite.
+pub const MOST_CASES: usize = 20_000_000;
+
+/// The event whose probability is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Event>)]
+pub enum Event {
+    /// Overturning given rocking: P_ro.
+    Overturning,
+    /// Rocking: 1 - P_nr.
+    Rocking,
+    /// A demand above the limit state in safe rocking: P_ex.
+    Exceeding,
+    /// Failure given rocking: overturning, or a demand above the limit state (Eq. 12).
+    Failure,
+}
+
+impl Event {
+    /// Returns whether it happened in a response; none where the response does not count.
+    pub fn happened(self, outcome: Outcome, limit_state: f64) -> Option<bool> {
+        match (self, outcome) {
+            (Event::Rocking, _) => Some(outcome != Outcome::NoRocking),
+            (_, Outcome::NoRocking) | (Event::Exceeding, Outcome::Overturned) => None,
+            (Event::Overturning, _) => Some(outcome == Outcome::Overturned),
+            _ => Some(outcome.demand().is_none_or(|demand| demand > limit_state)),
+        }
+    }
+}
+
+/// The suite and the structure that responses, and rows of fits, are of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Group<'a> {
+    /// Suite of the motions, if they have one.
+    pub suite: Option<&'a str>,
+    /// Name of the structure.
+    pub structure: &'a str,
+}
+
+/// What the motions of cases share, so that the cases may depend on each other.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cluster {
+    /// Name of the earthquake.
+    Earthquake(String),
+    /// Magnitude and distance, as the bits of these numbers.
+    Cell([u64; 2]),
+}
+
+impl Cluster {
+    /// Returns the cluster of a motion by its earthquake, else by its magnitude and distance (km). `None` for
+    /// a motion that shares nothing.
+    pub fn new(earthquake: Option<&str>, mw: Option<f64>, re_km: Option<f64>) -> Option<Cluster> {
+        match earthquake {
+            Some(name) => Some(Cluster::Earthquake(name.to_string())),
+            // Both are positive, so that the bits are in the order of the values.
+            None => Some(Cluster::Cell([mw?, re_km?].map(f64::to_bits))),
+        }
+    }
+}
+
+/// The response of a structure to a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Case {
+    /// Whether it rocked, and how far, or overturned.
+    pub outcome: Outcome,
+    /// Measures of the motion (Eq. 13).
+    pub measures: IntensityMeasures,
+    /// Peaks of the motion.
+    pub peaks: Peaks,
+    /// Magnitude, where it is known.
+    pub mw: Option<f64>,
+    /// Number of the cluster, from 0: cases of one cluster may depend on each other.
+    pub cluster: u32,
+}
+
+impl Case {
+    /// Returns ln of the demand, where the structure rocked safely and it has a logarithm.
+    pub fn ln_demand(&self) -> Option<f64> {
+        self.outcome.demand().filter(|demand| *demand > 0.0).map(f64::ln)
+    }
+}
+
+/// The responses of one structure to one suite of motions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cases {
+    /// Suite of the motions, if they have one.
+    pub suite: Option<String>,
+    /// The structure.
+    pub structure: Structure,
+    /// Its responses.
+    pub all: Vec<Case>,
+    /// Further measures by the names of their columns, a value for each case; NaN where one is missing.
+    pub columns: BTreeMap<String, Vec<f64>>,
+    /// The numbers of the known clusters, and the next number.
+    clusters: BTreeMap<Cluster, u32>,
+    next_cluster: u32,
+}
+
+impl Cases {
+    /// Begins without a case.
+    pub fn new(suite: Option<&str>, structure: Structure) -> Cases {
+        Cases {
+            suite: suite.map(str::to_string),
+            structure,
+            all: Vec::new(),
+            columns: BTreeMap::new(),
+            clusters: BTreeMap::new(),
+            next_cluster: 0,
+        }
+    }
+
+    /// Adds a case. Its cluster gets the number of a known one, or the next.
+    pub fn push(&mut self, case: Case, cluster: Option<Cluster>) {
+        let next = self.next_cluster;
+        let number = cluster.map_or(next, |cluster| *self.clusters.entry(cluster).or_insert(next));
+        self.next_cluster = next.max(number + 1);
+        self.all.push(Case { cluster: number, ..case });
+    }
+
+    /// Numbers the clusters in an order that does not depend on that of the cases, and those of one motion
+    /// after them.
+    pub fn sort_clusters(&mut self) {
+        let mut numbers = vec![None; self.next_cluster as usize];
+        for (number, known) in (0..).zip(self.clusters.values_mut()) {
+            numbers[*known as usize] = Some(number);
+            *known = number;
+        }
+        let mut alone = self.clusters.len() as u32..;
+        for Case { cluster, .. } in &mut self.all {
+            *cluster = *numbers[*cluster as usize].get_or_insert_with(|| alone.next().unwrap_or(u32::MAX));
+        }
+    }
+
+    /// Returns the suite and the structure.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+    }
+
+    /// Returns the number of cases with an outcome.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        self.all.iter().filter(|case| case.outcome == outcome).count()
+    }
+
+    /// Raises smaller demands in safe rocking to `floor`, as a solver of finite tolerance does.
+    pub fn raise_demands(&mut self, floor: f64) {
+        for case in &mut self.all {
+            if let Outcome::SafeRocking(demand) = &mut case.outcome {
+                *demand = demand.max(floor);
+            }
+        }
+    }
+
+    /// Returns the cases that have all measures and a `y`.
+    pub fn sample<Y>(&self, measures: &[Measure], y: impl Fn(&Case) -> Option<Y>) -> Sample<Y> {
+        let mut sample = Sample {
+            ln_im: vec![Vec::new(); measures.len()],
+            y: Vec::new(),
+            clusters: Vec::new(),
+            ranges: vec![Range::over([]); measures.len()],
+        };
+        let columns: Vec<_> = measures.iter().map(|measure| self.columns.get(measure.as_str())).collect();
+        for (row, case) in self.all.iter().enumerate() {
+            let Some(observed) = y(case) else { continue };
+            let values = measures.iter().zip(&columns).map(|(measure, column)| match column {
+                Some(column) => Some(column[row]).filter(has_logarithm),
+                None => measure.value_of(&case.measures),
+            });
+            let Some(values) = values.collect::<Option<Vec<f64>>>() else { continue };
+            for (k, value) in values.into_iter().enumerate() {
+                sample.ln_im[k].push(value.ln());
+                sample.ranges[k] = sample.ranges[k].with(value);
+            }
+            sample.y.push(observed);
+            sample.clusters.push(case.cluster);
+        }
+        sample
+    }
+}
+
+/// Logarithms of measures, and what was observed, of the cases of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample<Y> {
+    /// ln IM, a column for each measure.
+    pub ln_im: Vec<Vec<f64>>,
+    /// What was observed.
+    pub y: Vec<Y>,
+    /// Number of the cluster of each case.
+    pub clusters: Vec<u32>,
+    /// Least and largest value of each measure.
+    pub ranges: Vec<Range>,
+}
+
+impl<Y> Sample<Y> {
+    /// Returns the least and largest value of the first measure or the second; none without cases or such a
+    /// measure.
+    pub(super) fn range(&self, measure: usize) -> Option<Range> {
+        self.ranges.get(measure).copied().filter(|range| range.low.is_finite())
+    }
+
+    /// Returns the columns of ln IM.
+    pub fn x(&self) -> Vec<&[f64]> {
+        self.ln_im.iter().map(Vec::as_slice).collect()
+    }
+}

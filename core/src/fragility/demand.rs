@@ -1,0 +1,392 @@
+//! P_ex: the demand in safe rocking as a power law of intensity, and the probability that it exceeds a limit
+//! state (section 2.3.2, Eqs. 14 to 18). From top to bottom: the probability, the law of one measure, the
+//! plane of two, the two planes below and above the transition, the search for the transition.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix4, Vector4};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::cases::{Cases, Group, Sample};
+use super::measure_names::{Measure, Predictors, design_row, values};
+use super::parameter::{Parameter, ParameterRow, quantile};
+use crate::motion::IntensityMeasures;
+use crate::paper::TRANSITION;
+use crate::spelling::unknown_word;
+use crate::statistics::{Estimate, FitStatus, LinearFit, held_out_log_score, least_squares};
+use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
+
+/// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
+/// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
+/// other sign, by which it would fall with demand).
+pub fn p_exceeding(ln_median: f64, limit_state: f64, beta: f64) -> f64 {
+    normal::cdf((ln_median - limit_state.ln()) / beta)
+}
+
+/// Computes ln Dm = ln a + b1 ln IMx + b2 ln IMy (Eqs. 17 and 18), or of one measure ln a + b ln IM (Eqs. 15
+/// and 16).
+pub fn ln_median_demand(coefficients: &[f64], ims: &[f64]) -> f64 {
+    coefficients[0] + coefficients[1..].iter().zip(ims).map(|(b, im)| b * im.ln()).sum::<f64>()
+}
+
+/// The measures of a plane.
+pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
+const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
+
+/// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
+pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
+    fit_law(cases, Predictors::one(measure))
+}
+
+/// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
+pub fn fit_plane(cases: &Cases) -> DemandFit {
+    fit_law(cases, Predictors::two(PLANE))
+}
+
+/// Fits the power law of one measure or the plane of two over all cases.
+fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
+    let model = if predictors.im_y.is_some() { DemandModel::Plane } else { DemandModel::Univariate };
+    let measures: Vec<Measure> = predictors.measures().cloned().collect();
+    DemandFit::new(cases, model, &measures, EVERYWHERE)
+}
+
+/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases
+/// above uplift, beside those of the paper's two: demand falls to 0 at IM4 = 1, which no power of IM4 does.
+pub fn sd_of_one_plane(cases: &Cases) -> Option<f64> {
+    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &(1.0 + f64::EPSILON..f64::INFINITY));
+    let ln_ln_im4: Vec<f64> = ln_im[0].iter().map(|ln_im4| ln_im4.ln()).collect();
+    least_squares(&[&ln_ln_im4, &ln_im[1]], &y).ok().map(|plane| plane.residual_sd())
+}
+
+/// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
+pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
+    let mut planes = [0.0..transition, transition..f64::INFINITY]
+        .map(|range| DemandFit::new(cases, DemandModel::Biplanar, &PLANE, range));
+    if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
+    {
+        let rss = low_rss + high_rss;
+        let all = demands(cases, &PLANE, &EVERYWHERE).y;
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
+        for fit in &mut planes {
+            fit.r2_pooled = Some(1.0 - rss / (low_tss + high_tss));
+            fit.r2_overall = Some(1.0 - rss / tss);
+        }
+    }
+    let score: Option<f64> = planes.iter().map(|fit| Some(fit.held_out_log_score? * fit.n as f64)).sum();
+    let n: i64 = planes.iter().map(|fit| fit.n).sum();
+    planes.iter_mut().for_each(|fit| fit.held_out_log_score = score.map(|score| score / n as f64));
+    planes
+}
+
+/// ln EDP and ln IM of the cases that rocked safely and whose IM4 lies in `range`.
+fn demands(cases: &Cases, measures: &[Measure], range: &Range<f64>) -> Sample<f64> {
+    cases.sample(measures, |case| case.ln_demand().filter(|_| range.contains(&case.measures.im4)))
+}
+
+/// The IM4 at which the planes may meet: first, step and number of places.
+const PLACES: (f64, f64, usize) = (1.05, 0.01, 96);
+/// A plane needs this many cases on its side.
+const LEAST_CASES: usize = 20;
+
+/// The pooled residual of two planes that meet at an IM4.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TransitionPoint {
+    /// Where they meet.
+    pub im4: f64,
+    /// Residual sum of squares of both planes.
+    pub pooled_rss: f64,
+    /// Number of cases below it.
+    pub n_low: i64,
+    /// Number of cases from it on.
+    pub n_high: i64,
+}
+
+/// Tries all places where two planes may meet; none of them has too few cases on a side.
+pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
+    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &EVERYWHERE);
+    let [x_mean, y_mean, edp_mean] =
+        [&ln_im[0], &ln_im[1], &y].map(|values| values.iter().sum::<f64>() / values.len() as f64);
+    let centred = |k: usize| Vector4::new(1.0, ln_im[0][k] - x_mean, ln_im[1][k] - y_mean, y[k] - edp_mean);
+    let mut rows: Vec<Vector4<f64>> = (0..y.len()).map(centred).collect();
+    rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    let (all, mut low, mut n_low) = (moments(&rows), Matrix4::zeros(), 0);
+    let (first, step, places) = PLACES;
+    let mut points = Vec::new();
+    for place in 0..places {
+        let im4 = first + step * place as f64;
+        let below = rows.partition_point(|row| row[1] < im4.ln() - x_mean);
+        low += moments(&rows[n_low..below]);
+        n_low = below;
+        let n_high = rows.len() - below;
+        if n_low.min(n_high) < LEAST_CASES {
+            continue;
+        }
+        if let Some((rss_low, rss_high)) = residual(low).zip(residual(all - low)) {
+            let (n_low, n_high) = (n_low as i64, n_high as i64);
+            points.push(TransitionPoint { im4, pooled_rss: rss_low + rss_high, n_low, n_high });
+        }
+    }
+    points
+}
+
+/// Sums the squares and products of 1, ln IM4, ln IM3 and ln EDP about their means.
+fn moments(rows: &[Vector4<f64>]) -> Matrix4<f64> {
+    rows.iter().map(|row| row * row.transpose()).sum()
+}
+
+/// Computes the residual sum of squares of the last of four variables on the others, an element of the
+/// inverse of their moments; none where that is singular.
+fn residual(moments: Matrix4<f64>) -> Option<f64> {
+    Some(1.0 / moments.try_inverse()?[(3, 3)])
+}
+
+/// Finds the place of the least pooled residual in a scan, and the first and last place whose residual is no
+/// more than chance above it: limits that hold a break with this confidence, its jump being large against the
+/// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
+/// scatter on both sides). None without a scan.
+pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate> {
+    let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
+    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
+    let likely = scan.iter().filter(|point| {
+        let cases = (point.n_low + point.n_high) as f64;
+        cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
+    });
+    let mut likely = likely.map(|point| point.im4);
+    let low = likely.next()?;
+    Some(Estimate { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
+}
+
+/// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
+/// residual is least or, of too few cases, where the paper's meet), if `all`, each measure alone and one plane
+/// over all cases, then what is `asked` for over all cases. `confidence` is that of the limits of the
+/// transition of least residual.
+pub fn fit_demand(
+    cases: &Cases,
+    im4: Option<f64>,
+    confidence: f64,
+    asked: &[Predictors],
+    all: bool,
+) -> Vec<DemandFit> {
+    let found = transition(&scan_transition(cases), confidence);
+    let im4 = im4.or(found.map(|found| found.value)).unwrap_or(TRANSITION);
+    let mut fits = fit_planes(cases, im4).to_vec();
+    for fit in &mut fits {
+        fit.transition_found = found.map(|found| found.value);
+        fit.transition_low = found.map(|found| found.low);
+        fit.transition_high = found.map(|found| found.high);
+    }
+    let usual = Measure::SCALAR.map(Predictors::one).into_iter().chain([Predictors::two(PLANE)]);
+    let predictors = Predictors::without_repeats(usual.filter(|_| all).collect(), asked);
+    fits.par_extend(predictors.into_par_iter().map(|predictors| fit_law(cases, predictors)));
+    fits
+}
+
+/// The form of a regression of demand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<DemandModel>)]
+pub enum DemandModel {
+    /// On one measure.
+    Univariate,
+    /// On two measures.
+    Plane,
+    /// On two measures, on one side of the transition.
+    Biplanar,
+}
+
+/// A regression of ln EDP in safe rocking: a row of pex.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
+pub struct DemandFit {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub model: DemandModel,
+    pub im_x: Measure,
+    pub im_y: Option<Measure>,
+    /// IM4 from which the fit holds; `None` for one that holds everywhere.
+    pub range_low: Option<f64>,
+    /// IM4 below which the fit holds.
+    pub range_high: Option<f64>,
+    /// ln a, b1 and, on two measures, b2; empty without a fit.
+    pub coefficients: Vec<f64>,
+    /// Covariance of the coefficients, row by row.
+    pub covariance: Vec<f64>,
+    /// Whether the covariance allows for dependence within clusters; else there are too few of them.
+    pub is_clustered: bool,
+    pub n_clusters: i64,
+    /// Degrees of freedom of limits: clusters - 1, or n - k.
+    pub degrees: Option<f64>,
+    /// Dispersion: the residual standard deviation of ln EDP.
+    pub beta: Option<f64>,
+    pub r2: Option<f64>,
+    /// R2 of both planes, each about the mean on its own side: that of the paper.
+    pub r2_pooled: Option<f64>,
+    /// R2 of both planes about the mean of all cases.
+    pub r2_overall: Option<f64>,
+    /// Mean log-likelihood of cases by a fit without their cluster; of two planes, of the cases of both.
+    pub held_out_log_score: Option<f64>,
+    /// IM4 of the least pooled residual of two planes.
+    pub transition_found: Option<f64>,
+    pub transition_low: Option<f64>,
+    pub transition_high: Option<f64>,
+    pub n: i64,
+    /// Least and largest value of each measure among the cases.
+    pub im_x_low: Option<f64>,
+    pub im_x_high: Option<f64>,
+    pub im_y_low: Option<f64>,
+    pub im_y_high: Option<f64>,
+    /// Probability of what squares and products of ln IM add by chance.
+    pub misfit_p: Option<f64>,
+    pub status: FitStatus,
+}
+
+impl DemandFit {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}
+
+impl DemandFit {
+    /// Returns its measures.
+    pub fn predictors(&self) -> Predictors {
+        Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
+    }
+
+    /// Fits these measures to the cases whose IM4 lies in `range`.
+    fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
+        let sample = demands(cases, measures, &range);
+        let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
+        let fitted = linear.as_ref().ok();
+        let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
+        DemandFit {
+            suite: cases.suite.clone(),
+            structure: cases.structure.name.clone(),
+            p_rad_s: cases.structure.p_rad_s,
+            alpha_rad: cases.structure.alpha_rad,
+            eta: cases.structure.eta,
+            model,
+            im_x: measures[0].clone(),
+            im_y: measures.get(1).cloned(),
+            range_low: Some(range.start).filter(|start| *start > 0.0),
+            range_high: Some(range.end).filter(|end| end.is_finite()),
+            coefficients: fitted.map_or(Vec::new(), |linear| linear.fit.coefficients.as_slice().to_vec()),
+            covariance: limiting.map_or(Vec::new(), |(covariance, _)| covariance.as_slice().to_vec()),
+            is_clustered: fitted.is_some_and(|linear| linear.fit.clustered.is_some()),
+            n_clusters: fitted.map_or(0, |linear| linear.fit.clusters as i64),
+            degrees: limiting.map(|(_, degrees)| degrees),
+            beta: fitted.map(LinearFit::residual_sd),
+            r2: fitted.map(LinearFit::r2),
+            r2_pooled: None,
+            r2_overall: None,
+            held_out_log_score: fitted.and_then(|_| {
+                held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, ln_edp| {
+                    let law = least_squares(x, ln_edp).ok()?;
+                    let sd = law.residual_sd();
+                    Some((law.fit, move |mean, ln_edp| normal::ln_density((ln_edp - mean) / sd) - sd.ln()))
+                })
+            }),
+            transition_found: None,
+            transition_low: None,
+            transition_high: None,
+            n: sample.y.len() as i64,
+            im_x_low: sample.range(0).map(|range| range.low),
+            im_x_high: sample.range(0).map(|range| range.high),
+            im_y_low: sample.range(1).map(|range| range.low),
+            im_y_high: sample.range(1).map(|range| range.high),
+            misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
+            status: match &linear {
+                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
+                Ok(linear) => linear.fit.status,
+                Err(status) => *status,
+            },
+        }
+    }
+
+    /// Returns the residual sum of squares, and that about the mean.
+    fn squares(&self) -> Option<(f64, f64)> {
+        let rss = self.beta?.powi(2) * self.residual_degrees();
+        Some((rss, rss / (1.0 - self.r2?)))
+    }
+
+    /// Returns the residual standard deviation of two fits together.
+    pub fn sd_with(&self, other: &DemandFit) -> Option<f64> {
+        let degrees = self.residual_degrees() + other.residual_degrees();
+        Some(((self.squares()?.0 + other.squares()?.0) / degrees).sqrt())
+    }
+
+    /// Returns whether the fit holds at an IM4.
+    pub fn holds_at(&self, im4: f64) -> bool {
+        self.range_low.is_none_or(|low| im4 >= low) && self.range_high.is_none_or(|high| im4 < high)
+    }
+
+    /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
+    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit,
+    /// or where a measure is missing.
+    pub fn p_exceeding(
+        &self,
+        measures: &IntensityMeasures,
+        limit_state: f64,
+        confidence: f64,
+    ) -> Option<Estimate> {
+        let beta = self.beta?;
+        let ims = values(&self.im_x, self.im_y.as_ref(), measures)?;
+        let ln_median = ln_median_demand(&self.coefficients, &ims);
+        let by_median = variance(&self.covariance, &design_row(&ims));
+        let by_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
+        let half_width = quantile(confidence, self.degrees) * (by_median + by_beta).sqrt();
+        Some(Estimate::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
+    }
+
+    /// Returns it with each independent error of its coefficients, and that of beta, at the limits of
+    /// confidence.
+    pub(super) fn ends(&self, confidence: f64) -> Vec<[DemandFit; 2]> {
+        let away = quantile(confidence, self.degrees);
+        let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
+        let errors = errors.map(|ends| ends.map(|coefficients| DemandFit { coefficients, ..self.clone() }));
+        let off = away / (2.0 * self.residual_degrees()).sqrt();
+        let by_beta =
+            [-off, off].map(|off| DemandFit { beta: self.beta.map(|beta| beta * off.exp()), ..self.clone() });
+        errors.chain([by_beta]).collect()
+    }
+
+    /// Degrees of freedom of beta, whose large-sample variance is beta^2 / (2 degrees).
+    fn residual_degrees(&self) -> f64 {
+        (self.n - self.coefficients.len() as i64) as f64
+    }
+
+    /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
+    pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
+        let Some(beta) = self.beta else { return Vec::new() };
+        let b = &self.coefficients;
+        let errors: Vec<f64> = (0..b.len()).map(|k| self.covariance[k * (b.len() + 1)].sqrt()).collect();
+        let error_of_beta = beta / (2.0 * self.residual_degrees()).sqrt();
+        let error_of_zeta = (error_of_beta / b[1]).hypot(beta * errors[1] / (b[1] * b[1]));
+        let names = [Parameter::LnA, Parameter::B1, Parameter::B2];
+        let coefficients = names.into_iter().zip(b.iter().copied().zip(errors));
+        let dispersions =
+            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1], error_of_zeta))];
+        let quantile = quantile(confidence, self.degrees);
+        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
+            suite: self.suite.clone(),
+            structure: self.structure.clone(),
+            model: self.model.to_string(),
+            im_x: self.im_x.clone(),
+            im_y: self.im_y.clone(),
+            range_low: self.range_low,
+            parameter,
+            value,
+            standard_error,
+            low: value - quantile * standard_error,
+            high: value + quantile * standard_error,
+            confidence,
+        });
+        rows.collect()
+    }
+}

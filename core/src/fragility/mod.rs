@@ -1,0 +1,53 @@
+//! Fragility: the probability of exceeding a rotation limit, and of overturning, given the intensity of the
+//! motion (sections 2.3 and 3).
+//!
+//! ```text
+//! cases        the responses of one structure to one suite of motions; measure_names: those of Eq. 13
+//! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18)
+//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: the numbers of either
+//! tree         the event tree that joins them (Eq. 12)
+//! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
+//! level        a probability at its estimate, at a limit, or with one error of the model
+//! model        the model that predicts: the calibrated surface, or the paper's fits
+//! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
+//! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
+//! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
+//! ```
+
+mod calibration;
+mod capacity;
+mod cases;
+mod demand;
+mod given_peak;
+mod level;
+mod measure_names;
+mod model;
+mod on_floor;
+mod overturning;
+mod parameter;
+mod peaks;
+mod ready;
+mod surface;
+mod tree;
+
+pub use calibration::{Calibration, ObservedOutcome, Predictor};
+pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
+pub use cases::MOST_CASES;
+pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
+pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
+pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
+pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
+pub use given_peak::GivenPeak;
+pub(crate) use level::Level;
+pub use level::Scenarios;
+pub use measure_names::{Measure, Predictors};
+pub use model::{Direction, Model, paper_probabilities};
+pub use on_floor::Uplift;
+pub use overturning::{CurveFit, fit_curve, fit_curves};
+pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
+pub use parameter::{Parameter, ParameterRow};
+pub use peaks::{JointPeaks, Peak, RatioGiven};
+pub(crate) use ready::ReadyObject;
+pub use surface::Kind;
+pub use tree::{GivenRocking, LimitState, LimitStates, Probabilities, Z_95};
+pub use tree::{independent_failure, p_failure, p_failure_given_rocking, p_no_rocking};

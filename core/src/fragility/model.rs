@@ -1,0 +1,217 @@
+//! The model that predicts: the calibrated surface, or the curve and planes of the paper.
+
+use super::calibration::Calibration;
+use super::demand::DemandFit;
+use super::on_floor::{self, Uplift};
+use super::overturning::CurveFit;
+use super::peaks::JointPeaks;
+use super::surface::{self, Kind};
+use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
+use crate::motion::{Floor, IntensityMeasures, Suite};
+use crate::number::{counted, name};
+use crate::rocking::Structure;
+use crate::statistics::FitStatus;
+use crate::warning::Warning;
+
+/// The model of one structure and limit state.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the types say it")]
+pub enum Model {
+    /// The universal surface, calibrated.
+    Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
+    /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
+    Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
+}
+
+/// A direction in which an object falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// The structure that it rocks like.
+    pub structure: Structure,
+    /// The model that predicts for it.
+    pub model: Model,
+}
+
+impl Direction {
+    /// Returns the ground accelerations that uplift it, m/s2.
+    pub fn uplift_m_s2(&self) -> Uplift {
+        let uplift = self.structure.uplift_acceleration_m_s2();
+        match self.model.floor() {
+            Some(_) => on_floor::uplift_m_s2(&self.structure),
+            None => Uplift { least: uplift, usual: uplift },
+        }
+    }
+}
+
+/// Probability with which the limits hold the truth.
+pub(super) const CONFIDENCE: f64 = 0.95;
+
+impl Model {
+    /// Makes the model of a structure without fits: the surface for this kind of motion. `limit_state` is the
+    /// demand |theta|max / alpha of failure, such as 0.10.
+    pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
+        Model::Calibrated {
+            overturning: Calibration::shipped(kind, structure, None),
+            exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
+            floor: None,
+        }
+    }
+
+    /// Returns it on a floor; `None` for the paper's model, which is fitted to the ground.
+    pub fn on(mut self, on: Option<Floor>) -> Option<Model> {
+        match &mut self {
+            Model::Calibrated { floor, .. } => *floor = on,
+            Model::Paper { .. } if on.is_some() => return None,
+            Model::Paper { .. } => {}
+        }
+        Some(self)
+    }
+
+    /// Returns it with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of
+    /// both calibrations of the surface have the same causes.
+    pub fn ends(&self) -> Vec<[Model; 2]> {
+        match *self {
+            Model::Calibrated { ref overturning, ref exceeding, floor } => {
+                let pairs = overturning.ends().into_iter().zip(exceeding.ends());
+                let models = pairs.map(|([low, high], [low_ex, high_ex])| {
+                    [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Calibrated {
+                        overturning,
+                        exceeding,
+                        floor,
+                    })
+                });
+                models.collect()
+            }
+            Model::Paper { ref demand, ref overturning, limit_state, peaks } => {
+                let with = |demand, overturning| Model::Paper { demand, overturning, limit_state, peaks };
+                let curves = overturning.ends(CONFIDENCE).into_iter();
+                let mut all: Vec<[Model; 2]> =
+                    curves.map(|ends| ends.map(|curve| with(demand.clone(), curve))).collect();
+                for (at, plane) in demand.iter().enumerate() {
+                    all.extend(plane.ends(CONFIDENCE).into_iter().map(|ends| {
+                        ends.map(|plane| {
+                            let mut planes = demand.clone();
+                            planes[at] = plane;
+                            with(planes, overturning.clone())
+                        })
+                    }));
+                }
+                all
+            }
+        }
+    }
+
+    /// Returns the kind of motion that it is for.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Model::Calibrated { overturning, .. } => overturning.kind,
+            Model::Paper { overturning, .. } => Kind::from_suite(overturning.suite.as_deref()),
+        }
+    }
+
+    /// Returns the floor that it is for; `None` for the ground.
+    pub fn floor(&self) -> Option<Floor> {
+        match self {
+            Model::Calibrated { floor, .. } => *floor,
+            Model::Paper { .. } => None,
+        }
+    }
+
+    /// Returns what predicts, in words.
+    pub fn words(&self) -> String {
+        match self {
+            Model::Calibrated { overturning, .. } => {
+                let Calibration { n, structure, kind, suite, .. } = overturning;
+                let (n, motions) = (*n as usize, kind.words());
+                let place = if Suite::is_floor(suite.as_deref()) { " of a floor" } else { "" };
+                let calibrated = match n {
+                    0 => " for".to_string(),
+                    _ if overturning.is_of_outcomes() => {
+                        format!(", calibrated on {}, for", counted(n, "observed outcome"))
+                    }
+                    _ => format!(", calibrated on {} of {} to", counted(n, "response"), name(structure)),
+                };
+                format!("rockfrag's universal surface{calibrated} {motions}{place}")
+            }
+            Model::Paper { overturning: CurveFit { n, structure, .. }, .. } => {
+                let (responses, motions) = (counted(*n as usize, "response"), self.kind().words());
+                let structure = name(structure);
+                format!(
+                    "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
+                )
+            }
+        }
+    }
+
+    /// Returns whether probabilities depend on magnitude: those of the paper do not.
+    pub fn depends_on_magnitude(&self) -> bool {
+        matches!(self, Model::Calibrated { .. })
+    }
+
+    /// Returns the values of ln(PGV / PGA), s, at which probabilities bend, of motions of this magnitude.
+    pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
+        match self {
+            Model::Calibrated { overturning, .. } => surface::bends(overturning.kind, mw),
+            Model::Paper { .. } => Vec::new(),
+        }
+    }
+
+    /// Returns how PGA and PGV go together in the motions that it stands for.
+    pub fn peaks(&self) -> JointPeaks {
+        match self {
+            Model::Calibrated { overturning, .. } => overturning.peaks(),
+            Model::Paper { peaks, .. } => *peaks,
+        }
+    }
+
+    /// Returns the warnings about its prediction at an intensity.
+    pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
+        let on_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
+        let measures = on_floor.as_ref().unwrap_or(measures);
+        let rocks = p_no_rocking(measures.im4) == 0.0;
+        let mut warnings = match self {
+            Model::Calibrated { overturning, exceeding, .. } => {
+                let covered = exceeding
+                    .limit_state
+                    .is_none_or(|limit| surface::covers_motion(structure, measures, limit))
+                    && overturning.covers(structure, measures);
+                let unusual = (!surface::covers_structure(structure)).then_some(Warning::UnusualStructure);
+                let outside = (rocks && !covered).then_some(Warning::Extrapolated);
+                let fits = [overturning.warnings(), exceeding.warnings()].concat();
+                outside.into_iter().chain(unusual).chain(fits).collect()
+            }
+            Model::Paper { demand, overturning, .. } => {
+                let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
+                let is_ok = overturning.status == FitStatus::Ok
+                    && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
+                let outside = (rocks && !overturning.covers(measures)).then_some(Warning::Extrapolated);
+                let few = (!overturning.is_clustered).then_some(Warning::FewClusters);
+                let poor = (!is_ok).then_some(Warning::PoorFit);
+                outside.into_iter().chain(few).chain(poor).collect::<Vec<Warning>>()
+            }
+        };
+        warnings.sort_unstable();
+        warnings.dedup();
+        if warnings.contains(&Warning::NoEvents) {
+            warnings.retain(|warning| *warning != Warning::FewEvents);
+        }
+        warnings
+    }
+}
+
+/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
+/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere.
+pub fn paper_probabilities(
+    demand: &[DemandFit],
+    overturning: &CurveFit,
+    measures: &IntensityMeasures,
+    limit_state: f64,
+    confidence: f64,
+) -> Probabilities {
+    Probabilities::new(measures.im4, || {
+        let p_ro = overturning.probability(measures, confidence)?;
+        let fit = demand.iter().find(|fit| fit.holds_at(measures.im4));
+        let p_ex = fit.and_then(|fit| fit.p_exceeding(measures, limit_state, confidence));
+        Some(GivenRocking { p_ex, p_ro, p_failure: p_ex.map(|p_ex| independent_failure(p_ro, p_ex)) })
+    })
+}

@@ -1,0 +1,239 @@
+//! P_ro: the probability of overturning given rocking, as a lognormal curve of one measure or of a hybrid of
+//! two (section 2.3.3, Eqs. 19 to 24). The likelihood and its maximum are in `statistics::binary`.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::cases::{Cases, Event, Group};
+use super::measure_names::{Measure, Predictors, design_row, values};
+use super::parameter::{Parameter, ParameterRow, quantile};
+use crate::motion::IntensityMeasures;
+use crate::statistics::scores::{auc, brier_score};
+use crate::statistics::{Estimate, FitStatus, held_out_log_score, independent_errors, normal};
+use crate::statistics::{predict, probit, tested_probit, variance};
+
+/// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
+/// (Eq. 20; Eq. 24 with the hybrid measure).
+pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
+    normal::cdf((im.ln() - mu) / beta)
+}
+
+/// Computes the hybrid measure IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23).
+pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
+    im_x.powf(lambda / (1.0 + lambda)) * im_y.powf(1.0 / (1.0 + lambda))
+}
+
+/// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood, to `Event::Overturning` or
+/// `Event::Rocking`; the other events need a limit state, which a curve does not have. The likelihood of
+/// overturning is the product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro
+/// where it did not (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln
+/// IM - mu) / beta = b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and
+/// [`beta`].
+///
+/// [`log_likelihood`]: crate::statistics::log_likelihood
+pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> CurveFit {
+    let measures: Vec<Measure> = std::iter::once(&im_x).chain(&im_y).cloned().collect();
+    let sample = cases.sample(&measures, |case| event.happened(case.outcome, f64::INFINITY));
+    let tested = tested_probit(&sample.x(), &sample.y, &sample.clusters);
+    let fitted = tested.as_ref().ok();
+    let limiting = fitted.map(|probit| probit.fit.limiting_covariance());
+    let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
+    let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
+    let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
+    CurveFit {
+        suite: cases.suite.clone(),
+        structure: cases.structure.name.clone(),
+        p_rad_s: cases.structure.p_rad_s,
+        alpha_rad: cases.structure.alpha_rad,
+        eta: cases.structure.eta,
+        event,
+        im_x,
+        im_y,
+        covariance: limiting.map_or(Vec::new(), |(covariance, _)| covariance.as_slice().to_vec()),
+        is_clustered: fitted.is_some_and(|probit| probit.fit.clustered.is_some()),
+        n_clusters: fitted.map_or(0, |probit| probit.fit.clusters as i64),
+        degrees: limiting.map(|(_, degrees)| degrees).filter(|degrees| degrees.is_finite()),
+        n: sample.y.len() as i64,
+        n_events: sample.y.iter().filter(|happened| **happened).count() as i64,
+        log_likelihood: fitted.map(|probit| probit.log_likelihood),
+        aic: fitted.map(|probit| probit.aic()),
+        bic: fitted.map(|probit| probit.bic()),
+        auc: fitted.map(|_| auc(&probabilities, &sample.y)),
+        brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
+        held_out_log_score: fitted.and_then(|_| {
+            held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, events| {
+                let fit = probit(x, events).ok()?.fit;
+                Some((fit, |z: f64, event| normal::ln_cdf(if event { z } else { -z })))
+            })
+        }),
+        im_x_low: sample.range(0).map(|range| range.low),
+        im_x_high: sample.range(0).map(|range| range.high),
+        im_y_low: sample.range(1).map(|range| range.low),
+        im_y_high: sample.range(1).map(|range| range.high),
+        misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
+        status: match &tested {
+            Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
+            Ok(probit) => probit.fit.status,
+            Err(status) => *status,
+        },
+        coefficients,
+    }
+}
+
+/// Computes the slope of z on ln IM, b1 of one measure and b1 + b2 of a hybrid.
+fn slope(b: &[f64]) -> f64 {
+    b[1..].iter().sum()
+}
+
+/// Computes the exponent of the first measure of a hybrid, b1/b2 (Eq. 23), and its gradient.
+pub fn lambda(b: &[f64]) -> (f64, Vec<f64>) {
+    (b[1] / b[2], vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])])
+}
+
+/// Computes the logarithm of the median, -b0/slope, and its gradient.
+pub fn mu(b: &[f64]) -> (f64, Vec<f64>) {
+    let slope = slope(b);
+    let by_slopes = vec![b[0] / (slope * slope); b.len() - 1];
+    (-b[0] / slope, [vec![-1.0 / slope], by_slopes].concat())
+}
+
+/// Computes the dispersion, 1/slope, and its gradient.
+pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
+    let slope = slope(b);
+    (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
+}
+
+/// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`] of a structure under a suite: of IM4 and
+/// IM5 or, if `all`, of all six measures of Eq. 13, then of those that are `asked` for.
+pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) -> Vec<CurveFit> {
+    let single = if all { Measure::SCALAR.to_vec() } else { vec![Measure::Im4, Measure::Im5] };
+    let single = single.into_iter().map(Predictors::one).collect();
+    let predictors = Predictors::without_repeats(single, asked);
+    predictors.into_par_iter().map(|Predictors { im_x, im_y }| fit_curve(cases, event, im_x, im_y)).collect()
+}
+
+/// A fragility curve: a row of pro.parquet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "data/columns.csv says it")]
+pub struct CurveFit {
+    pub suite: Option<String>,
+    pub structure: String,
+    pub p_rad_s: f64,
+    pub alpha_rad: f64,
+    pub eta: f64,
+    pub event: Event,
+    pub im_x: Measure,
+    pub im_y: Option<Measure>,
+    /// b0, b1 and, of a hybrid, b2; empty without a fit.
+    pub coefficients: Vec<f64>,
+    /// Covariance of the coefficients, row by row.
+    pub covariance: Vec<f64>,
+    /// Whether the covariance allows for dependence within clusters; else there are too few of them.
+    pub is_clustered: bool,
+    pub n_clusters: i64,
+    /// Degrees of freedom of limits, clusters - 1; `None` for normal ones.
+    pub degrees: Option<f64>,
+    pub n: i64,
+    /// Cases in which the event happened.
+    pub n_events: i64,
+    pub log_likelihood: Option<f64>,
+    pub aic: Option<f64>,
+    pub bic: Option<f64>,
+    /// Area under the receiver operating characteristic, on the fitted cases.
+    pub auc: Option<f64>,
+    /// Brier score on the fitted cases.
+    pub brier: Option<f64>,
+    /// Mean log-likelihood of cases by a fit without their cluster.
+    pub held_out_log_score: Option<f64>,
+    /// Least and largest value of each measure among the cases.
+    pub im_x_low: Option<f64>,
+    pub im_x_high: Option<f64>,
+    pub im_y_low: Option<f64>,
+    pub im_y_high: Option<f64>,
+    /// Probability of what squares and products of ln IM add by chance.
+    pub misfit_p: Option<f64>,
+    pub status: FitStatus,
+}
+
+impl CurveFit {
+    /// Returns the suite and the structure that it is of.
+    pub fn group(&self) -> Group<'_> {
+        Group { suite: self.suite.as_deref(), structure: &self.structure }
+    }
+}
+
+impl CurveFit {
+    /// Returns its measures.
+    pub fn predictors(&self) -> Predictors {
+        Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
+    }
+
+    /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
+    /// of ln IM - mu. None without a fit, or where a measure is missing.
+    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Estimate> {
+        let ims =
+            values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
+        let b = &self.coefficients;
+        let (mu, beta) = (mu(b).0, beta(b).0);
+        let im = match ims[..] {
+            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(b).0),
+            _ => ims[0],
+        };
+        let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
+        let half_width = quantile(confidence, self.degrees) * error;
+        Some(Estimate::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
+    }
+
+    /// Returns it with each independent error of its coefficients at the limits of confidence.
+    pub(super) fn ends(&self, confidence: f64) -> Vec<[CurveFit; 2]> {
+        let away = quantile(confidence, self.degrees);
+        let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
+        errors.map(|ends| ends.map(|coefficients| CurveFit { coefficients, ..self.clone() })).collect()
+    }
+
+    /// Returns whether the measures are within those of the cases.
+    pub fn covers(&self, measures: &IntensityMeasures) -> bool {
+        let ranges = [
+            (Some(&self.im_x), self.im_x_low, self.im_x_high),
+            (self.im_y.as_ref(), self.im_y_low, self.im_y_high),
+        ];
+        ranges.into_iter().all(|(measure, low, high)| {
+            measure.and_then(|measure| measure.value_of(measures)).is_none_or(|value| {
+                low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
+            })
+        })
+    }
+
+    /// Returns lambda (of a hybrid), mu, beta and theta with their errors by the delta method and limits;
+    /// none without a fit.
+    pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
+        if self.coefficients.is_empty() {
+            return Vec::new();
+        }
+        let b = &self.coefficients;
+        let hybrid = self.im_y.as_ref().map(|_| (Parameter::Lambda, lambda(b)));
+        let estimates = hybrid.into_iter().chain([(Parameter::Mu, mu(b)), (Parameter::Beta, beta(b))]);
+        let rows = estimates.map(|(parameter, (value, gradient))| {
+            let standard_error = variance(&self.covariance, &gradient).sqrt();
+            let half_width = quantile(confidence, self.degrees) * standard_error;
+            ParameterRow {
+                suite: self.suite.clone(),
+                structure: self.structure.clone(),
+                model: self.event.to_string(),
+                im_x: self.im_x.clone(),
+                im_y: self.im_y.clone(),
+                range_low: None,
+                parameter,
+                value,
+                standard_error,
+                low: value - half_width,
+                high: value + half_width,
+                confidence,
+            }
+        });
+        let mut rows: Vec<ParameterRow> = rows.collect();
+        let theta = rows.iter().find(|row| row.parameter == Parameter::Mu).map(ParameterRow::exp);
+        rows.extend(theta);
+        rows
+    }
+}

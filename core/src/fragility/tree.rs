@@ -1,0 +1,156 @@
+//! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
+
+use crate::spelling::unknown_word;
+use crate::statistics::Estimate;
+
+/// The 97.5 % quantile of the normal distribution.
+pub const Z_95: f64 = 1.959_963_984_540_054;
+
+/// Limit states, each within the one before (Table I).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(parse_err_ty = String, parse_err_fn = unknown_word::<LimitState>)]
+pub enum LimitState {
+    /// LS1: rocking.
+    #[serde(rename = "LS1")]
+    #[strum(serialize = "LS1")]
+    Rocking,
+    /// LS2: a demand above the limit, or overturning.
+    #[serde(rename = "LS2")]
+    #[strum(serialize = "LS2")]
+    Failure,
+    /// LS3: overturning.
+    #[serde(rename = "LS3")]
+    #[strum(serialize = "LS3")]
+    Overturning,
+}
+
+/// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0
+/// from there on; NaN of NaN.
+pub fn p_no_rocking(im4: f64) -> f64 {
+    if im4.is_nan() { f64::NAN } else { f64::from(im4 < 1.0) }
+}
+
+/// Computes the probability of failure given rocking: P_ro + (1 - P_ro) P_ex (Eq. 12).
+pub fn p_failure_given_rocking(p_ro: f64, p_ex: f64) -> f64 {
+    p_ro + (1.0 - p_ro) * p_ex
+}
+
+/// Computes the probability of failure, or of another event, over the whole tree from that given rocking:
+/// P_f = (1 - P_nr) P_f|r (Eq. 12), exactly 0 without rocking.
+pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
+    (1.0 - p_nr) * given_rocking
+}
+
+/// What there is of each limit state: a probability, a rate, an estimate of either.
+///
+/// ```
+/// use rockfrag_core::fragility::LimitStates;
+///
+/// let rates = LimitStates { rocking: 4e-3, failure: 9e-4, overturning: 4e-4 };
+/// let return_periods = rates.map(f64::recip);
+/// assert_eq!(return_periods.rocking, 250.0);
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[expect(missing_docs, reason = "LimitState says it")]
+pub struct LimitStates<T> {
+    pub rocking: T,
+    pub failure: T,
+    pub overturning: T,
+}
+
+impl<T> LimitStates<T> {
+    /// Applies a function to each.
+    pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> LimitStates<U> {
+        LimitStates { rocking: f(self.rocking), failure: f(self.failure), overturning: f(self.overturning) }
+    }
+
+    /// Joins each with that of other limit states.
+    pub fn zip<U, V>(self, other: LimitStates<U>, join: impl Fn(T, U) -> V) -> LimitStates<V> {
+        LimitStates {
+            rocking: join(self.rocking, other.rocking),
+            failure: join(self.failure, other.failure),
+            overturning: join(self.overturning, other.overturning),
+        }
+    }
+
+    /// Returns them in the order of [`LimitState`].
+    pub fn into_array(self) -> [T; 3] {
+        [self.rocking, self.failure, self.overturning]
+    }
+}
+
+impl<T: Copy> LimitStates<T> {
+    /// Makes all alike.
+    pub const fn all(value: T) -> LimitStates<T> {
+        LimitStates { rocking: value, failure: value, overturning: value }
+    }
+
+    /// Returns what there is of a limit state.
+    pub fn get(&self, state: LimitState) -> T {
+        match state {
+            LimitState::Rocking => self.rocking,
+            LimitState::Failure => self.failure,
+            LimitState::Overturning => self.overturning,
+        }
+    }
+}
+
+/// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
+/// that of overturning times that of the demand of the others. Survival is a product, so that limits of
+/// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
+/// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
+pub fn independent_failure(p_ro: Estimate, p_ex: Estimate) -> Estimate {
+    // ln of survival, finite, so that a certain event has limits.
+    let [ro, ex] = [p_ro, p_ex].map(|p| p.map(|p| (-p).ln_1p().max(f64::MIN_POSITIVE.ln())));
+    let value = p_failure_given_rocking(p_ro.value, p_ex.value);
+    let low = -(ro.value + ex.value + (ro.low - ro.value).hypot(ex.low - ex.value)).exp_m1();
+    let high = -(ro.value + ex.value - (ro.high - ro.value).hypot(ex.high - ex.value)).exp_m1();
+    Estimate {
+        value,
+        // What rounding loses of limits near 0.
+        low: low.max(p_ro.low).max(p_ex.low).min(value),
+        high: high.max(p_ro.high).max(p_ex.high).max(value),
+    }
+}
+
+/// The probabilities of the tree at one intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probabilities {
+    /// No rocking.
+    pub p_nr: f64,
+    /// Given rocking; none without rocking, or where a measure is missing.
+    pub given_rocking: Option<GivenRocking>,
+}
+
+/// Probabilities given that the structure rocks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GivenRocking {
+    /// A demand above the limit state, in safe rocking; none where no plane is fitted.
+    pub p_ex: Option<Estimate>,
+    /// Overturning.
+    pub p_ro: Estimate,
+    /// Failure, the one or the other (Eq. 12).
+    pub p_failure: Option<Estimate>,
+}
+
+impl Probabilities {
+    /// Makes the probabilities at an IM4; `given_rocking` computes those that matter if it uplifts.
+    pub(super) fn new(im4: f64, given_rocking: impl FnOnce() -> Option<GivenRocking>) -> Probabilities {
+        let p_nr = p_no_rocking(im4);
+        Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
+    }
+
+    /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
+    /// None where a measure is missing, or no plane is fitted.
+    pub fn limit_states(&self) -> LimitStates<Option<Estimate>> {
+        let rocking = Some(Estimate::exact(1.0 - self.p_nr));
+        if self.p_nr == 1.0 {
+            return LimitStates::all(rocking);
+        }
+        let given = self.given_rocking;
+        let [failure, overturning] = [given.and_then(|given| given.p_failure), given.map(|given| given.p_ro)]
+            .map(|given| given.map(|given| given.map(|p| p_failure(self.p_nr, p))));
+        LimitStates { rocking, failure, overturning }
+    }
+}

@@ -1,0 +1,256 @@
+//! The fragility of an object: the probabilities of its limit states at each intensity of one peak, averaged
+//! over the motions that have it.
+
+use super::budget::Budget;
+use super::motion::logit;
+use super::motions::Motions;
+use super::pgv_pga::PgvPgaRatio;
+use super::site::{Hazard, Site, strongest};
+use crate::fragility::{Direction, GivenPeak, Level, LimitState, LimitStates, Peak};
+use crate::motion::Peaks;
+use crate::number::{plain, significant};
+use crate::object::{Subject, Unknown};
+use crate::statistics::numerics::{equal_ratios, first};
+use crate::statistics::{Estimate, Limited, least_squares, normal};
+
+/// Motions of generic sites, of which one peak is given, and what narrows the other.
+///
+/// ```
+/// use rockfrag_core::fragility::{Kind, Peak};
+/// use rockfrag_core::hazard::SitesInGeneral;
+/// use rockfrag_core::object::{Object, Subject};
+///
+/// let cabinet = Subject::shipped(&Object::block("cabinet", 0.5, 2.0), Kind::Recorded, 0.10)?;
+/// let sites = SitesInGeneral { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
+/// let fragility = sites.fragility(&cabinet);
+/// // The PGA at which half of the motions overturn it, m/s2; and how well a lognormal curve describes it.
+/// assert!(fragility.overturning.theta.value.is_some_and(|pga| pga > 5.0));
+/// assert!(fragility.overturning.largest_error.is_some_and(|error| error < 0.1));
+/// for point in &fragility.points {
+///     let [overturning, failure] = [point.p.overturning.value.unwrap(), point.p.failure.value.unwrap()];
+///     assert!(overturning <= failure + 1e-12);
+/// }
+/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SitesInGeneral {
+    /// The peak that is given.
+    pub over: Peak,
+    /// Magnitude.
+    pub mw: Option<f64>,
+    /// Vs30, m/s.
+    pub vs30_m_s: Option<f64>,
+    /// PGV / PGA of all motions, s.
+    pub ratio_s: Option<f64>,
+}
+
+/// The fragility of an object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fragility {
+    /// The peak that is given.
+    pub over: Peak,
+    /// From the least intensity that uplifts the object to the strongest that was ever recorded.
+    pub points: Vec<FragilityPoint>,
+    /// A demand above the limit state, or overturning.
+    pub failure: Lognormal,
+    /// Overturning.
+    pub overturning: Lognormal,
+    /// Standard deviations of the logit of the probability of overturning, by what is not known, where it is
+    /// nearest to one half.
+    pub errors: Budget,
+    /// The median motion there.
+    pub motion: Peaks,
+}
+
+/// The probabilities at an intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FragilityPoint {
+    /// PGA (m/s2) or PGV (m/s).
+    pub intensity: f64,
+    /// Shares of the motions of this intensity, with limits; nothing of one where the model has none.
+    pub p: LimitStates<Limited>,
+}
+
+/// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
+/// beta).
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Lognormal {
+    /// Where 16, 50 and 84 % of the motions have the effect; none beyond the last point.
+    #[serde(rename = "_16")]
+    pub at_16: Limited,
+    /// Median.
+    #[serde(rename = "_theta")]
+    pub theta: Limited,
+    /// See `at_16`.
+    #[serde(rename = "_84")]
+    pub at_84: Limited,
+    /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that
+    /// is reached.
+    #[serde(rename = "_beta")]
+    pub beta: Option<f64>,
+    /// Largest error of a probability by theta and beta there.
+    #[serde(rename = "_error")]
+    pub largest_error: Option<f64>,
+}
+
+/// Steps of a curve.
+const STEPS: usize = 119;
+/// The least intensity over the strongest.
+const LEAST: f64 = 1e-3;
+/// Probabilities between which the slope is fitted, and steps between them.
+const LEAST_FITTED: f64 = 0.05;
+const MOST_FITTED: f64 = 0.95;
+const STEPS_FITTED: usize = 39;
+
+impl SitesInGeneral {
+    /// Computes the fragility of an object.
+    pub fn fragility(&self, subject: &Subject) -> Fragility {
+        Fragility::new(&self.motions(&subject.directions), subject)
+    }
+
+    /// Makes an object, in the directions in which it falls, ready for these motions.
+    pub fn given_peak<'a>(&self, directions: &'a [Direction]) -> GivenPeak<'a> {
+        self.motions(directions).given(directions, 0.0)
+    }
+
+    fn motions(&self, directions: &[Direction]) -> Motions {
+        let by_model = || PgvPgaRatio::by_model(&directions[0].model, self.over, self.vs30_m_s);
+        Motions::new(self.over, self.ratio_s.map_or_else(by_model, PgvPgaRatio::given), self.mw)
+    }
+}
+
+impl Site {
+    /// Computes the fragility of an object over the peak of the hazard curve, averaged over the motions of
+    /// the site: its integral over the curve is the rate. None for a joint hazard.
+    pub fn fragility(&self, subject: &Subject) -> Option<Fragility> {
+        match &self.hazard {
+            Hazard::Curve(hazard) => Some(Fragility::new(&self.motions(hazard, subject), subject)),
+            Hazard::Joint(_) => None,
+        }
+    }
+}
+
+impl Fragility {
+    /// Takes a fragility by its points alone, such as those of a file: nothing is known between them, nor why
+    /// the limits are where they are, nor the motion.
+    pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
+        let [failure, overturning] =
+            [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
+        Fragility { over, points, failure, overturning, errors: Budget::default(), motion: Peaks::default() }
+    }
+
+    fn new(motions: &Motions, subject: &Subject) -> Fragility {
+        let middle = motions.given(&subject.directions, 0.0);
+        let end = strongest(motions.peak);
+        let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
+        let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
+        let levels = Level::with_errors(&subject.directions);
+        let by_level = probabilities(&middle, &intensities, &levels);
+        let mut ends =
+            motions.ends(subject, |given| probabilities(given, &intensities, &[Level::Estimate]).remove(0));
+        ends.extend(Unknown::from_fit_errors(&by_level));
+        let values = &by_level[0];
+        let budget = |k: usize, state: LimitState| {
+            Budget::new(values, &ends, |states: &Vec<LimitStates<Option<f64>>>| {
+                states[k].get(state).map(logit)
+            })
+        };
+        let points = intensities.iter().zip(values).enumerate().map(|(k, (&intensity, p))| {
+            let [failure, overturning] = [LimitState::Failure, LimitState::Overturning]
+                .map(|state| Some(budget(k, state).limit_probability(p.get(state)?, p.rocking?, 0.0)));
+            let rocking = p.rocking.map(Estimate::exact);
+            let p = LimitStates { rocking, failure, overturning }.map(Limited::from);
+            FragilityPoint { intensity, p }
+        });
+        let points: Vec<FragilityPoint> = points.collect();
+        let is_half = |p: &LimitStates<Option<f64>>| p.overturning.is_some_and(|p| p >= 0.5);
+        let median = values.iter().position(is_half).unwrap_or(intensities.len() - 1);
+        Fragility {
+            over: motions.peak,
+            failure: Lognormal::new(&middle, &points, LimitState::Failure),
+            overturning: Lognormal::new(&middle, &points, LimitState::Overturning),
+            errors: budget(median, LimitState::Overturning),
+            motion: middle.peaks(intensities[median], 0.0),
+            points,
+        }
+    }
+}
+
+impl Lognormal {
+    /// Finds the intensities between points, without a dispersion.
+    fn between(points: &[FragilityPoint], state: LimitState) -> Lognormal {
+        let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Limited {
+            value: crossing(points, level, |point| point.p.get(state).value),
+            low: crossing(points, level, |point| point.p.get(state).high),
+            high: crossing(points, level, |point| point.p.get(state).low),
+        });
+        Lognormal { at_16, theta, at_84, ..Lognormal::default() }
+    }
+
+    fn new(given: &GivenPeak, points: &[FragilityPoint], state: LimitState) -> Lognormal {
+        let mut lognormal = Lognormal::between(points, state);
+        lognormal.at_16.value = reaching(given, points, state, 0.16);
+        lognormal.theta.value = reaching(given, points, state, 0.5);
+        lognormal.at_84.value = reaching(given, points, state, 0.84);
+        let least = reaching(given, points, state, LEAST_FITTED);
+        let Some((from, median)) = least.zip(lognormal.theta.value) else {
+            return lognormal;
+        };
+        let end = points[points.len() - 1].intensity;
+        let to = reaching(given, points, state, MOST_FITTED).unwrap_or(end);
+        let intensities: Vec<f64> = equal_ratios(from, to, STEPS_FITTED).collect();
+        let p: Option<Vec<f64>> = intensities.iter().map(|im| given.limit_states(*im).get(state)).collect();
+        let Some(p) = p else { return lognormal };
+        let x: Vec<f64> = intensities.iter().map(|intensity| intensity.ln()).collect();
+        let z: Vec<f64> = p.iter().map(|p| normal::quantile(*p)).collect();
+        let Ok(line) = least_squares(&[&x], &z) else { return lognormal };
+        let beta = 1.0 / line.fit.coefficients[1];
+        let errors = x.iter().zip(&p).map(|(x, p)| (normal::cdf((x - median.ln()) / beta) - p).abs());
+        Lognormal { beta: Some(beta), largest_error: Some(errors.fold(0.0, f64::max)), ..lognormal }
+    }
+}
+
+/// Writes an intensity (m/s2 or m/s) with its unit; that which is beyond all that was recorded by that.
+pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
+    let (_, unit, symbol) = over.words();
+    match intensity {
+        Some(value) => format!("{} {symbol}", significant(value / unit, 2)),
+        None => format!("> {} {symbol}", plain(strongest(over) / unit)),
+    }
+}
+
+/// Computes the probabilities at each level and intensity.
+fn probabilities(
+    given: &GivenPeak,
+    intensities: &[f64],
+    levels: &[Level],
+) -> Vec<Vec<LimitStates<Option<f64>>>> {
+    let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_levels(*im, levels)).collect();
+    (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()
+}
+
+/// Finds the intensity from which on a probability is at least `level`, sought beside the first point that
+/// has it.
+fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, level: f64) -> Option<f64> {
+    let reaches = |p: Option<f64>| p.is_some_and(|p| p >= level);
+    let after = points.iter().position(|point| reaches(point.p.get(state).value))?;
+    let [low, high] = [after.saturating_sub(1), after].map(|k| points[k].intensity.ln());
+    Some(first(low, high, |ln| reaches(given.limit_states(ln.exp()).get(state))).exp())
+}
+
+/// Finds the intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
+fn crossing(
+    points: &[FragilityPoint],
+    level: f64,
+    p: impl Fn(&FragilityPoint) -> Option<f64>,
+) -> Option<f64> {
+    let after = points.iter().position(|point| p(point).is_some_and(|p| p >= level))?;
+    let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
+    let probit = |point| Some(normal::quantile(p(point)?.clamp(1e-12, 1.0 - 1e-12)));
+    let (Some(a), Some(b)) = (probit(low), probit(high)) else { return Some(high.intensity) };
+    if b <= a {
+        return Some(high.intensity);
+    }
+    let share = (normal::quantile(level) - a) / (b - a);
+    Some(low.intensity * (high.intensity / low.intensity).powf(share))
+}

@@ -1,0 +1,157 @@
+//! Probabilities of the limit states under one motion, of which both peaks or one are known.
+
+use super::budget::Budget;
+use super::motions::Motions;
+use super::pgv_pga::PgvPgaRatio;
+use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
+use crate::motion::Peaks;
+use crate::object::{Part, Subject, Unknown};
+use crate::statistics::{Estimate, Limited};
+
+/// A motion: its peaks, and the magnitude of the earthquake if it is known.
+///
+/// ```
+/// use rockfrag_core::fragility::Kind;
+/// use rockfrag_core::hazard::Motion;
+/// use rockfrag_core::object::{Object, Subject};
+///
+/// // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
+/// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
+/// cabinet.shape.depth = Some(0.8);
+/// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
+/// let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+/// // A motion of the ground of 0.3 g; its PGV is that of such motions.
+/// let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
+/// let p = motion.probabilities(&subject).states.overturning.estimate().expect("it rocks, and has a PGV");
+/// assert!(p.low < p.value && p.value < p.high);
+/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// PGA, m/s2.
+    pub pga_m_s2: Option<f64>,
+    /// PGV, m/s.
+    pub pgv_m_s: Option<f64>,
+    /// Moment magnitude.
+    pub mw: Option<f64>,
+    /// Vs30 of the site, m/s.
+    pub vs30_m_s: Option<f64>,
+}
+
+/// Probabilities of the limit states, with limits; nothing of one where the model has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct MotionProbabilities {
+    pub states: LimitStates<Limited>,
+    /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.
+    pub errors: Budget,
+}
+
+impl Motion {
+    /// Returns the peaks; one that is not known is the median.
+    pub fn peaks(&self, model: &Model) -> Peaks {
+        match self.given_peak(model) {
+            Some((motions, intensity)) if !self.is_still() => motions.given(&[], 0.0).peaks(intensity, 0.0),
+            _ => {
+                let known = [self.pga_m_s2, self.pgv_m_s].map(|peak| peak.filter(|_| !self.is_still()));
+                let [pga_m_s2, pgv_m_s] = known.map(Option::unwrap_or_default);
+                Peaks { pga_m_s2, pgv_m_s }
+            }
+        }
+    }
+
+    /// Returns whether the ground stands still: a peak of 0.
+    pub fn is_still(&self) -> bool {
+        self.pga_m_s2 == Some(0.0) || self.pgv_m_s == Some(0.0)
+    }
+
+    /// Computes the probabilities for an object, averaged over the peak that is not known.
+    pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
+        if self.is_still() {
+            let states = LimitStates::all(Estimate::exact(0.0).into());
+            return MotionProbabilities { states, errors: Budget::default() };
+        }
+        let directions = &subject.directions[..];
+        let model = &directions[0].model;
+        let known = match self.given_peak(model) {
+            // What magnitude adds is beside tau in the limits of one motion.
+            None => {
+                let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
+                let ends = subject.ends(|directions| {
+                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Estimate])[0]
+                });
+                Known::new(|scenarios| ready.estimates(peaks, scenarios), ends)
+            }
+            Some((motions, intensity)) => {
+                let given = motions.given(directions, 0.0);
+                let ends = motions.ends(subject, |given| given.limit_states(intensity));
+                Known::new(|scenarios| given.estimates(intensity, scenarios), ends)
+            }
+        };
+        let (_, failure) = known.limited(LimitState::Failure);
+        let (errors, overturning) = known.limited(LimitState::Overturning);
+        let rocking = known.many.rocking;
+        MotionProbabilities {
+            states: LimitStates { rocking, failure, overturning }.map(Limited::from),
+            errors,
+        }
+    }
+
+    /// Returns the motions of the peak that is given alone, and its value; none where both are given.
+    fn given_peak(&self, model: &Model) -> Option<(Motions, f64)> {
+        let (peak, intensity) = match (self.pga_m_s2, self.pgv_m_s) {
+            (Some(_), Some(_)) => return None,
+            (Some(pga), None) => (Peak::Pga, pga),
+            (None, pgv) => (Peak::Pgv, pgv?),
+        };
+        let velocity = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
+        Some((Motions::new(peak, velocity, self.mw), intensity))
+    }
+}
+
+/// Probabilities for an object, and how well they are known.
+struct Known {
+    /// With limits by the parameters of the model.
+    many: LimitStates<Option<Estimate>>,
+    /// With limits by these and by the standard deviation between earthquakes, tau.
+    one: LimitStates<Option<Estimate>>,
+    /// With each other unknown at its quantiles.
+    ends: Vec<Unknown<LimitStates<Option<f64>>>>,
+}
+
+impl Known {
+    fn new(
+        estimates: impl Fn(Scenarios) -> LimitStates<Option<Estimate>>,
+        ends: Vec<Unknown<LimitStates<Option<f64>>>>,
+    ) -> Known {
+        Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
+    }
+
+    /// Returns the errors of the logit of a probability, without tau, and the probability with limits by all.
+    fn limited(&self, state: LimitState) -> (Budget, Option<Estimate>) {
+        let (values, [many, one]) =
+            (self.many.map(|p| p.map(|p| p.value)), [self.many, self.one].map(|p| p.get(state)));
+        let mut errors = Budget::new(&values, &self.ends, |states| states.get(state).map(logit));
+        let Some((many, one)) = many.zip(one) else { return (errors, None) };
+        let [fit, in_all] = [many, one].map(sd_of_limits);
+        errors.add(Part::Fit, [fit, fit]);
+        let tau = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
+        match (many.value, values.rocking) {
+            (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
+                (errors, Some(errors.limit_probability(p, rocking, tau)))
+            }
+            _ => (errors, Some(many)),
+        }
+    }
+}
+
+/// Computes the logit of a probability.
+pub(super) fn logit(p: f64) -> f64 {
+    (p / (1.0 - p)).ln()
+}
+
+/// The standard deviation of a logit by its 95 % limits.
+fn sd_of_limits(p: Estimate) -> f64 {
+    let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
+    if sd.is_finite() { sd } else { 0.0 }
+}

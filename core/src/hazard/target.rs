@@ -1,0 +1,230 @@
+//! The base with which the rate of overturning of an object is a target: all else of the object the same.
+
+use argmin::core::{CostFunction, Error, Executor};
+use argmin::solver::brent::BrentRoot;
+
+use super::site::Site;
+use crate::object::{Object, Subject};
+use crate::spelling::unknown_word;
+use crate::statistics::Limited;
+
+/// The base of an object, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Base {
+    /// Has this width.
+    Width(f64),
+    /// Has no side below this.
+    Sides(f64),
+}
+
+/// Bases that meet a target; none of an object without width and height.
+///
+/// ```
+/// use rockfrag_core::fragility::{Kind, Peak};
+/// use rockfrag_core::hazard::{Base, Hazard, HazardCurve, Site};
+/// use rockfrag_core::object::{Object, Subject};
+///
+/// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
+/// let site = Site::new(Hazard::over(Peak::Pga, curve));
+/// let subject = |object: &Object| Subject::shipped(object, Kind::Recorded, 0.10).ok();
+/// let cabinet = Object::block("cabinet", 0.5, 1.9);
+/// let rate = site.rates(&subject(&cabinet).expect("it rocks")).overturning;
+/// // Once in 10,000 years.
+/// let bases = site.bases(&cabinet, &subject, rate, 1e-4);
+/// let width = |base: Option<Base>| base.and_then(Base::width);
+/// let [by_estimate, by_limit] = [bases.by_estimate, bases.by_limit].map(width);
+/// assert!(0.5 < by_estimate.unwrap() && by_estimate < by_limit);
+/// # Ok::<(), rockfrag_core::hazard::HazardError>(())
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Bases {
+    /// The rate is the target.
+    pub by_estimate: Option<Base>,
+    /// The upper limit of the rate is.
+    pub by_limit: Option<Base>,
+    /// What ended the search where it found no base.
+    pub end: Option<SearchEnd>,
+}
+
+/// What has no rate for wider bases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<SearchEnd>)]
+pub enum SearchEnd {
+    /// The domain of the model.
+    Model,
+    /// The hazard curve.
+    Hazard,
+}
+
+/// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
+pub const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
+/// Accuracy of ln of a side, and of ln of a rate.
+const ACCURACY: f64 = 1e-4;
+const RATE_ACCURACY: f64 = 5e-4;
+/// ln of a rate falls with ln of a side by more than this, by 5 or so: steps by it go a little too far.
+const FALL: f64 = 3.0;
+/// Annual rates count as no less.
+const LEAST: f64 = 1e-12;
+
+impl Site {
+    /// Finds the bases with which the annual rate of overturning is a target, at the same height, rule of eta
+    /// and relative offset: of another width, else with both sides changed. `rate` is that of the object as
+    /// it is, `subject` joins an object with its models.
+    pub fn bases(
+        &self,
+        object: &Object,
+        subject: &dyn Fn(&Object) -> Option<Subject>,
+        rate: Limited,
+        target: f64,
+    ) -> Bases {
+        let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
+        let mut bases = Bases::default();
+        for base in [Base::Width, Base::Sides] {
+            if bases.by_limit.is_none()
+                && let Some([least, start, most]) = sides(object, base)
+            {
+                let search = Search { site: self, object, subject, base, target, least, most };
+                let estimate = search.ln_side(start, Site::overturning);
+                let limit = estimate.and_then(|ln_side| {
+                    // The limit is as far above the rate as it is now, or so.
+                    let mut near = (ln_side + ln_margin / FALL).min(most);
+                    if search.excess(near, Site::overturning).is_err() {
+                        near = search.last_known(ln_side, near);
+                    }
+                    search.ln_side(near, upper_limit)
+                });
+                let [estimate, by_limit] = [estimate, limit].map(|side| side.ok().map(|ln| base(ln.exp())));
+                bases = Bases { by_estimate: bases.by_estimate.or(estimate), by_limit, end: limit.err() };
+            }
+        }
+        bases
+    }
+}
+
+impl Base {
+    /// Returns the width, if that alone is meant.
+    pub fn width(self) -> Option<f64> {
+        if let Base::Width(width) = self { Some(width) } else { None }
+    }
+
+    /// Returns the least of both sides, if both are meant.
+    pub fn sides(self) -> Option<f64> {
+        if let Base::Sides(side) = self { Some(side) } else { None }
+    }
+
+    /// Puts it under an object.
+    fn under(self, object: &Object) -> Object {
+        let shape = &object.shape;
+        match self {
+            Base::Width(width) => object.resized(width, shape.depth),
+            Base::Sides(side) => object
+                .resized(shape.width.unwrap_or(side).max(side), shape.depth.map(|depth| depth.max(side))),
+        }
+    }
+}
+
+/// Returns ln of the least side, of the side as it is, or nearest to that, and of the most; none of both
+/// sides without a depth.
+fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
+    let shape = &object.shape;
+    let (width, height) = shape.width.zip(shape.height)?;
+    let side = match base(width) {
+        Base::Width(width) => width,
+        Base::Sides(width) => shape.depth?.min(width),
+    };
+    let centre_height = shape.centre_height.unwrap_or(0.5 * height);
+    let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
+    let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
+    Some([least, side.ln().clamp(least, most), most])
+}
+
+/// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
+struct Search<'a> {
+    site: &'a Site,
+    object: &'a Object,
+    subject: &'a dyn Fn(&Object) -> Option<Subject>,
+    base: fn(f64) -> Base,
+    target: f64,
+    least: f64,
+    most: f64,
+}
+
+/// A rate at a site; none where the hazard ends too early for it.
+type Rate = fn(&Site, &Subject) -> Option<f64>;
+
+fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
+    let Limited { value, high, .. } = site.rates(subject).overturning;
+    value.and(high)
+}
+
+impl Search<'_> {
+    /// Computes ln of a rate over the target.
+    fn excess(&self, ln_side: f64, rate: Rate) -> Result<f64, SearchEnd> {
+        let resized = (self.base)(ln_side.exp()).under(self.object);
+        let subject = (self.subject)(&resized).ok_or(SearchEnd::Model)?;
+        let rate = rate(self.site, &subject).ok_or(SearchEnd::Hazard)?;
+        Ok((rate.max(LEAST) / self.target).ln())
+    }
+
+    /// Finds ln of the first side, outwards from one, at which the rate is the target, by steps, and between
+    /// the last two by Brent's method; the least side if the rate is below the target even there.
+    fn ln_side(&self, start: f64, rate: Rate) -> Result<f64, SearchEnd> {
+        let (mut side, mut off) = (start, self.excess(start, rate)?);
+        let (mut edge, mut end) = (if off > 0.0 { self.most } else { self.least }, SearchEnd::Model);
+        let mut step = off / FALL;
+        while off.abs() > RATE_ACCURACY {
+            let mut next = if step.abs() < (edge - side).abs() { side + step } else { edge };
+            if next == side {
+                return if off > 0.0 { Err(end) } else { Ok(side) };
+            }
+            let there = self.excess(next, rate).or_else(|early| {
+                (edge, end) = (self.last_known(side, next), early);
+                next = edge;
+                self.excess(next, rate)
+            })?;
+            if (there > 0.0) != (off > 0.0) {
+                return Bracket { search: self, rate, ends: [(side, off), (next, there)] }.root().ok_or(end);
+            }
+            (side, off, step) = (next, there, 2.0 * step);
+        }
+        Ok(side)
+    }
+
+    /// Finds the last side with a rate on the way from one that has a rate to one that has none.
+    fn last_known(&self, mut side: f64, mut beyond: f64) -> f64 {
+        while (beyond - side).abs() > ACCURACY {
+            let middle = 0.5 * (side + beyond);
+            *(if self.excess(middle, Site::overturning).is_ok() { &mut side } else { &mut beyond }) = middle;
+        }
+        side
+    }
+}
+
+/// Two sides with excesses of different signs.
+struct Bracket<'a> {
+    search: &'a Search<'a>,
+    rate: Rate,
+    ends: [(f64, f64); 2],
+}
+
+impl Bracket<'_> {
+    fn root(self) -> Option<f64> {
+        let solver = BrentRoot::new(self.ends[0].0, self.ends[1].0, ACCURACY);
+        let search =
+            Executor::new(self, solver).timer(false).configure(|state| state.target_cost(RATE_ACCURACY));
+        search.run().ok()?.state.take_best_param()
+    }
+}
+
+impl CostFunction for Bracket<'_> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, ln_side: &f64) -> Result<f64, Error> {
+        let known = self.ends.iter().find(|(end, _)| end == ln_side);
+        let excess = known.map_or_else(|| self.search.excess(*ln_side, self.rate), |(_, off)| Ok(*off));
+        excess.map_err(|end| Error::msg(end.to_string()))
+    }
+}

@@ -1,0 +1,99 @@
+//! Free-standing structures in earthquakes: the probability that one rocks, rocks too far, or overturns, and
+//! how often this happens at a site.
+//!
+//! A cabinet, a statue or a frame on rocking columns stays on its base until the ground acceleration exceeds
+//! g tan *α*. Then it rocks, and either comes to rest or overturns. Its response depends on three parameters:
+//! the frequency parameter *p* (rad/s; smaller for larger blocks), the slenderness *α* (rad; width over
+//! height is tan *α*), and the coefficient of restitution *η* (the ratio of the velocities after and before
+//! an impact). PGA decides whether it rocks; PGA and PGV together, whether it overturns.
+//!
+//! The method is that of Dimitrakopoulos & Paraskeva (2015), *Dimensionless fragility curves for rocking
+//! response to near-fault excitations* (Earthquake Engineering & Structural Dynamics), extended to recorded
+//! motions, other structures and hazard curves.
+//!
+//! # From an object to its annual rate
+//!
+//! Without simulation, by the universal surface: a regression on the responses of many structures.
+//!
+//! ```
+//! use rockfrag_core::fragility::Kind;
+//! use rockfrag_core::hazard::{Hazard, HazardCurve, Site, probability_in_years};
+//! use rockfrag_core::object::{Object, Subject};
+//!
+//! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
+//! let cabinet = Object::block("cabinet", 0.5, 1.9);
+//! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+//! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded.
+//! let pga = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
+//! let sa_1s = HazardCurve::new(vec![(0.5, 2e-2), (4.0, 5e-4), (15.0, 8e-6), (32.0, 4e-7)])?;
+//! let rates = Site::new(Hazard::with_spectrum(pga, &sa_1s)?).rates(&subject);
+//! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };
+//! let p = rate.map(|rate| 100.0 * probability_in_years(rate, 50.0));
+//! println!("{:.1} % in 50 years ({:.1} to {:.1} %)", p.value, p.low, p.high);
+//! # assert!(0.0 < rate.low && rate.low < rate.value && rate.value < rate.high && rate.high < 0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The limits account for the uncertainty of the model, magnitude, PGV, restitution, object and floor. An
+//! [`Object`](object::Object) can carry more detail: depth, floor, what was measured. A
+//! [`Motion`](hazard::Motion) in place of a site gives probabilities.
+//!
+//! # The response to a record
+//!
+//! ```
+//! use rockfrag_core::rocking::{Outcome, Record, Structure, simulate};
+//!
+//! let cabinet = Structure::rectangular_block("cabinet", 0.8, 2.2, None)?;
+//! // A sine of 2 Hz and 6 m/s2, every 5 ms.
+//! let sine = |k: i32| 6.0 * (std::f64::consts::TAU * 2.0 * 0.005 * f64::from(k)).sin();
+//! let acceleration: Vec<f64> = (0..400).map(sine).collect();
+//! let response = simulate(&cabinet, &Record::new(&acceleration, 0.005)?);
+//! // The largest rotation over the slenderness, |theta|max / alpha.
+//! let Outcome::SafeRocking(demand) = response.outcome else { panic!("{response:?}") };
+//! assert!(0.0 < demand && demand < 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`rocking::trace`] gives the rotation over time. The folder `examples` has two programs: the rate and
+//! probability of a cabinet, and the way from earthquake scenarios to a fragility curve.
+//!
+//! # What is where
+//!
+//! | module | holds | in the paper |
+//! |---|---|---|
+//! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
+//! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
+//! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
+//! | [`object`] | what is known of an object, and what is not | |
+//! | [`hazard`] | hazard curves, annual rates, probabilities under one motion | |
+//! | [`records`] | recorded motions: processing, rotation, pulses | |
+//! | [`studies`] | validation, comparison with the paper | tables, worked example |
+//! | [`statistics`] | regressions and distributions | Eqs. 16, 17, 19 to 22 |
+//! | [`paper`] | what the paper publishes | sections 2 and 3 |
+//!
+//! # Conventions
+//!
+//! Names end in their unit: `pga_m_s2`, `p_rad_s`. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
+//! Eq. 13. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
+//! numbers for any number of threads.
+//!
+//! Nothing here reads a file, asks the time or prints. The crate `rockfrag` reads the files of agencies and runs these
+//! steps over Parquet files: `rockfrag --help`.
+
+#![warn(missing_docs)]
+
+pub mod fragility;
+pub mod hazard;
+pub mod motion;
+pub mod number;
+pub mod object;
+pub mod paper;
+pub mod plausibility;
+pub mod random;
+pub mod records;
+pub mod rocking;
+pub mod spelling;
+pub mod statistics;
+pub mod studies;
+pub mod units;
+pub mod warning;

@@ -1,0 +1,107 @@
+//! Samples the random parameters of scenarios (section 2.1.1).
+
+use rand::RngExt;
+use rand::seq::SliceRandom;
+
+use super::scenario::Scenario;
+use crate::random::{Purpose, stream};
+use crate::spelling::unknown_word;
+
+/// Sampling of the four random parameters in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Design>)]
+pub enum Design {
+    /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
+    Lhs,
+    /// Independent samples.
+    Random,
+}
+
+/// Number of random parameters: Vp, Tp, gamma and nu.
+const DIMENSIONS: usize = 4;
+
+/// The magnitude-distance grid and how its cells are sampled (section 2.1.1).
+///
+/// ```
+/// use rockfrag_core::motion::{Design, Grid};
+/// let grid = Grid { mw: vec![6.0, 7.0], re_km: vec![10.0], samples: 5, design: Design::Lhs, seed: 42 };
+/// let scenarios = grid.scenarios_of_cell(1);
+/// assert_eq!((grid.cells(), scenarios.len(), scenarios[0].mw), (2, 5, 7.0));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Moment magnitudes.
+    pub mw: Vec<f64>,
+    /// Distances, km.
+    pub re_km: Vec<f64>,
+    /// Scenarios in each cell.
+    pub samples: usize,
+    /// How a cell is sampled.
+    pub design: Design,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+impl Grid {
+    /// Returns the number of cells: magnitudes times distances.
+    pub fn cells(&self) -> usize {
+        self.mw.len() * self.re_km.len()
+    }
+
+    /// Begins to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
+    pub fn cell(&self, cell: usize) -> Cell<'_> {
+        let strata = || std::array::from_fn(|dimension| self.strata(cell, dimension));
+        Cell { grid: self, cell, strata: (self.design == Design::Lhs).then(strata) }
+    }
+
+    /// Draws the stratum of each sample of a cell, for one parameter.
+    fn strata(&self, cell: usize, dimension: usize) -> Vec<u32> {
+        let mut strata: Vec<u32> = (0..self.samples as u32).collect();
+        let row = (cell * DIMENSIONS + dimension) as u64;
+        strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
+        strata
+    }
+
+    /// Samples the scenarios of a cell.
+    pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
+        let cell = self.cell(cell);
+        (0..self.samples).map(|sample| cell.scenario(sample)).collect()
+    }
+}
+
+/// A cell of the grid.
+pub struct Cell<'a> {
+    grid: &'a Grid,
+    cell: usize,
+    /// The stratum of each sample, for each parameter of a Latin hypercube.
+    strata: Option<[Vec<u32>; DIMENSIONS]>,
+}
+
+impl Cell<'_> {
+    /// Samples a scenario of the cell.
+    pub fn scenario(&self, sample: usize) -> Scenario {
+        let Grid { mw, re_km, .. } = self.grid;
+        let (mw, re_km) = (mw[self.cell / re_km.len()], re_km[self.cell % re_km.len()]);
+        Scenario {
+            scenario_id: self.scenario_id(sample) as i64,
+            cell: self.cell as i32,
+            sample: sample as i32,
+            ..Scenario::at_quantiles(mw, re_km, self.quantiles(sample))
+        }
+    }
+
+    /// Samples a point of the unit cube.
+    pub fn quantiles(&self, sample: usize) -> [f64; DIMENSIONS] {
+        let mut random = stream(self.grid.seed, Purpose::Sample, self.scenario_id(sample));
+        // The quantile of 0 is infinite.
+        let within = std::array::from_fn(|_| random.random::<f64>().max(f64::EPSILON));
+        let Some(strata) = &self.strata else { return within };
+        std::array::from_fn(|d| (f64::from(strata[d][sample]) + within[d]) / self.grid.samples as f64)
+    }
+
+    fn scenario_id(&self, sample: usize) -> u64 {
+        (self.cell * self.grid.samples + sample) as u64
+    }
+}

@@ -1,0 +1,209 @@
+//! An object with the models that predict for it, and its uncertainty: changes that are made when
+//! they are asked for.
+
+use super::given::{Object, Reason};
+use crate::fragility::{Direction, Kind, Model, Z_95};
+use crate::motion::{Floor, IntensityMeasures, Peaks};
+use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
+use crate::rocking::Structure;
+use crate::spelling::unknown_word;
+use crate::warning::Warning;
+
+/// What an error comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Part>)]
+pub enum Part {
+    /// Parameters of the fragility model.
+    Fit,
+    /// Magnitude of the earthquakes.
+    Magnitude,
+    /// Level of PGV / PGA.
+    Velocity,
+    /// Coefficient of restitution.
+    Eta,
+    /// Centre of mass and inertia.
+    Object,
+    /// Building under the object.
+    Floor,
+    /// The hazard itself, where its fractiles are given.
+    Hazard,
+}
+
+impl Part {
+    /// What is unknown, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Part::Fit => "the fragility",
+            Part::Magnitude => "magnitude",
+            Part::Velocity => "PGV",
+            Part::Eta => "eta",
+            Part::Object => "the object's body",
+            Part::Floor => "the building",
+            Part::Hazard => "the hazard",
+        }
+    }
+}
+
+/// An object in its directions, and its uncertainties.
+///
+/// ```
+/// use rockfrag_core::fragility::Kind;
+/// use rockfrag_core::object::{Object, Part, Subject};
+///
+/// let mut rack = Object::block("rack", 0.6, 1.9);
+/// rack.shape.depth = Some(0.8);
+/// let subject = Subject::shipped(&rack, Kind::Recorded, 0.10)?;
+/// // It may fall over its width or over its depth; the loss at an impact is not known.
+/// assert_eq!(subject.directions.len(), 2);
+/// assert_eq!(subject.unknowns[0].part, Part::Eta);
+/// let bouncier = subject.changed(&subject.unknowns[0].high);
+/// assert!(bouncier[0].structure.eta > subject.directions[0].structure.eta);
+/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subject {
+    /// The directions in which it falls, the weaker first; one or more.
+    pub directions: Vec<Direction>,
+    /// What is not known of them.
+    pub unknowns: Vec<Unknown>,
+}
+
+/// Something that is not known exactly: a number, a change of a subject, or what follows from either.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unknown<T = Change> {
+    /// What it is a part of.
+    pub part: Part,
+    /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
+    pub low: T,
+    /// At its 97.5 % quantile, or 84 % fractile.
+    pub high: T,
+}
+
+impl<T> Unknown<T> {
+    /// Finds what follows from either end.
+    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> Unknown<U> {
+        Unknown { part: self.part, low: result(&self.low), high: result(&self.high) }
+    }
+}
+
+impl<T: Clone> Unknown<T> {
+    /// Takes the results with the errors of models, which follow the first, each at both quantiles.
+    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = Unknown<T>> {
+        let ends = results[1..].chunks_exact(2);
+        ends.map(|ends| Unknown { part: Part::Fit, low: ends[0].clone(), high: ends[1].clone() })
+    }
+}
+
+/// A change of a subject.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// Other structures, one for each direction.
+    Structures(Vec<Structure>),
+    /// Another floor.
+    Floor(Floor),
+}
+
+/// Standard deviation of the logarithm of a building's period that is not given.
+pub const SD_OF_PERIOD: f64 = 0.25;
+/// Below this a coefficient of restitution is more likely a typing error.
+const LOW_ETA: f64 = 0.5;
+
+impl Subject {
+    /// Joins the [sides](Object::sides) of an object with the model of each on the ground, and puts it on
+    /// its floor.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    pub fn new(object: &Object, models: Vec<Model>) -> Result<Subject, Reason> {
+        let (sides, floor) = (object.sides()?, object.place.floor()?);
+        let mut unknowns = Vec::new();
+        // The sides of an object have the same parts unknown.
+        for (number, Unknown { part, .. }) in sides[0].unknowns.iter().enumerate() {
+            let all = sides.iter().map(|side| &side.unknowns[number]);
+            let (low, high) = all.map(|unknown| (unknown.low.clone(), unknown.high.clone())).unzip();
+            unknowns.push(Unknown {
+                part: *part,
+                low: Change::Structures(low),
+                high: Change::Structures(high),
+            });
+        }
+        if let Some(floor) = floor {
+            let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
+            let off = Unknown { part: Part::Floor, low: -Z_95, high: Z_95 };
+            unknowns.push(
+                off.map(|off| Change::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })),
+            );
+        }
+        let directions = sides
+            .into_iter()
+            .zip(models)
+            .map(|(side, model)| Some(Direction { structure: side.structure, model: model.on(floor)? }));
+        let problem = "period: the paper's model is that of the ground";
+        let directions: Option<Vec<Direction>> = directions.collect();
+        let directions = directions.ok_or_else(|| Reason::Implausible(problem.to_string()))?;
+        Ok(Subject { directions, unknowns })
+    }
+
+    /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is
+    /// a demand |theta|max / alpha above `limit_state`, or overturning.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    pub fn shipped(object: &Object, kind: Kind, limit_state: f64) -> Result<Subject, Reason> {
+        let sides = object.sides()?;
+        let models = sides.iter().map(|side| Model::shipped(kind, &side.structure, limit_state));
+        Subject::new(object, models.collect())
+    }
+
+    /// Makes the directions with a change.
+    pub fn changed(&self, change: &Change) -> Vec<Direction> {
+        let mut directions = self.directions.clone();
+        match change {
+            Change::Structures(structures) => {
+                for (direction, structure) in directions.iter_mut().zip(structures) {
+                    direction.structure = structure.clone();
+                }
+            }
+            Change::Floor(floor) => {
+                for Direction { model, .. } in &mut directions {
+                    if let Some(moved) = model.clone().on(Some(*floor)) {
+                        *model = moved;
+                    }
+                }
+            }
+        }
+        directions
+    }
+
+    /// Finds what follows with each unknown at its quantiles.
+    pub fn ends<T>(&self, result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
+        let all = self.unknowns.iter();
+        all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
+    }
+
+    /// Warns of structures that are hardly possible.
+    pub fn structure_warnings(&self) -> Vec<Warning> {
+        self.directions.iter().flat_map(|direction| structure_warnings(&direction.structure)).collect()
+    }
+
+    /// Warns of structures that are hardly possible, and of predictions under a motion.
+    pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
+        let mut warnings = self.structure_warnings();
+        for Direction { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0) {
+            let measures = IntensityMeasures::new(structure, motion, None, None);
+            warnings.extend(model.warnings(structure, &measures));
+        }
+        warnings.sort();
+        warnings.dedup();
+        warnings
+    }
+}
+
+/// Warns of a structure that is hardly possible.
+pub fn structure_warnings(structure: &Structure) -> Vec<Warning> {
+    let is_unlike = structure.p_rad_s < LEAST_P_RAD_S || structure.alpha_rad < LEAST_ALPHA_RAD;
+    let size = is_unlike.then_some(Warning::ImplausibleSize);
+    size.into_iter().chain((structure.eta < LOW_ETA).then_some(Warning::LowRestitution)).collect()
+}

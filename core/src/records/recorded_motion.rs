@@ -1,0 +1,57 @@
+//! A record as in its file.
+
+use crate::units::Unit;
+
+/// Where a record is from, as named in its file.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct Origin {
+    pub earthquake: Option<String>,
+    pub mw: Option<f64>,
+    /// Distance from the rupture, km.
+    pub re_km: Option<f64>,
+    pub station: Option<String>,
+    pub component: Option<String>,
+    /// Direction of positive acceleration, degrees clockwise from north; `None` for a vertical component.
+    pub azimuth_deg: Option<f64>,
+}
+
+/// One component of a record.
+#[derive(Debug, Clone, PartialEq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub struct RecordedMotion {
+    pub dt_s: f64,
+    pub acceleration_m_s2: Vec<f64>,
+    pub origin: Origin,
+    /// Whether the instrument is in a borehole, where rocks do not rock.
+    pub is_in_borehole: bool,
+    pub header_pga: Option<HeaderPga>,
+    /// Name of the file format.
+    pub format: &'static str,
+    /// Unit of the samples in the file.
+    pub unit: Unit,
+}
+
+impl RecordedMotion {
+    /// Makes a record of samples in a unit of acceleration, `dt_s` apart.
+    pub fn new(dt_s: f64, samples: Vec<f64>, unit: Unit, origin: Origin) -> RecordedMotion {
+        RecordedMotion {
+            dt_s,
+            acceleration_m_s2: samples.into_iter().map(|value| value * unit.si).collect(),
+            origin,
+            is_in_borehole: false,
+            header_pga: None,
+            format: "",
+            unit,
+        }
+    }
+}
+
+/// A peak acceleration in a header.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeaderPga {
+    /// Absolute value, m/s2.
+    pub m_s2: f64,
+    /// Half a unit of its last digit, m/s2.
+    pub rounding_m_s2: f64,
+}

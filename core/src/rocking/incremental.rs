@@ -1,0 +1,245 @@
+//! Incremental dynamic analysis: one structure under one motion at rising intensity (Vamvatsikos & Cornell
+//! 2002, Incremental dynamic analysis, Earthquake Engineering & Structural Dynamics 31, 491-514).
+//!
+//! Rocking is not monotone in the intensity: a structure that overturns under a motion may survive a stronger
+//! one of the same shape, and a finer scan finds more changes of outcome, since the boundaries are fractal.
+//! There is no single capacity. At its resolution, a scan returns the least overturning intensity, the
+//! overturning share of each band above it, and the windows in which no simulated intensity overturns.
+
+use serde::{Deserialize, Serialize};
+
+use super::response::{Outcome, Response};
+use crate::spelling::unknown_word;
+
+/// Halvings of a step between levels where the structure rocks: the resolution.
+const HALVINGS: i32 = 4;
+/// Further halvings where the demand may reach the tipping point.
+const CLOSER_HALVINGS: i32 = 4;
+/// A safe window has at least this many steps, of equal or smaller ratios.
+const WINDOW_PARTS: f64 = 16.0;
+/// Relative error of the intensities at which the outcome changes.
+const TOLERANCE: f64 = 1e-3;
+/// Demand |theta|max / alpha at the tipping point on still ground.
+const TIPPING: f64 = 1.0;
+/// Between impacts the demand is a continuous function of the intensity. Within a step it may grow by this
+/// many times its change over the step or a neighbouring step; a larger factor misses fewer grazing peaks.
+const GROWTH: f64 = 8.0;
+/// Keeps rounding from causing one more halving.
+const ROUNDING: f64 = 1.0 + 1e-12;
+
+/// The intensities of an incremental dynamic analysis: levels in equal ratios, halved where the structure
+/// rocks, and halved further where the outcome changes or a peak may graze the tipping point.
+///
+/// ```
+/// use rockfrag_core::rocking::{Outcome, Response, Scan, ScanPoint};
+/// // A structure that overturns from an intensity of 3 on; others are simulated.
+/// let respond = |point: &ScanPoint| {
+///     let outcome = if point.intensity < 3.0 { Outcome::SafeRocking(0.5) } else { Outcome::Overturned };
+///     Response { outcome, impacts: 0 }
+/// };
+/// let scan = Scan::new(1.0, 10.0, 8);
+/// let found = scan.run(1, |points| Ok::<_, ()>(points.iter().map(respond).collect()))?;
+/// assert!(scan.capacity(&found[0]).overturning.is_some_and(|intensity| (intensity - 3.0).abs() < 0.003));
+/// # Ok::<(), ()>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// Intensities at which every case is simulated, ascending.
+    pub levels: Vec<f64>,
+    /// Ratio of neighbouring levels.
+    pub ratio: f64,
+}
+
+/// The response at one intensity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScanResponse {
+    /// Intensity of the motion.
+    pub intensity: f64,
+    /// Response to it.
+    pub response: Response,
+}
+
+/// A case (a structure under a motion) and an intensity to simulate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScanPoint {
+    /// Index of the case.
+    pub case: usize,
+    /// Intensity to simulate.
+    pub intensity: f64,
+}
+
+impl Scan {
+    /// Divides the range from `from` to `to` in `steps` equal ratios.
+    pub fn new(from: f64, to: f64, steps: usize) -> Scan {
+        let below = (0..steps).map(|k| from * (to / from).powf(k as f64 / steps as f64));
+        Scan { levels: below.chain([to]).collect(), ratio: (to / from).powf(1.0 / steps as f64) }
+    }
+
+    /// Returns the resolution: the ratio of neighbouring intensities simulated wherever a case rocks.
+    /// Narrower overturning ranges may be missed; narrower safe windows do not count.
+    pub fn finest_ratio(&self) -> f64 {
+        self.ratio_after(HALVINGS)
+    }
+
+    fn ratio_after(&self, halvings: i32) -> f64 {
+        self.ratio.powf(0.5_f64.powi(halvings))
+    }
+
+    /// Simulates all cases at as many intensities as needed, in rounds. `respond` simulates the points of a
+    /// round, in order. Returns the responses of each case at ascending intensity, or the error of `respond`.
+    pub fn run<E>(
+        &self,
+        cases: usize,
+        respond: impl Fn(&[ScanPoint]) -> Result<Vec<Response>, E>,
+    ) -> Result<Vec<Vec<ScanResponse>>, E> {
+        let mut found: Vec<Vec<ScanResponse>> = vec![Vec::new(); cases];
+        let mut points: Vec<ScanPoint> = (0..cases)
+            .flat_map(|case| self.levels.iter().map(move |&intensity| ScanPoint { case, intensity }))
+            .collect();
+        while !points.is_empty() {
+            for (&ScanPoint { case, intensity }, response) in points.iter().zip(respond(&points)?) {
+                found[case].push(ScanResponse { intensity, response });
+            }
+            points.clear();
+            for (case, found) in found.iter_mut().enumerate() {
+                found.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
+                points.extend(self.missing(found).map(|intensity| ScanPoint { case, intensity }));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Returns the intensities of a case still to simulate: the middles of steps that are too wide.
+    fn missing<'a>(&'a self, found: &'a [ScanResponse]) -> impl Iterator<Item = f64> + 'a {
+        let first = found.iter().position(ScanResponse::overturns).unwrap_or(found.len());
+        let runs = found.chunk_by(|a, b| a.overturns() == b.overturns());
+        let window_parts = runs.flat_map(move |run| {
+            let part = self.is_window(run).then(|| width(run).powf(1.0 / WINDOW_PARTS));
+            std::iter::repeat_n(part, run.len())
+        });
+        found.windows(2).zip(window_parts).enumerate().filter_map(move |(step, (pair, window_part))| {
+            let [below, above] = [&pair[0], &pair[1]];
+            let widest = if below.overturns() != above.overturns() {
+                1.0 + TOLERANCE
+            } else if above.response.outcome == Outcome::NoRocking {
+                return None;
+            } else if (step < first || window_part.is_some()) && may_tip(found, step) {
+                self.ratio_after(HALVINGS + CLOSER_HALVINGS)
+            } else {
+                self.finest_ratio().min(window_part.filter(|_| step > first).unwrap_or(f64::INFINITY))
+            };
+            let is_wide = above.intensity / below.intensity > widest * ROUNDING;
+            is_wide.then(|| (below.intensity * above.intensity).sqrt())
+        })
+    }
+
+    /// Returns whether a run of responses is safe and at least as wide as the resolution.
+    fn is_window(&self, run: &[ScanResponse]) -> bool {
+        !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio()
+    }
+
+    /// Finds the capacity in responses at ascending intensity.
+    pub fn capacity(&self, responses: &[ScanResponse]) -> Capacity {
+        let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
+        let safe = runs.next_if(|run| !run[0].overturns());
+        let safe_below = safe.and_then(|run| run.last()).map(|last| last.intensity);
+        let overturning = runs.next().map(|run| run[0].intensity);
+        let mut windows = Vec::new();
+        while let Some(run) = runs.next() {
+            if self.is_window(run) {
+                let high = runs.peek().map(|_| run[run.len() - 1].intensity);
+                windows.push(SafeWindow { low: run[0].intensity, high });
+            }
+        }
+        let status = match (safe_below, overturning) {
+            (_, None) => CapacityStatus::Safe,
+            (None, Some(_)) => CapacityStatus::Below,
+            (Some(_), Some(_)) => CapacityStatus::Overturns,
+        };
+        let safe_up_to = responses.iter().rfind(|at| !at.overturns()).map(|at| at.intensity);
+        Capacity { status, safe_below, overturning, windows, safe_up_to }
+    }
+
+    /// Computes the overturning share of each band between levels, in logarithms of the intensity. A step
+    /// with one overturning end counts half.
+    pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
+        let bands = self.levels.windows(2).map(|band| {
+            let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < band[end]));
+            let sum: f64 = responses[from..=to].windows(2).map(overturning_width).sum();
+            (sum / (band[1] / band[0]).ln()).min(1.0)
+        });
+        bands.collect()
+    }
+}
+
+/// Returns the part of a step that overturns, in logarithms: half of it where one end does.
+fn overturning_width(step: &[ScanResponse]) -> f64 {
+    let ends = step.iter().filter(|end| end.overturns()).count();
+    0.5 * ends as f64 * (step[1].intensity / step[0].intensity).ln()
+}
+
+/// Returns the ratio of the last intensity of a run to its first.
+fn width(run: &[ScanResponse]) -> f64 {
+    run[run.len() - 1].intensity / run[0].intensity
+}
+
+/// Returns whether the demand may reach the tipping point in a step, by its rate of change in safe steps
+/// near.
+fn may_tip(found: &[ScanResponse], step: usize) -> bool {
+    let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
+    let rates = beside.windows(2).filter_map(|pair| {
+        let change = pair[1].response.outcome.demand()? - pair[0].response.outcome.demand()?;
+        Some(change.abs() / (pair[1].intensity / pair[0].intensity).ln())
+    });
+    let ends = &found[step..=step + 1];
+    let growth = GROWTH * rates.fold(0.0, f64::max) * (ends[1].intensity / ends[0].intensity).ln();
+    ends.iter().filter_map(|end| end.response.outcome.demand()).any(|demand| demand + growth > TIPPING)
+}
+
+impl ScanResponse {
+    /// Whether the structure overturns.
+    pub fn overturns(&self) -> bool {
+        self.response.outcome == Outcome::Overturned
+    }
+}
+
+/// Whether and where a structure overturns in a scan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<CapacityStatus>)]
+pub enum CapacityStatus {
+    /// Overturns from an intensity within the scan.
+    Overturns,
+    /// Safe at all simulated intensities.
+    Safe,
+    /// Overturns at the lowest intensity of the scan.
+    Below,
+}
+
+/// The overturning capacity of a structure in a scan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Capacity {
+    /// Whether and where it overturns.
+    #[serde(rename = "capacity")]
+    pub status: CapacityStatus,
+    /// Largest safe intensity below the first overturning one.
+    pub safe_below: Option<f64>,
+    /// Least overturning intensity.
+    #[serde(rename = "overturning_intensity")]
+    pub overturning: Option<f64>,
+    /// Safe ranges above it.
+    #[serde(skip)]
+    pub windows: Vec<SafeWindow>,
+    /// Largest safe intensity.
+    pub safe_up_to: Option<f64>,
+}
+
+/// A safe range above an overturning intensity, at least as wide as the resolution of the scan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SafeWindow {
+    /// Least safe intensity.
+    pub low: f64,
+    /// Largest safe intensity; none where the scan ends within the window.
+    pub high: Option<f64>,
+}

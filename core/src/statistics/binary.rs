@@ -1,0 +1,138 @@
+//! Probit regression of events by maximum likelihood: likelihood and maximum of Eqs. 19 to 22.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::clusters::sandwich;
+use super::design::{DesignMatrix, with_squares};
+use super::distributions::chi_squared_upper_tail;
+use super::fit::{Fit, FitStatus, predict};
+use super::newton::{Maximum, Objective, maximise};
+use super::normal;
+
+/// A fit needs this many events, and this many cases without.
+const LEAST_EVENTS: usize = 5;
+/// With a larger standard error of z the likelihood has no maximum.
+const ENDLESS: f64 = 1e3;
+
+/// A probit regression P(event) = Phi(z), z = b0 + b1 x1 + ...
+///
+/// ```
+/// use rockfrag_core::statistics::{FitStatus, probit};
+/// let x: Vec<f64> = (0..20).map(f64::from).collect();
+/// let fit = probit(&[x], &std::array::from_fn::<_, 20, _>(|k| k > 12 || k % 4 == 3))?;
+/// assert!(fit.fit.coefficients[1] > 0.0 && fit.fit.status == FitStatus::Ok);
+/// # Ok::<(), FitStatus>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProbitFit {
+    /// Coefficients and their covariance.
+    pub fit: Fit,
+    /// Logarithm of the likelihood at the maximum (Eq. 21).
+    pub log_likelihood: f64,
+}
+
+impl ProbitFit {
+    /// Computes Akaike's information criterion.
+    pub fn aic(&self) -> f64 {
+        2.0 * self.fit.coefficients.len() as f64 - 2.0 * self.log_likelihood
+    }
+
+    /// Computes the Bayesian information criterion.
+    pub fn bic(&self) -> f64 {
+        self.fit.coefficients.len() as f64 * (self.fit.n as f64).ln() - 2.0 * self.log_likelihood
+    }
+}
+
+/// Computes the log-likelihood (Eq. 21): the sum of ln Phi(z) over events (overturning) and ln(1 - Phi(z))
+/// over other cases, z = X b being (ln IM - mu) / beta of Eqs. 20 and 24. `x` is n x k, `b` has k elements.
+pub fn log_likelihood(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>) -> f64 {
+    let z = x * b;
+    z.iter().zip(events).map(|(&z, &event)| normal::ln_cdf(if event { z } else { -z })).sum()
+}
+
+/// Computes [`log_likelihood`] with its gradient and information matrix.
+fn derivatives(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>) -> Objective {
+    let k = b.len();
+    let z = x * b;
+    Objective::sum(events.len(), k, |case, sum| {
+        let sign = if events[case] { 1.0 } else { -1.0 };
+        let (ln_p, mills) = normal::ln_cdf_and_slope(sign * z[case]);
+        let curvature = mills * (mills + sign * z[case]);
+        sum.value += ln_p;
+        for i in 0..k {
+            sum.gradient[i] += sign * mills * x[(case, i)];
+            for j in 0..k {
+                sum.information[(i, j)] += curvature * x[(case, i)] * x[(case, j)];
+            }
+        }
+    })
+}
+
+/// Computes the maximum of the log-likelihood (Eq. 22).
+fn maximum(x: &DMatrix<f64>, events: &[bool]) -> Maximum {
+    let share = events.iter().filter(|event| **event).count() as f64 / events.len() as f64;
+    let mut start = DVector::zeros(x.ncols());
+    start[0] = normal::quantile(share);
+    maximise(|b| derivatives(x, events, b), start)
+}
+
+/// Fits the probability of `events` on the columns of `x`, each of length n, by maximum likelihood.
+///
+/// # Errors
+/// [`FitStatus::TooFewEvents`], [`FitStatus::Degenerate`], [`FitStatus::Separated`] or
+/// [`FitStatus::NotConverged`].
+pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, FitStatus> {
+    let count = events.iter().filter(|event| **event).count();
+    if count.min(events.len() - count) < LEAST_EVENTS {
+        return Err(FitStatus::TooFewEvents);
+    }
+    let design = DesignMatrix::new(x)?;
+    let Maximum { at, objective, converged } = maximum(&design.x, events);
+    let inverse = objective.information.cholesky().map(|factors| factors.inverse());
+    let inverse = inverse.filter(|inverse| !is_separated(&design.x, events, &at, inverse));
+    let inverse = inverse.ok_or(FitStatus::Separated)?;
+    if !converged {
+        return Err(FitStatus::NotConverged);
+    }
+    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY, events.len());
+    Ok(ProbitFit { fit, log_likelihood: log_likelihood(&design.x, events, &at) })
+}
+
+/// Returns whether events and other cases do not overlap in z, or the standard error of some z is so large
+/// that the likelihood has no maximum.
+fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance: &DMatrix<f64>) -> bool {
+    let z = x * b;
+    // Least and largest z of other cases, and of events.
+    let mut ends = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    for (&z, &event) in z.iter().zip(events) {
+        let (least, largest) = &mut ends[usize::from(event)];
+        (*least, *largest) = (least.min(z), largest.max(z));
+    }
+    // They may touch. Where z is the same for all cases, it separates nothing.
+    let [(least_other, largest_other), (least_event, largest_event)] = ends;
+    let do_not_overlap = largest_other <= least_event && least_other < largest_event;
+    let largest_variance = (x * covariance).component_mul(x).column_sum().max();
+    do_not_overlap || largest_variance > ENDLESS * ENDLESS
+}
+
+/// Fits as [`probit`], adds the clustered covariance, and tests the form: likelihood-ratio test of the
+/// squares and products of the predictors. `clusters` has the cluster of each case.
+pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
+    let mut probit = probit(x, events)?;
+    let z = predict(probit.fit.coefficients.as_slice(), x);
+    let signs = events.iter().map(|&event| if event { 1.0 } else { -1.0 });
+    let scores: Vec<f64> =
+        z.iter().zip(signs).map(|(&z, sign)| sign * normal::ln_cdf_and_slope(sign * z).1).collect();
+    (probit.fit.clustered, probit.fit.clusters) = sandwich(x, &scores, &probit.fit.covariance, clusters);
+    probit.fit.note_misfit(misfit(&probit, x, events));
+    Ok(probit)
+}
+
+/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
+fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
+    let columns = with_squares(x)?;
+    let wider = DesignMatrix::new(&columns).ok()?;
+    // If the wider curve separates the outcomes, its likelihood is larger still.
+    let gained = maximum(&wider.x, events).objective.value - probit.log_likelihood;
+    Some(chi_squared_upper_tail(2.0 * gained.max(0.0), (columns.len() - x.len()) as f64))
+}

@@ -1,0 +1,77 @@
+//! Ordinary least squares.
+
+use nalgebra::DVector;
+
+use super::clusters::sandwich;
+use super::design::{DesignMatrix, mean_and_sd, with_squares};
+use super::distributions::f_upper_tail;
+use super::fit::{Fit, FitStatus, predict};
+
+/// A linear regression y = b0 + b1 x1 + ... with normal errors.
+///
+/// ```
+/// use rockfrag_core::statistics::least_squares;
+/// let line = least_squares(&[[0.0, 1.0, 2.0, 3.0]], &[1.0, 3.1, 4.9, 7.0])?;
+/// assert!((line.fit.coefficients[1] - 1.98).abs() < 1e-9 && line.r2() > 0.99);
+/// # Ok::<(), rockfrag_core::statistics::FitStatus>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearFit {
+    /// Coefficients and their covariance.
+    pub fit: Fit,
+    /// Residual sum of squares.
+    pub rss: f64,
+    /// Sum of squares about the mean.
+    pub tss: f64,
+}
+
+impl LinearFit {
+    /// Computes the coefficient of determination R2.
+    pub fn r2(&self) -> f64 {
+        1.0 - self.rss / self.tss
+    }
+
+    /// Computes the residual standard deviation, with n - k degrees of freedom.
+    pub fn residual_sd(&self) -> f64 {
+        (self.rss / self.fit.degrees).sqrt()
+    }
+}
+
+/// Fits `y`, of length n, on an intercept and the columns of `x`, each of length n, by least squares.
+///
+/// # Errors
+/// [`FitStatus::Degenerate`] where the cases do not determine the coefficients, or `y` does not vary.
+pub fn least_squares(x: &[impl AsRef<[f64]>], y: &[f64]) -> Result<LinearFit, FitStatus> {
+    let design = DesignMatrix::new(x)?;
+    let (mean, _) = mean_and_sd(y).ok_or(FitStatus::Degenerate)?;
+    let y = DVector::from_column_slice(y);
+    let inverse = design.x.tr_mul(&design.x).cholesky().ok_or(FitStatus::Degenerate)?.inverse();
+    let mut b = &inverse * design.x.tr_mul(&y);
+    // One step of iterative refinement removes rounding errors.
+    b += &inverse * design.x.tr_mul(&(&y - &design.x * &b));
+    let rss = (&y - &design.x * &b).norm_squared();
+    let degrees = (y.len() - b.len()) as f64;
+    let fit = Fit::new(design.to_given(&b, &(inverse * (rss / degrees))), degrees, y.len());
+    Ok(LinearFit { fit, rss, tss: y.add_scalar(-mean).norm_squared() })
+}
+
+/// Fits as [`least_squares`], adds the clustered covariance, and tests the form: F test of the squares and
+/// products of the predictors. `clusters` has the cluster of each case.
+pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result<LinearFit, FitStatus> {
+    let mut linear = least_squares(x, y)?;
+    let fitted = predict(linear.fit.coefficients.as_slice(), x);
+    let residuals: Vec<f64> = y.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
+    let bread = &linear.fit.covariance * (linear.fit.degrees / linear.rss);
+    (linear.fit.clustered, linear.fit.clusters) = sandwich(x, &residuals, &bread, clusters);
+    linear.fit.note_misfit(misfit(&linear, x, y));
+    Ok(linear)
+}
+
+/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
+fn misfit(linear: &LinearFit, x: &[&[f64]], y: &[f64]) -> Option<f64> {
+    let columns = with_squares(x)?;
+    let wider = least_squares(&columns, y).ok()?;
+    let added = linear.fit.degrees - wider.fit.degrees;
+    let f = (linear.rss - wider.rss) / added / (wider.rss / wider.fit.degrees);
+    Some(f_upper_tail(f, added, wider.fit.degrees))
+}

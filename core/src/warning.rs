@@ -1,0 +1,165 @@
+//! Warnings about results.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::number::shown;
+use crate::spelling::unknown_word;
+
+/// A warning that could change a decision, the most important first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(PartialOrd, Ord)]
+#[expect(missing_docs, reason = "text() says it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Warning>)]
+pub enum Warning {
+    UnusualScenario,
+    ImplausibleRecord,
+    OtherPeak,
+    AtRim,
+    LoweredPeak,
+    ImplausibleSize,
+    LowRestitution,
+    HazardEndsEarly,
+    HazardExtrapolated,
+    HazardStartsLate,
+    MedianHazard,
+    NotFitted,
+    OtherStructure,
+    Extrapolated,
+    UnusualStructure,
+    PoorFit,
+    NoEvents,
+    FewEvents,
+    FewClusters,
+    ScanEndsEarly,
+    ScanStartsLate,
+    UnreadableFile,
+    NoPartner,
+    LeftOut,
+    OneDirection,
+    NotGiven,
+    Repeated,
+    UnusedColumns,
+}
+
+impl Warning {
+    /// Returns the text of the warning, at most 15 words.
+    pub fn text(self) -> &'static str {
+        use Warning::*;
+        match self {
+            UnusualScenario => "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km",
+            ImplausibleRecord => "this is not a plausible earthquake record",
+            AtRim => "beyond 4.5 g, 5 m/s or PGV/PGA 0.005 to 3 s: answered at that rim",
+            OtherPeak => "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?",
+            LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
+            ImplausibleSize => "taller or more slender than all but a few monuments: a wrong unit?",
+            LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
+            HazardEndsEarly => "the hazard curve ends too early: the result is a range",
+            HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
+            HazardStartsLate => "the hazard curve starts above the uplift intensity: rates are too low",
+            MedianHazard => "a median hazard curve, usually below the mean: rates are too low",
+            NotFitted => "not among the fitted structures: the universal surface is used",
+            OtherStructure => "calibrated on responses of a different structure (--name)",
+            Extrapolated => "outside the range of motions that the model was fitted to",
+            UnusualStructure => "the surface was fitted to p 0.4 to 8 rad/s, alpha to 0.50, eta from 0.70",
+            PoorFit => "the paper's curve or planes do not fit these responses",
+            NoEvents => "all or no responses overturned: the estimate rests on other structures",
+            FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
+            FewClusters => "fewer than ten earthquakes or cells: limits use a typical spread between them",
+            ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
+            ScanStartsLate => "most motions overturn the structure at the first intensity; lower --from",
+            UnreadableFile => "not imported",
+            UnusedColumns => "columns not used by rockfrag",
+            LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
+            OneDirection => "in the weaker direction alone: no motion has a pair in the other",
+            Repeated => "the same object again, counted as another",
+            NotGiven => "no value: answered as if nothing were known of it",
+            NoPartner => "no perpendicular component: left out",
+        }
+    }
+}
+
+/// Warnings, each with what it is about.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Warnings(BTreeMap<Warning, Subjects>);
+
+/// What a warning is about.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct Subjects {
+    /// The names of the first ones.
+    named: Vec<String>,
+    /// The number of all.
+    count: usize,
+}
+
+/// Subjects that a line names.
+const NAMED: usize = 3;
+/// Letters of a subject that a line shows.
+const LONGEST_SUBJECT: usize = 300;
+/// The name of a structure that has none.
+pub const UNNAMED: &str = "structure";
+
+impl Warnings {
+    /// Returns one line for each warning, the most important first, with the first subjects that it is about.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
+            let named = named.iter().map(|name| shown(name, LONGEST_SUBJECT)).collect::<Vec<_>>().join(", ");
+            match count.saturating_sub(NAMED) {
+                0 if named == UNNAMED => warning.text().to_string(),
+                0 => format!("{named}: {}", warning.text()),
+                more => format!("{named} and {more} more: {}", warning.text()),
+            }
+        };
+        self.0.iter().map(line).collect()
+    }
+
+    /// Adds a warning about a subject.
+    pub fn add(&mut self, warning: Warning, about: String) {
+        let subjects = self.0.entry(warning).or_default();
+        subjects.count += 1;
+        if subjects.named.len() < NAMED {
+            subjects.named.push(about);
+        }
+    }
+
+    /// Adds warnings about other subjects.
+    pub fn extend(&mut self, others: Warnings) {
+        for (warning, others) in others.0 {
+            let subjects = self.0.entry(warning).or_default();
+            subjects.count += others.count;
+            subjects.named.extend(others.named);
+            subjects.named.truncate(NAMED);
+        }
+    }
+
+    /// Drops a warning that does not hold after all.
+    pub fn remove(&mut self, warning: Warning) {
+        self.0.remove(&warning);
+    }
+
+    /// Joins the warnings of another stage, which may be about the same subjects.
+    pub fn join(&mut self, others: &Warnings) {
+        for (warning, others) in &others.0 {
+            let subjects = self.0.entry(*warning).or_default();
+            let new = others.named.iter().filter(|name| !subjects.named.contains(name));
+            let named = [subjects.named.clone(), new.cloned().collect()].concat();
+            // Of subjects without a name it is not known whether they are the same.
+            subjects.count = subjects.count.max(others.count).max(named.len());
+            subjects.named = named;
+            subjects.named.truncate(NAMED);
+        }
+    }
+}
+
+impl FromIterator<(Warning, String)> for Warnings {
+    fn from_iter<I: IntoIterator<Item = (Warning, String)>>(warnings: I) -> Warnings {
+        let mut all = Warnings::default();
+        for (warning, about) in warnings {
+            all.add(warning, about);
+        }
+        all
+    }
+}

@@ -1,0 +1,201 @@
+//! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a
+//! change.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rockfrag_core::fragility::{Kind, LimitState, Model, Peak, Z_95};
+use rockfrag_core::hazard::{
+    Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
+    SitesInGeneral, intensity_in_words, ratio_of_rates,
+};
+use rockfrag_core::motion::Peaks;
+use rockfrag_core::object::{Object, Part, Restitution, Subject};
+use rockfrag_core::statistics::Limited;
+use strum::VariantArray;
+
+/// A curve that ends where nothing is stronger.
+fn curve() -> HazardCurve {
+    HazardCurve::new(vec![(0.1, 0.2), (1.0, 1.8e-2), (4.0, 2.1e-3), (8.0, 3e-4), (20.0, 1e-5), (45.0, 1e-7)])
+        .unwrap()
+}
+
+fn over_pga() -> Site {
+    Site::new(Hazard::over(Peak::Pga, curve()))
+}
+
+fn block(width: f64) -> Subject {
+    Subject::shipped(&Object::block("block", width, 1.9), Kind::Recorded, 0.1).unwrap()
+}
+
+#[test]
+fn the_parts_of_a_rate_sum_to_the_rate() {
+    let pair = |k: usize| PairOfPeaks {
+        peaks: Peaks { pga_m_s2: 1.0 + k as f64, pgv_m_s: 0.1 + 0.1 * k as f64 },
+        annual_rate: 1e-3 / (1 + k) as f64,
+        mw: None,
+    };
+    let joint = Site::new(Hazard::Joint((0..12).map(pair).collect()));
+    for site in [over_pga(), joint] {
+        let (rate, parts) = (site.overturning(&block(0.5)).unwrap(), site.rate_by_intensity(&block(0.5), 60));
+        let sum = parts.rates.iter().sum::<f64>() + parts.beyond;
+        assert!((sum / rate - 1.0).abs() < 1e-3, "{sum} for {rate}");
+        assert!(parts.rates.iter().filter(|part| **part > 0.01 * rate).count() > 5);
+    }
+}
+
+#[test]
+fn the_fragility_at_a_site_integrates_to_its_rate() {
+    let (site, subject) = (over_pga(), block(0.5));
+    let (rate, points) = (site.rates(&subject), site.fragility(&subject).unwrap().points);
+    assert!(
+        points
+            .iter()
+            .flat_map(|point| [point.p.failure, point.p.overturning].map(|p| p.estimate().unwrap()))
+            .all(|p| { (0.0..=p.value).contains(&p.low) && (p.value..=1.0).contains(&p.high) })
+    );
+    let at = |im: f64, state: LimitState| {
+        let after = points.partition_point(|point| point.intensity < im).min(points.len() - 1);
+        let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
+        let share =
+            if after == 0 { 0.0 } else { (im / low.intensity).ln() / (high.intensity / low.intensity).ln() };
+        let [a, b] = [low, high].map(|point| point.p.get(state).value.unwrap());
+        if im < points[0].intensity { 0.0 } else { a + (b - a) * share.min(1.0) }
+    };
+    let states = [LimitState::Overturning, LimitState::Failure];
+    let sums =
+        curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
+    for (sum, rate) in sums.into_iter().zip([rate.overturning, rate.failure]) {
+        assert!((sum / rate.value.unwrap() - 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
+    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    for (over, mw) in [(Peak::Pga, None), (Peak::Pga, Some(7.0)), (Peak::Pgv, None), (Peak::Pgv, Some(5.5))] {
+        let Lognormal { at_16, theta, beta, largest_error, .. } =
+            SitesInGeneral { over, mw, ..general }.fragility(&block(0.5)).overturning;
+        let still = Motion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
+        for (level, Limited { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
+            let motion = match over {
+                Peak::Pga => Motion { pga_m_s2: value, ..still },
+                Peak::Pgv => Motion { pgv_m_s: value, ..still },
+            };
+            let p = motion.probabilities(&block(0.5)).states.overturning.value.unwrap();
+            assert!((p - level).abs() < 1e-6, "{p} for {level}");
+            assert!(low < value && high.is_none_or(|high| high > value.unwrap()));
+        }
+        assert!(beta.unwrap() > 0.1 && largest_error.unwrap() < 0.1);
+    }
+}
+
+#[test]
+fn the_fragility_of_a_thin_block_never_falls() {
+    // IM4 ends in the domain of the surface at 1.6 g.
+    let thin = Subject::shipped(&Object::block("thin", 0.2, 2.4), Kind::Recorded, 0.1).unwrap();
+    for over in [Peak::Pga, Peak::Pgv] {
+        let general = SitesInGeneral { over, mw: None, vs30_m_s: None, ratio_s: None };
+        for pair in general.fragility(&thin).points.windows(2) {
+            for state in [LimitState::Failure, LimitState::Overturning] {
+                let [before, after] = [&pair[0], &pair[1]].map(|point| point.p.get(state).value.unwrap());
+                assert!(after >= before - 1e-9, "{before} {after} from {} on", pair[0].intensity);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_no_recorded_motion_overturns_has_no_median() {
+    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    let overturning = general.fragility(&block(1.8)).overturning;
+    assert_eq!((overturning.theta.value, overturning.beta), (None, None));
+    assert_eq!(intensity_in_words(Peak::Pga, None), "> 4.5 g");
+}
+
+/// A block with its restitution, the model's parameters and the magnitude at these standard deviations.
+fn drawn(width: f64, z: &[f64]) -> f64 {
+    let mut object = Object::block("block", width, 1.9);
+    let median = block(width).directions[0].structure.eta;
+    object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
+    let mut subject = Subject::shipped(&object, Kind::Recorded, 0.1).unwrap();
+    let direction = &mut subject.directions[0];
+    let ends = direction.model.ends();
+    let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };
+    for (z, [low, high]) in z[2..].iter().zip(&ends) {
+        let (Model::Calibrated { overturning: low, .. }, Model::Calibrated { overturning: high, .. }) =
+            (low, high)
+        else {
+            panic!("the surface")
+        };
+        let step = z / (2.0 * Z_95);
+        overturning.c += step * (high.c - low.c);
+        overturning.ln_s += step * (high.ln_s - low.ln_s);
+        overturning.m += step * (high.m - low.m);
+    }
+    // That of motions is above a mean of the disaggregation.
+    let mean = 6.35 + 0.6 * z[1] - 0.25;
+    Site { mw: Some(mean), ..of_one_ratio() }.overturning(&subject).unwrap()
+}
+
+/// PGV / PGA that does not depend on magnitude.
+const RATIO_S: f64 = 0.1;
+
+fn of_one_ratio() -> Site {
+    let (peak, curve, velocity) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
+    Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
+}
+
+#[test]
+fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
+    let [before, after] = [0.5, 0.6].map(|width| {
+        let rates = of_one_ratio().rates(&block(width));
+        let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?));
+        RateByParts {
+            rate: rates.overturning.value.unwrap(),
+            sds: Part::VARIANTS.iter().filter_map(known).collect(),
+        }
+    });
+    let ratio = ratio_of_rates(&before, &after, |_| true);
+    assert!((ratio.value - drawn(0.6, &[0.0; 5]) / drawn(0.5, &[0.0; 5])).abs() < 1e-9, "two runs");
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut draws: Vec<f64> = (0..1000)
+        .map(|_| {
+            let z: Vec<f64> = (0..5).map(|_| StandardNormal.sample(&mut random)).collect();
+            drawn(0.6, &z) / drawn(0.5, &z)
+        })
+        .collect();
+    draws.sort_by(f64::total_cmp);
+    for (limit, drawn) in [(ratio.low, draws[25]), (ratio.high, draws[974])] {
+        assert!((limit / drawn).ln().abs() < 0.15, "{limit} for {drawn}");
+    }
+    // What is not shared counts twice: the limits are wider.
+    let apart = ratio_of_rates(&before, &after, |_| false);
+    assert!(apart.low < ratio.low && apart.high > ratio.high);
+}
+
+#[test]
+fn a_change_is_one_thing_and_is_what_it_says() {
+    let object = Object {
+        shape: rockfrag_core::object::Shape { depth: Some(0.8), ..Object::block("a", 0.5, 1.9).shape },
+        ..Object::block("a", 0.5, 1.9)
+    };
+    let changes = object.changes();
+    let sizes: Vec<_> =
+        changes.iter().map(|changed| (changed.object.shape.width, changed.object.shape.depth)).collect();
+    assert!((sizes[0].0.unwrap() - 0.6).abs() < 1e-12 && (sizes[0].1.unwrap() - 0.9).abs() < 1e-12);
+    assert!((sizes[1].0.unwrap() - 0.75).abs() < 1e-12);
+    assert_eq!(changes[2].object.shape.centre_height, Some(0.75 * 0.95));
+    let etas: Vec<f64> = changes
+        .iter()
+        .filter_map(|changed| match changed.object.shape.eta {
+            Some(Restitution::Number(eta)) => Some(eta),
+            _ => None,
+        })
+        .collect();
+    let median = object.sides().unwrap()[0].structure.eta;
+    let loss = |eta: f64| ((1.0 - eta) / (1.0 - median)).ln();
+    assert!((loss(etas[0]) - 0.4).abs() < 1e-9 && (loss(etas[1]) + 0.4).abs() < 1e-9, "16 and 84 %");
+    let upstairs = &changes.iter().find(|changed| changed.object.place.level.is_some()).unwrap().object;
+    assert!(upstairs.changes().iter().any(|changed| changed.object.place.level.is_none()), "and down again");
+}

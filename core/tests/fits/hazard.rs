@@ -1,0 +1,299 @@
+//! Annual rates against closed forms.
+
+use rockfrag_core::fragility::{
+    Direction, Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
+};
+use rockfrag_core::hazard::{
+    Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio, Site,
+    VelocitySource, exceedance, probability_in_years, rates_over_curve, velocity_of_spectrum,
+};
+use rockfrag_core::motion::Peaks;
+use rockfrag_core::object::{Object, Part, Subject, Unknown};
+use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::{Limited, normal};
+
+use crate::common::{cases, close, equipment, read};
+
+/// H = k0 IM^-k at `n` intensities from 1e-4 to 1e4.
+fn power_law(k0: f64, k: f64, n: usize) -> HazardCurve {
+    let im = |i: usize| 10f64.powf(-4.0 + 8.0 * i as f64 / (n - 1) as f64);
+    HazardCurve::new((0..n).map(|i| (im(i), k0 * im(i).powf(-k))).collect()).unwrap()
+}
+
+#[test]
+fn a_power_law_and_a_lognormal_have_a_rate_in_closed_form() {
+    // H(theta) exp(k^2 beta^2 / 2), whatever the points of the curve.
+    for (k, theta, beta, n) in [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301)] {
+        let curve = power_law(1e-3, k, n);
+        let [rate] = curve.mean_annual_rates(&[], 0.02, |im| [p_overturning(im, f64::ln(theta), beta)]);
+        let expected = 1e-3 * theta.powf(-k) * (0.5 * k * k * beta * beta).exp();
+        assert!((rate / expected - 1.0).abs() < 1e-9, "k {k}: {rate} for {expected}");
+    }
+}
+
+#[test]
+fn the_rate_of_a_jump_is_the_hazard_there() {
+    let curve = power_law(1e-3, 2.0, 5);
+    let jump = 0.37;
+    let [rate] = curve.mean_annual_rates(&[jump], 0.02, |im| [f64::from(u8::from(im >= jump))]);
+    assert!((rate / (1e-3 / (jump * jump)) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_joint_hazard_has_a_curve_of_each_peak() {
+    let bin = |(pga_m_s2, pgv_m_s, annual_rate)| PairOfPeaks {
+        peaks: Peaks { pga_m_s2, pgv_m_s },
+        annual_rate,
+        mw: None,
+    };
+    let bins = [(2.0, 0.3, 0.125), (1.0, 0.3, 0.5), (2.0, 0.1, 0.25), (4.0, 0.2, 0.0625)].map(bin);
+    assert_eq!(exceedance(&bins, |bin| bin.peaks.pga_m_s2), [(1.0, 0.9375), (2.0, 0.4375), (4.0, 0.0625)]);
+    assert_eq!(exceedance(&bins, |bin| bin.peaks.pgv_m_s), [(0.1, 0.9375), (0.2, 0.6875), (0.3, 0.625)]);
+}
+
+#[test]
+fn motions_beyond_the_curve_count_as_its_last_one() {
+    let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
+    let [all, half] = curve.mean_annual_rates(&[], 0.02, |_| [1.0, 0.5]);
+    assert!((all - 0.01).abs() < 1e-12 && (half - 0.005).abs() < 1e-12);
+}
+
+#[test]
+fn a_rate_becomes_a_probability() {
+    assert!((probability_in_years(1.0 / 475.0, 50.0) - 0.0999).abs() < 1e-4);
+    assert!((probability_in_years(1e-12, 50.0) / 5e-11 - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_is_no_hazard_curve_is_refused() {
+    let curve = |points: &[(f64, f64)]| HazardCurve::new(points.to_vec()).unwrap_err();
+    assert_eq!(curve(&[(0.1, 0.1)]), HazardError::TooFewPoints(1));
+    assert_eq!(curve(&[(0.1, 0.1), (0.1, 0.05)]), HazardError::Unordered { point: 1 });
+    assert_eq!(curve(&[(0.1, 0.1), (0.2, 0.2)]), HazardError::Unordered { point: 1 });
+    assert!(matches!(curve(&[(0.1, 0.1), (0.2, 0.0)]), HazardError::NotPositive { point: 1, .. }));
+    assert!(matches!(curve(&[(0.0, 0.1), (0.2, 0.05)]), HazardError::NotPositive { point: 0, .. }));
+}
+
+/// P_ro = Phi(b[0] + b[1] ln IM4 + b[2] ln IM5), with the paper's model of a block that hardly needs to
+/// uplift.
+fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
+    let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
+    (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
+    let peaks = Model::shipped(Kind::Csgm, &equipment(), 0.1).peaks();
+    let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
+    (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
+}
+
+/// The rate of Phi(c + d ln IM) over k0 IM^-k.
+fn rate_in_closed_form(k0: f64, k: f64, c: f64, d: f64) -> f64 {
+    k0 * (k * c / d).exp() * (0.5 * (k / d).powi(2)).exp()
+}
+
+#[test]
+fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
+    let b = [-15.0, 1.2, 1.6];
+    let (model, structure) = lognormal_over_both_peaks(b);
+    let ln_uplift = structure.uplift_acceleration_m_s2().ln();
+    let (k0, k) = (1e-3, 2.2);
+    let curve = power_law(k0, k, 9);
+    for (level, slope, sd) in [(-2.9, 0.1, 0.5), (-2.5, -0.2, 0.3), (-3.0, 0.0, 0.0)] {
+        let ratio = RatioGiven::line(level, slope, sd);
+        // ln PGV = level + (1 + slope) ln PGA + sd z, and the other way.
+        let of_constant = b[0] - (b[1] + b[2]) * ln_uplift;
+        for (peak, constant, per_ln, per_z) in [
+            (Peak::Pga, of_constant + b[2] * level, b[1] + b[2] * (1.0 + slope), b[2] * sd),
+            (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
+        ] {
+            let wider = 1.0_f64.hypot(per_z);
+            let directions = [Direction { structure: structure.clone(), model: model.clone() }];
+            let given = GivenPeak::new(&directions, peak, ratio, None);
+            let rate = rates_over_curve(&given, &curve).overturning.unwrap().value;
+            let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
+            assert!((rate / expected - 1.0).abs() < 1e-6, "{peak}: {rate} for {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_joint_hazard_of_lognormal_velocities_has_a_rate_in_closed_form() {
+    // At one PGA, with ln PGV normal (m, s): Phi(c + d ln PGV) has the mean Phi((c + d m) / sqrt(1 + d^2 s^2)).
+    let (model, structure) = lognormal_over_both_peaks([-15.0, 1.2, 1.6]);
+    let (pga_m_s2, m, s, n) = (5.0, 0.4, 0.5, 4000);
+    let ln_pgv = |k: usize| m + s * normal::quantile((k as f64 + 0.5) / n as f64);
+    let bin = |k| PairOfPeaks {
+        peaks: Peaks { pga_m_s2, pgv_m_s: ln_pgv(k).exp() },
+        annual_rate: 0.02 / n as f64,
+        mw: None,
+    };
+    let ln_uplift = structure.uplift_acceleration_m_s2().ln();
+    let z = -15.0 + 1.2 * (pga_m_s2.ln() - ln_uplift) + 1.6 * (m - ln_uplift);
+    let expected = 0.02 * normal::cdf(z / 1.0_f64.hypot(1.6 * s));
+    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&subject).unwrap();
+    assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
+}
+
+#[test]
+fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
+    // ln rate rises by k b2 / d for each unit of ln(PGV / PGA), d = b1 + b2 (1 + slope).
+    let b = [-15.0, 1.2, 1.6];
+    let (model, structure) = lognormal_over_both_peaks(b);
+    let k = 2.2;
+    let pga = power_law(1e-3, k, 9);
+    let (slope, sd) = (0.1, 0.45);
+    let pgv = curve_of_velocity(k, -2.9, slope, sd);
+    let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
+    let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
+    let hazard =
+        PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, velocity: Some(velocity) };
+    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let rates = Site::new(Hazard::Curve(hazard)).rates(&subject);
+    let errors = rates.errors;
+    let of_velocity = errors.part_sd(Part::Velocity).unwrap();
+    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high / Z_95;
+    assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
+    assert!((errors.part_sd(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
+    assert_eq!(errors.part_sd(Part::Magnitude), None);
+    let rate = rates.overturning.estimate().unwrap();
+    assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
+    assert!(rate.high > rate.value);
+}
+
+#[test]
+fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
+    let model = Model::shipped(Kind::Recorded, &equipment(), 0.1);
+    for (vs30, mw, ln_ratio) in read::<(f64, f64, f64)>("site_levels.csv") {
+        let velocity = PgvPgaRatio::by_model(&model, Peak::Pga, Some(vs30));
+        let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
+        assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
+        assert!(velocity.unknown().high < PgvPgaRatio::by_model(&model, Peak::Pga, None).unknown().high);
+    }
+}
+
+#[test]
+fn pgv_of_a_spectrum_is_that_by_ground_motion_models() {
+    for (mw, pga, sa_1s, pgv) in read::<(f64, f64, f64, f64)>("site_spectra.csv") {
+        let curve = |im: f64| HazardCurve::new(vec![(0.5 * im, 1e-3), (2.0 * im, 1e-5)]).unwrap();
+        let ours = velocity_of_spectrum(&curve(pga), &curve(sa_1s)).intensity(1e-4);
+        assert!((ours / pgv).ln().abs() < 0.05, "M {mw}: {ours} m/s for {pgv}");
+    }
+}
+
+/// The curve of PGV that a line of PGV / PGA gives over 1e-3 PGA^-k, which is a power law too.
+fn curve_of_velocity(k: f64, level: f64, slope: f64, sd: f64) -> HazardCurve {
+    let rate = |v: f64| rate_in_closed_form(1e-3, k, (level - v.ln()) / sd, (1.0 + slope) / sd);
+    let pgv = |i: i32| 10f64.powf(-2.0 + 0.25 * f64::from(i));
+    HazardCurve::new((0..13).map(|i| (pgv(i), rate(pgv(i)))).collect()).unwrap()
+}
+
+#[test]
+fn two_curves_tell_the_line_by_which_they_belong_together() {
+    let pga = power_law(1e-3, 2.2, 33);
+    for (level, slope) in [(-2.9, 0.0), (-2.2, -0.3), (-3.3, 0.2)] {
+        let pgv = curve_of_velocity(2.2, level, slope, 0.42);
+        let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Velocity).unwrap();
+        for pga_m_s2 in [1.0, 5.0] {
+            let ratio = velocity.at(6.5, 0.0).ratio(pga_m_s2, 0.0);
+            let expected = (level + slope * f64::ln(pga_m_s2)).exp();
+            assert!((ratio / expected - 1.0).abs() < 1e-4, "{ratio} for {expected}");
+        }
+    }
+    let matched =
+        |pgv: &HazardCurve| PgvPgaRatio::by_curves(&pga, pgv, VelocitySource::Velocity).unwrap_err();
+    assert!(matches!(matched(&curve_of_velocity(2.2, 1.0, 0.0, 0.42)), MatchError::ImpossibleRatio { .. }));
+    let kinked = HazardCurve::new(vec![(0.05, 0.1), (0.1, 1e-4), (0.5, 5e-5), (2.0, 1e-6)]).unwrap();
+    assert!(matches!(matched(&kinked), MatchError::Unlike(_)));
+    let rare = HazardCurve::new(vec![(0.5, 3e-8), (2.0, 1e-9)]).unwrap();
+    assert!(matches!(matched(&rare), MatchError::NothingInCommon(..)));
+}
+
+/// A block of .9 x 1.4 m, whose rate of overturning a curve up to 4 g leaves open.
+fn squat() -> Subject {
+    Subject::shipped(&Object::block("squat", 0.9, 1.4), Kind::Recorded, 0.1).unwrap()
+}
+
+fn range(rate: Limited) -> [f64; 2] {
+    assert_eq!(rate.value, None);
+    [rate.low, rate.high].map(Option::unwrap)
+}
+
+#[test]
+fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
+    // By a curve of the same slope that ends at 0.8 g or goes on: whatever it does beyond, the range holds
+    // it.
+    let slope = -2.5;
+    let to = |last_g: f64| {
+        let points = [0.05, 0.2, last_g].map(|g: f64| (9.81 * g, 1e-3 * (g / 0.2).powf(slope)));
+        Site::new(Hazard::over(Peak::Pga, HazardCurve::new(points.to_vec()).unwrap()))
+    };
+    let early = to(0.8).rates(&squat());
+    let [low, high] = range(early.overturning);
+    let whole = to(8.0).rates(&squat());
+    let rate = whole.overturning.estimate().unwrap();
+    assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
+    // The errors widen it: without any it is what no and what each stronger motion would make of it.
+    let certain = Subject { unknowns: vec![], ..squat() };
+    let [sure_low, sure_high] = range(to(0.8).rates(&certain).overturning);
+    // Rates below once in 1e12 years have no errors.
+    assert!(low <= sure_low && sure_low < sure_high && sure_high < high);
+    let [failure_low, failure_high] = range(early.failure);
+    assert!(low <= failure_low && high <= failure_high * (1.0 + 1e-12));
+}
+
+#[test]
+fn limits_are_those_of_normal_errors() {
+    // What only raises a result, such as an offset to either side, has no lower side.
+    let by = |part, result: fn(f64) -> f64| Unknown { part, low: -Z_95, high: Z_95 }.map(|x| result(*x));
+    let unknowns = [by(Part::Eta, |x| 1.0 + 0.4 * x), by(Part::Object, |x| 1.0 + 1.2 * x.abs())];
+    let mut budget = Budget::new(&1.0, &unknowns, |result| Some(*result));
+    budget.add(Part::Fit, [0.3, 0.3]);
+    budget.add(Part::Floor, [f64::NAN; 2]);
+    let [down, up] = budget.sds();
+    assert!((down - 0.5).abs() < 1e-12 && (up - 1.3).abs() < 1e-12);
+    assert_eq!((budget.largest(), budget.part_sd(Part::Floor)), (Some(Part::Object), None));
+    let limits = budget.limit_rate(1e-4, 2e-4);
+    assert!((limits.low / (1e-4 * (-0.979_982_f64).exp()) - 1.0).abs() < 1e-6);
+    assert_eq!(limits.high, 2e-4, "never above the rate of rocking");
+    let p = budget.limit_probability(0.5, 1.0, 1.2);
+    close(p.low, 1.0 / (1.0 + (1.959_964 * 1.3_f64).exp()), 1e-6);
+    close(p.high, 1.0 / (1.0 + (-1.959_964 * 1.3_f64.hypot(1.2)).exp()), 1e-6);
+}
+
+#[derive(serde::Deserialize)]
+struct Average {
+    over: Peak,
+    p_rad_s: f64,
+    alpha_rad: f64,
+    eta: f64,
+    mw: f64,
+    intensity: f64,
+    p_failure: f64,
+    p_overturning: f64,
+}
+
+#[test]
+fn averages_over_pgv_pga_are_those_of_scipy() {
+    // scripts/reference/fragility.py.
+    for row in read::<Average>("fragility_answers.csv") {
+        let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
+        let model = Model::shipped(Kind::Recorded, &structure, 0.2);
+        let ratio = PgvPgaRatio::by_model(&model, row.over, None).at(row.mw, 0.0);
+        let directions = [Direction { structure, model }];
+        let unit = if row.over == Peak::Pga { 9.81 } else { 1.0 };
+        let p = GivenPeak::new(&directions, row.over, ratio, Some(row.mw)).limit_states(unit * row.intensity);
+        let p = p.map(Option::unwrap);
+        assert!((p.failure - row.p_failure).abs() < 2e-6, "{} for {}", p.failure, row.p_failure);
+        assert!((p.overturning - row.p_overturning).abs() < 2e-6);
+    }
+}
+
+#[test]
+fn a_hazard_of_many_close_points_has_the_rate_of_few() {
+    let few = HazardCurve::new(vec![(0.5, 1e-2), (5.0, 1e-4), (45.0, 1e-7)]).unwrap();
+    let point = |k: i32| 0.5 * 90.0_f64.powf(f64::from(k) / 20_000.0);
+    let points = (0..=20_000).map(|k| (point(k), few.exceedance(point(k))));
+    let many = HazardCurve::new(points.collect()).unwrap();
+    let rate = |curve| Site::new(Hazard::over(Peak::Pga, curve)).overturning(&squat()).unwrap();
+    let (few, many) = (rate(few), rate(many));
+    assert!((few / many - 1.0).abs() < 1e-4, "{few:?} {many:?}");
+}

@@ -1,0 +1,348 @@
+//! The universal surface and its calibration, against Python's from the same file and cases
+//! (scripts/universal).
+
+use std::collections::HashMap;
+
+use rand::RngExt;
+use rockfrag_core::fragility::{
+    Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
+    p_failure_given_rocking,
+};
+use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::rocking::{Outcome, Structure};
+use rockfrag_core::statistics::Estimate;
+use rockfrag_core::warning::Warning;
+use strum::VariantArray;
+
+use crate::common::{cases, close, equipment, random, read, rocking};
+
+fn measures(structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeasures {
+    IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None)
+}
+
+/// As IM5 and IM4 of the equipment.
+fn at(im4: f64, im5: f64) -> IntensityMeasures {
+    IntensityMeasures::from_peaks(im4, im5)
+}
+
+fn calibrated(cases: &Cases) -> Model {
+    let (overturning, exceeding) = (Calibration::fit(cases, None), Calibration::fit(cases, Some(0.1)));
+    Model::Calibrated { overturning, exceeding, floor: None }
+}
+
+#[derive(serde::Deserialize)]
+struct Point {
+    kind: Kind,
+    p_rad_s: f64,
+    alpha_rad: f64,
+    eta: f64,
+    im3: f64,
+    im4: f64,
+    im5: f64,
+    mw: f64,
+    limit_state: f64,
+    logit_pro: f64,
+    logit_pex: f64,
+    magnitude: f64,
+    added_pro: f64,
+    added_pex: f64,
+}
+
+#[test]
+fn logits_are_those_of_python() {
+    let rows: Vec<Point> = read("universal_answers.csv");
+    assert!(rows.len() >= 50);
+    for row in rows {
+        let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
+        let Point { im3, im4, im5, .. } = row;
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
+        let mw = Some(row.mw).filter(|mw| *mw > 0.0);
+        let of = |limit| {
+            Calibration::shipped(row.kind, &structure, limit).predictor(&structure, &measures, mw).unwrap()
+        };
+        let (pro, pex) = (of(None), of(Some(row.limit_state)));
+        let pairs = [
+            (pro.logit, row.logit_pro),
+            (pex.logit, row.logit_pex),
+            (pro.magnitude, row.magnitude),
+            (pro.added, row.added_pro),
+            (pex.added, row.added_pex),
+        ];
+        for (ours, theirs) in pairs {
+            assert!((ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0), "{ours} {theirs} {structure:?}");
+        }
+        assert_eq!(pro.magnitude_sd == 0.0, mw.is_some());
+    }
+}
+
+#[derive(serde::Deserialize)]
+struct Fitted {
+    kind: Kind,
+    structure: String,
+    p_rad_s: f64,
+    alpha_rad: f64,
+    eta: f64,
+    pga_m_s2: f64,
+    pgv_m_s: f64,
+    im3: f64,
+    im4: f64,
+    im5: f64,
+    mw: f64,
+    cluster: String,
+    overturned: u8,
+    edp: Option<f64>,
+}
+
+#[derive(serde::Deserialize)]
+struct Answer {
+    kind: Kind,
+    structure: String,
+    event: String,
+    n: i64,
+    n_events: i64,
+    n_clusters: i64,
+    c: f64,
+    ln_s: f64,
+    m: f64,
+    /// The upper triangles of the covariances, `v_01` and `clustered_01`.
+    #[serde(flatten)]
+    covariances: HashMap<String, f64>,
+}
+
+/// The cases of a structure, in their clusters or all in one.
+fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
+    let rows: Vec<&Fitted> =
+        rows.iter().filter(|row| (row.kind, &row.structure) == (answer.kind, &answer.structure)).collect();
+    let Fitted { p_rad_s, alpha_rad, eta, .. } = *rows[0];
+    let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
+    let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.into());
+    let mut cases = Cases::new(suite, structure);
+    for row in rows {
+        let Fitted { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
+        let safe = row.edp.map(Outcome::SafeRocking).filter(|_| row.overturned == 0);
+        let outcome = safe.unwrap_or(Outcome::Overturned);
+        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
+        let cluster = if in_clusters { &row.cluster } else { "one" };
+        let peaks = Peaks { pga_m_s2, pgv_m_s };
+        let case = Case { outcome, measures, peaks, mw: Some(row.mw), cluster: 0 };
+        cases.push(case, Cluster::new(Some(cluster), None, None));
+    }
+    cases
+}
+
+#[test]
+fn calibrations_are_those_of_python() {
+    let (rows, answers): (Vec<Fitted>, Vec<Answer>) =
+        (read("calibration_cases.csv"), read("calibration_answers.csv"));
+    assert!(answers.len() >= 4);
+    for answer in &answers {
+        let limit_state = (answer.event == "pex").then_some(0.1);
+        let own = Calibration::fit(&of_structure(&rows, answer, true), limit_state);
+        assert_eq!((own.n, own.n_events, own.n_clusters), (answer.n, answer.n_events, answer.n_clusters));
+        for (ours, theirs) in [(own.c, answer.c), (own.ln_s, answer.ln_s), (own.m, answer.m)] {
+            assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
+        }
+        let alone = Calibration::fit(&of_structure(&rows, answer, false), limit_state);
+        for (of, name) in [(&own, "clustered"), (&alone, "v")] {
+            for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
+                let ours = of.covariance[3 * row + column];
+                let theirs = answer.covariances[&format!("{name}_{row}{column}")];
+                assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
+            }
+        }
+    }
+}
+
+/// One direction in which no probability falls.
+fn step(line: usize, [p, alpha, eta, pga, pgv]: [f64; 5], by: f64) -> [f64; 5] {
+    match line % 5 {
+        0 => [p, alpha, eta, pga * by, pgv * by],
+        1 => [p, alpha, eta, pga, pgv * by],
+        // Narrower: p does not change, the centre of mass stays as far from the corner.
+        2 => [p, (alpha.tan() / by).atan(), eta, pga, pgv],
+        3 => [p * by, alpha, eta, pga, pgv],
+        _ => [p, alpha, 1.0 - (1.0 - eta) / by, pga, pgv],
+    }
+}
+
+#[test]
+fn probabilities_never_fall_along_20000_lines() {
+    let mut random = random(5);
+    let own = calibrated(&rocking(400));
+    let mut ln = |low: f64, high: f64| random.random_range(low.ln()..high.ln()).exp();
+    for kind in Kind::VARIANTS {
+        let mut largest = [0.0_f64; 5];
+        for line in 0..20_000 {
+            // Half of the lines begin at a tenth of the least of the domain and end at ten times the largest.
+            let wide = if line % 2 == 0 { 10.0 } else { 1.0 };
+            let (alpha, mw) = (ln(0.04, 0.5), (line % 3 == 0).then(|| ln(4.5, 8.0)));
+            let pga = 9.81 * alpha.tan() * ln(1.0, 18.0 * wide);
+            let p = ln(0.4 / wide, 8.0 * wide);
+            let mut at = [p, alpha, 1.0 - ln(0.001, 0.3), pga, pga / ln(1.0 / wide, 45.0 * wide)];
+            let mut last = [0.0; 3];
+            for _ in 0..12 {
+                let Ok(structure) = Structure::new("any", at[0], at[1], at[2]) else { break };
+                let of_motion = measures(&structure, at[3], at[4]);
+                let shipped = Model::shipped(*kind, &structure, [0.02, 0.1, 0.5, 0.9][line % 4]);
+                let model = if line % 7 == 0 { &own } else { &shipped };
+                let given = model.probabilities(&structure, &of_motion, mw, Scenarios::One).given_rocking;
+                let Some(given) = given else { continue };
+                let p = [given.p_ro.value, given.p_ex.unwrap().value, given.p_failure.unwrap().value];
+                let fall = (0..3).map(|k| last[k] - p[k]).fold(0.0, f64::max);
+                largest[line % 5] = largest[line % 5].max(fall);
+                (last, at) = (p, step(line, at, 1.0 + 0.4 * wide / 10.0));
+            }
+        }
+        assert!(largest.iter().all(|fall| *fall <= 0.001), "{kind} {largest:?}");
+    }
+}
+
+#[test]
+fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
+    for kind in Kind::VARIANTS {
+        for (p, eta) in [(0.5, 0.75), (2.5, 0.92), (7.8, 0.99)] {
+            let structure = Structure::new("any", p, 0.2, eta).unwrap();
+            let at = |im4: f64, limit_state: f64| {
+                let of_motion = at(im4, 0.2 * p);
+                let model = Model::shipped(*kind, &structure, limit_state);
+                let given = model.probabilities(&structure, &of_motion, None, Scenarios::One);
+                given.given_rocking.unwrap()
+            };
+            for p in [at(1.0, 0.1).p_ro, at(1.0, 0.1).p_ex.unwrap()] {
+                assert_eq!([p.low, p.value, p.high], [0.0; 3]);
+            }
+            assert!(at(1.0001, 0.1).p_failure.unwrap().value < 1e-3, "{kind} {:?}", at(1.0001, 0.1));
+            let mut last = 1.0;
+            for limit_state in [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.5] {
+                let p = at(2.0, limit_state).p_failure.unwrap().value;
+                assert!(p <= last, "{kind} {limit_state}: {p} {last}");
+                last = p;
+            }
+        }
+    }
+}
+
+/// Limits that are finite, hold the value, and are not all of 0 to 1.
+fn expect_limits(p: Estimate) {
+    assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
+    // Magnitude is not known of any of these motions.
+    assert!(p.high - p.low < 0.98, "{p:?}");
+}
+
+#[test]
+fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
+    for n in [8, 400] {
+        for (overturns, least) in [(Outcome::SafeRocking(0.05), 1.1), (Outcome::Overturned, 1.6)] {
+            // Nothing overturns at uplift.
+            let strength = |k: u32| least + 0.05 * f64::from(k % 40);
+            let model = calibrated(&cases(
+                (0..n).map(|k| (overturns, strength(k), 2.0, if n == 8 { k } else { k % 30 })),
+            ));
+            let Model::Calibrated { overturning, .. } = &model else { panic!() };
+            assert!(overturning.covariance.iter().all(|v| v.is_finite()) && overturning.covariance[0] > 1e-3);
+            assert!(overturning.warnings().contains(&Warning::NoEvents));
+            assert_eq!(overturning.warnings().contains(&Warning::FewClusters), n == 8);
+            for im4 in [1.2, 2.0, 3.0] {
+                let probabilities =
+                    model.probabilities(&equipment(), &at(im4, im4 / 2.0), None, Scenarios::One);
+                let given = probabilities.given_rocking.unwrap();
+                for p in [Some(given.p_ro), given.p_ex, given.p_failure] {
+                    expect_limits(p.unwrap());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
+    let clean = |k: u32| {
+        let im4 = 1.2 + 0.1 * f64::from(k);
+        let outcome = if im4 > 2.95 { Outcome::Overturned } else { Outcome::SafeRocking(0.1) };
+        (outcome, im4, 2.0, k)
+    };
+    let pair = [(Outcome::Overturned, 2.94, 2.0, 50), (Outcome::SafeRocking(0.1), 2.96, 2.0, 50)];
+    let without: Vec<_> = (0..38).map(clean).collect();
+    let with = cases([&without[..], &pair].concat());
+    let probit = fit_curve(&with, Event::Overturning, Measure::Im5, None);
+    assert!(probit.coefficients.get(1).is_none_or(|slope| *slope > 50.0), "{:?}", probit.coefficients);
+    let (with, without) = (calibrated(&with), calibrated(&cases(without)));
+    for im4 in [2.0, 3.0, 4.0] {
+        let p_ro = |model: &Model| {
+            let measures = at(im4, im4 / 2.0);
+            model.probabilities(&equipment(), &measures, None, Scenarios::Many).given_rocking.unwrap().p_ro
+        };
+        expect_limits(p_ro(&with));
+        assert!((p_ro(&with).value - p_ro(&without).value).abs() < 0.1);
+    }
+}
+
+#[test]
+fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
+    let block = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
+    let model = Model::shipped(Kind::Csgm, &block, 0.1);
+    for (pga, pgv) in [(3.0, 0.2), (5.0, 0.6), (9.0, 1.5), (20.0, 5.0)] {
+        let of = |scenarios| {
+            let p = model.probabilities(&block, &measures(&block, pga, pgv), None, scenarios);
+            let given = p.given_rocking.unwrap();
+            [Some(given.p_ro), given.p_ex, given.p_failure].map(Option::unwrap)
+        };
+        let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
+        let joined = |of: fn(Estimate) -> f64| p_failure_given_rocking(of(one[0]), of(one[1]));
+        close(one[2].value, joined(|p| p.value), 1e-12);
+        close(one[2].low, joined(|p| p.low), 1e-12);
+        close(one[2].high, joined(|p| p.high), 1e-12);
+        for (one, many) in one.into_iter().zip(many) {
+            assert_eq!(one.value, many.value);
+            assert!(one.low < many.low && many.low < many.value);
+            assert!(many.value <= many.high && many.high <= one.high);
+        }
+    }
+    let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Scenarios::One);
+    assert_eq!(still.limit_states(), LimitStates::all(Some(Estimate::exact(0.0))));
+    let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Scenarios::One);
+    assert_eq!(unknown.limit_states().overturning, None, "no velocity");
+}
+
+#[test]
+fn what_lies_outside_is_warned_once() {
+    let inside = measures(&equipment(), 5.0, 0.6);
+    let shipped = Model::shipped(Kind::Csgm, &equipment(), 0.1);
+    let by = |model: &Model, of_motion| model.warnings(&equipment(), &of_motion);
+    assert_eq!(by(&shipped, inside), []);
+    assert_eq!(by(&shipped, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
+    assert_eq!(by(&shipped, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
+    assert_eq!(by(&Model::shipped(Kind::Csgm, &equipment(), 2.0), inside), [Warning::Extrapolated]);
+    let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
+    assert!(shipped.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
+    // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
+    let own = calibrated(&rocking(400));
+    assert!(by(&own, inside).contains(&Warning::Extrapolated));
+}
+
+#[test]
+fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
+    let structure = Structure::new("any", 2.5, 0.2, 0.92).unwrap();
+    let shipped = Calibration::shipped(Kind::Recorded, &structure, None);
+    let of_motion = measures(&structure, 4.0, 0.4);
+    let logit = |p: f64| (p / (1.0 - p)).ln();
+    for mw in [None, Some(7.2)] {
+        let of = shipped.predictor(&structure, &of_motion, mw).unwrap();
+        let slope = of.logit * shipped.ln_s.exp();
+        let variance = shipped.covariance[0]
+            + slope * slope * shipped.covariance[4]
+            + of.magnitude * of.magnitude * shipped.covariance[8];
+        let of_magnitude = if mw.is_none() { shipped.m * of.magnitude_sd } else { 0.0 };
+        let spread = shipped.tau * shipped.tau + of_magnitude * of_magnitude;
+        for (scenarios, between) in [(Scenarios::One, spread), (Scenarios::Many, 0.0)] {
+            let p = shipped.probability(&structure, &of_motion, mw, scenarios).unwrap();
+            let half_width = 1.959_963_984_540_054 * (variance + between).sqrt();
+            assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
+            assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);
+        }
+    }
+    // A unit of magnitude is worth m, and none beyond the magnitudes of the data.
+    let of = |mw| shipped.predictor(&structure, &of_motion, Some(mw)).unwrap().magnitude;
+    assert!((of(7.0) - of(6.0) - 1.0).abs() < 1e-12);
+    assert_eq!((of(3.0), of(9.0)), (of(5.0), of(7.6)));
+}

@@ -1,0 +1,137 @@
+//! COSMOS format 1.20, volumes V1 and V2: for each channel 13 lines of text, 100 integers, 100 reals and
+//! comments, each block after a line with its length and Fortran format, then the samples. A file may have
+//! several channels, and velocity and displacement besides acceleration.
+
+use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
+
+use super::ReadOptions;
+use super::error::RecordFileError;
+use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit, unit_of, words};
+use crate::inputs::words::is_vertical;
+
+/// Index of the azimuth among the integers.
+const AZIMUTH: usize = 53;
+/// Codes in its place of a component that points up or down, or is vertical.
+const VERTICAL: std::ops::RangeInclusive<f64> = 400.0..=402.0;
+/// Index of the time step (ms) among the reals.
+const TIME_STEP_MS: usize = 61;
+/// Index of the peak, in the unit of the samples, among the reals.
+const PEAK: usize = 63;
+/// Relative rounding of the peak.
+const PEAK_ROUNDING: f64 = 1e-4;
+const MS_PER_S: f64 = 1000.0;
+
+/// Returns whether the first line names the format.
+pub fn recognises(lines: &[&str]) -> bool {
+    lines.first().is_some_and(|line| after(line, "(format v").is_some())
+}
+
+/// Reads the accelerations of a COSMOS file, in order.
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
+    let mut motions = Vec::new();
+    let mut channel = Channel::default();
+    let mut refusal = RecordFileError::missing(lines.len(), "acceleration", "'... acceleration pts, ...'");
+    let mut at = 0;
+    while at < lines.len() {
+        let text = lines[at];
+        let announces = |words| after(text, words).is_some() && leading_number(text).is_some();
+        at += 1;
+        if announces("integer-header values") {
+            channel.integers = block(lines, &mut at)?;
+        } else if announces("real-header values") {
+            channel.reals = block(lines, &mut at)?;
+        } else if announces("acceleration pts") {
+            let line = at;
+            let values = block(lines, &mut at)?;
+            motions.push(std::mem::take(&mut channel).motion(values, text, line, options)?);
+        } else if announces("velocity pts") || announces("displacement pts") {
+            refusal = RecordFileError::NotAcceleration { line: at, found: text.trim().to_string() };
+            block(lines, &mut at).ok();
+            channel = Channel::default();
+        } else {
+            channel.header.push(text);
+        }
+    }
+    if motions.is_empty() { Err(refusal) } else { Ok(motions) }
+}
+
+/// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
+/// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
+fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
+    let text = lines[*at - 1];
+    let missing = RecordFileError::missing(*at, "format", "a count and 'Format=(8F10.5)'");
+    let count = leading_number(text).filter(|count| *count >= 0.0);
+    let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
+    let extent = (count / on_line as f64).ceil() as usize;
+    let start = std::mem::replace(at, lines.len().min(at.saturating_add(extent)));
+    let length = lines[start..*at].iter().position(|line| after(line, "end-of-data").is_some());
+    let end = length.map_or(*at, |length| start + length);
+    let by_width = samples(&lines[..end], start, count, |line| fields(line, width));
+    by_width.or_else(|_| samples(&lines[..end], start, count, numbers))
+}
+
+/// Reads how many numbers are on a line, and their width, in `Format= (5F15.6)`.
+fn layout(text: &str) -> Option<(usize, usize)> {
+    let format = text[text.rfind('(')? + 1..].split(')').next()?;
+    let (on_line, width) = format.split_once(|c: char| "FEDGI".contains(c.to_ascii_uppercase()))?;
+    let width = width.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()?;
+    let on_line: usize = if on_line.trim().is_empty() { 1 } else { on_line.trim().parse().ok()? };
+    (on_line > 0 && width > 0).then_some((on_line, width))
+}
+
+/// Splits a line into fields of one width; the last may be shorter.
+fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
+    let line = line.trim_end();
+    let starts = (0..line.len()).step_by(width);
+    starts.map(move |start| {
+        let end = start.saturating_add(width).min(line.len());
+        line.get(start..end).unwrap_or(line).trim()
+    })
+}
+
+/// The header of one channel.
+#[derive(Default)]
+struct Channel<'a> {
+    header: Vec<&'a str>,
+    integers: Vec<f64>,
+    reals: Vec<f64>,
+}
+
+impl Channel<'_> {
+    fn motion(
+        self,
+        values: Vec<f64>,
+        announcement: &str,
+        line: usize,
+        options: &ReadOptions,
+    ) -> Result<RecordedMotion, RecordFileError> {
+        let unit = unit(Some(unit_of(after(announcement, "units=").unwrap_or(""), line)?), options, line)?;
+        let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
+        let dt_s = time_step(step, options, line)?;
+        let find = |key| self.header.iter().find_map(|text| after(text, key));
+        let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
+        let peak = peak.map(|peak| peak.abs() * unit.si);
+        let label = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
+        let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
+        // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
+        let channel = find("<SCNL>").and_then(|rest| rest.split('.').nth(1));
+        let is_vertical = VERTICAL.contains(&code)
+            || label.as_deref().is_some_and(is_vertical)
+            || channel.is_some_and(|channel| channel.ends_with('Z'));
+        // Other codes above 360 are not azimuths; nor is 0, since north is 360.
+        let azimuth = Some(code).filter(|azimuth| (1.0..=360.0).contains(azimuth));
+        let degrees = label.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
+        let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
+        let origin = Origin {
+            earthquake: find("Record of ").and_then(words),
+            station: find("Code:").and_then(words),
+            azimuth_deg: azimuth.filter(|_| !is_vertical),
+            component: if is_vertical { Some("vertical".to_string()) } else { label },
+            ..Origin::default()
+        };
+        Ok(RecordedMotion {
+            header_pga: peak.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }),
+            ..RecordedMotion::new(dt_s, values, unit, origin)
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then samples.
+
+use rockfrag_core::records::{Origin, RecordedMotion};
+use rockfrag_core::units::Unit;
+
+use super::ReadOptions;
+use super::error::RecordFileError;
+use super::header::{
+    after, azimuth_of, field, header_pga, number_field, numbers, samples, time_step, unit, unit_of, words,
+};
+
+/// Largest number of header lines.
+const HEADER: usize = 200;
+
+/// Returns whether the header has the key of the sampling interval.
+pub fn recognises(lines: &[&str]) -> bool {
+    field(header(lines), "SAMPLING_INTERVAL_S:").is_some()
+}
+
+/// Reads the motion of an ESM file.
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
+    let header = header(lines);
+    let end = header.len();
+    if let Some((line, kind)) = field(header, "DATA_TYPE:")
+        && after(kind, "ACCELERATION").is_none()
+    {
+        return Err(RecordFileError::NotAcceleration { line, found: kind.to_string() });
+    }
+    let units = field(header, "UNITS:").map(|(line, text)| unit_of(text, line));
+    let unit = unit(units.transpose()?, options, end)?;
+    let step = number_field(header, "SAMPLING_INTERVAL_S:");
+    let dt_s = time_step(step.map(|(_, dt_s)| dt_s), options, step.map_or(end, |(line, _)| line))?;
+    let expected = "the number of samples, such as 'NDATA: 18904'";
+    let (_, announced) =
+        number_field(header, "NDATA:").ok_or(RecordFileError::missing(end, "NDATA", expected))?;
+    let values = samples(lines, end, announced, numbers)?;
+    let stream = field(header, "STREAM:").map_or("", |(_, stream)| stream);
+    // The last letter of a channel code is the direction; a digit is not.
+    let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
+    let peak = field(header, "PGA_CM/S^2:").zip(Unit::parse("cm/s2"));
+    let origin = Origin {
+        earthquake: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
+        mw: number_field(header, "MAGNITUDE_W:").map(|(_, mw)| mw),
+        station: joined(header, ["NETWORK:", "STATION_CODE:", "STATION_NAME:"]),
+        component: words(stream),
+        azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),
+        re_km: None,
+    };
+    Ok(RecordedMotion {
+        header_pga: peak.and_then(|((_, peak), unit)| header_pga(peak, unit)),
+        ..RecordedMotion::new(dt_s, values, unit, origin)
+    })
+}
+
+/// Returns the leading lines of `KEY: value`.
+fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
+    let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
+    &lines[..end]
+}
+
+/// Joins the values of keys.
+fn joined(header: &[&str], keys: [&str; 3]) -> Option<String> {
+    let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(field(header, key)?.1)).collect();
+    words(&parts.join(" "))
+}

@@ -1,0 +1,154 @@
+//! Header fields and blocks of numbers, common to several formats.
+
+use rockfrag_core::records::HeaderPga;
+use rockfrag_core::units::{Quantity, Unit};
+
+use super::ReadOptions;
+use super::error::RecordFileError;
+use crate::inputs::plain_number;
+
+/// Accepted relative difference of a time step from the option.
+const SAME_STEP: f64 = 0.01;
+/// The longest time step of a record, s.
+const LONGEST_STEP_S: f64 = 10.0;
+
+/// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
+pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64, RecordFileError> {
+    let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
+    let missing = RecordFileError::missing(line, "time step", expected);
+    let dt_s = found.or(options.dt_s).ok_or(missing)?;
+    if !(dt_s > 0.0 && dt_s <= LONGEST_STEP_S) {
+        let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
+        return Err(RecordFileError::value(line, "time step", &found, expected));
+    }
+    expect_step(options.dt_s, dt_s, line)
+}
+
+/// Checks that a time step (s) is the given one.
+pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
+    let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
+    other.map_or(Ok(dt_s), |given| {
+        let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
+        Err(RecordFileError::Contradiction { line, field: "time step", found, given })
+    })
+}
+
+/// Reads the unit of acceleration at the start of a text on a line; more text may follow.
+pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
+    let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
+    let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
+    let expected = "one of acceleration, such as g or cm/s2";
+    unit.ok_or_else(|| RecordFileError::value(line, "unit", text, expected))
+}
+
+/// Returns the unit that a file says on a line, else the given one, which must not contradict it.
+pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
+    let expected = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
+    let unit = found.or(options.unit).ok_or(RecordFileError::missing(line, "unit", expected))?;
+    let other = options.unit.filter(|given| unit.si != given.si);
+    other.map_or(Ok(unit), |given| {
+        let (found, given) = (unit.name.to_string(), given.name.to_string());
+        Err(RecordFileError::Contradiction { line, field: "unit", found, given })
+    })
+}
+
+/// Finds the value of a key at the start of a line, with the number of the line.
+pub fn field<'a>(header: &[&'a str], key: &str) -> Option<(usize, &'a str)> {
+    let values = header.iter().map(|line| line.trim_start().strip_prefix(key).unwrap_or_default().trim());
+    (1..).zip(values).find(|(_, value)| !value.is_empty())
+}
+
+/// Finds the number of a key, with the number of its line.
+pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
+    field(header, key).and_then(|(line, value)| Some((line, leading_number(value)?)))
+}
+
+/// Reads the peak acceleration at the start of a text.
+pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
+    let text = text.trim_start();
+    let value = leading_number(text)?.abs();
+    let digits = text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(300));
+    let rounding = 0.5 * 10f64.powi(-(decimals as i32));
+    (value > 0.0).then_some(HeaderPga { m_s2: value * unit.si, rounding_m_s2: rounding * unit.si })
+}
+
+/// Reads the azimuth (degrees clockwise from north) from the name of a component, if it has one.
+pub fn azimuth_of(component: &str) -> Option<f64> {
+    match component.trim().to_ascii_uppercase().as_str() {
+        "N" | "NS" | "N-S" | "NORTH" => Some(0.0),
+        "E" | "EW" | "E-W" | "EAST" => Some(90.0),
+        "S" => Some(180.0),
+        "W" => Some(270.0),
+        number => number.parse().ok().filter(|degrees| (0.0..=360.0).contains(degrees)),
+    }
+}
+
+/// Returns the text after an ASCII `key`, ignoring case.
+pub fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    let at =
+        text.as_bytes().windows(key.len()).position(|bytes| bytes.eq_ignore_ascii_case(key.as_bytes()))?;
+    text.get(at + key.len()..)
+}
+
+/// Joins the words of a text by single blanks; none without words.
+pub fn words(text: &str) -> Option<String> {
+    let words = text.replace('\0', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    (!words.is_empty()).then_some(words)
+}
+
+/// Reads the number at the start of a text; letters may follow directly (`100Hz`).
+pub fn leading_number(text: &str) -> Option<f64> {
+    let text = text.trim_start();
+    let end =
+        text.find(|c: char| !c.is_ascii_digit() && !"+-.eEdD".contains(c)).unwrap_or(text.len()).min(40);
+    (1..=end).rev().find_map(|end| plain_number(&text[..end]))
+}
+
+/// Reads the first number in a text.
+pub fn first_number(text: &str) -> Option<f64> {
+    let starts = text.match_indices(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
+    starts.map(|(at, _)| &text[at..]).find_map(leading_number)
+}
+
+/// Splits a line into numbers: at blanks, and before a sign that Fortran left no room to separate.
+pub fn numbers(line: &str) -> impl Iterator<Item = &str> {
+    let mut rest = line.trim_start();
+    std::iter::from_fn(move || {
+        let end = rest.char_indices().find(|&(at, c)| {
+            let is_sign = matches!(c, '+' | '-') && at > 0;
+            c.is_whitespace() || is_sign && !rest[..at].ends_with(['e', 'E', 'd', 'D'])
+        });
+        let end = end.map_or(rest.len(), |(at, _)| at);
+        let (number, later) = rest.split_at(end);
+        rest = later.trim_start();
+        (!number.is_empty()).then_some(number)
+    })
+}
+
+/// Reads `announced` samples from the lines after the first `header` ones; `cells` splits a line. Further
+/// numbers on the last line are padding.
+pub fn samples<'a, I: Iterator<Item = &'a str>>(
+    lines: &[&'a str],
+    header: usize,
+    announced: f64,
+    cells: impl Fn(&'a str) -> I,
+) -> Result<Vec<f64>, RecordFileError> {
+    let (mut values, mut on_last_line) = (Vec::new(), 1);
+    for (at, line) in lines.iter().enumerate().skip(header) {
+        let before = values.len();
+        for cell in cells(line) {
+            let value = plain_number(cell);
+            values.push(value.ok_or_else(|| RecordFileError::value(at + 1, "sample", cell, "a number"))?);
+        }
+        if values.len() > before {
+            on_last_line = values.len() - before;
+        }
+    }
+    let (announced, found) = (announced as u64, values.len());
+    if announced < 2 || (found as u64) < announced || found as u64 - announced >= on_last_line as u64 {
+        return Err(RecordFileError::Count { announced, found });
+    }
+    values.truncate(announced as usize);
+    Ok(values)
+}

@@ -1,0 +1,102 @@
+//! File formats of records: from the bytes of a file to accelerations.
+//!
+//! ```text
+//! peer_at2  PEER's AT2, old and NGA
+//! cosmos    COSMOS V1 and V2
+//! esm       Engineering Strong Motion database
+//! knet      K-NET and KiK-net
+//! csv       columns of a table, with or without times
+//! header    fields and blocks of numbers, common to several formats
+//! error     errors of a file
+//! ```
+
+mod cosmos;
+mod csv;
+mod error;
+mod esm;
+mod header;
+mod knet;
+mod peer_at2;
+
+use std::borrow::Cow;
+
+pub use error::RecordFileError;
+use rockfrag_core::motion::measures::peak;
+use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
+use rockfrag_core::spelling::unknown_word;
+use rockfrag_core::units::Unit;
+use strum::VariantArray;
+
+use super::{decode, words};
+
+/// A text format, in order of detection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[expect(missing_docs, reason = "the words say it")]
+#[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Format>)]
+pub enum Format {
+    Cosmos,
+    Knet,
+    Esm,
+    #[serde(rename = "at2")]
+    #[strum(serialize = "at2")]
+    PeerAt2,
+    Csv,
+}
+
+/// Options for reading files.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReadOptions {
+    /// None: detected from the content.
+    pub format: Option<Format>,
+    /// Time between samples, s.
+    pub dt_s: Option<f64>,
+    /// Unit of the samples.
+    pub unit: Option<Unit>,
+    /// Column of the acceleration in a CSV file: number from 1, heading, or `all` for a series over lines.
+    pub column: Option<String>,
+}
+
+/// Whether a component is vertical.
+pub fn is_vertical(origin: &Origin) -> bool {
+    origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
+}
+
+/// Accepted relative difference of the samples from the peak in the header, which some programs round or take
+/// before a correction.
+const SAME_PEAK: f64 = 0.05;
+
+/// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
+pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
+    // A workbook.
+    let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
+    let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
+    let recognises = |format: &&Format| match format {
+        Format::Cosmos => cosmos::recognises(&lines),
+        Format::Knet => knet::recognises(&lines),
+        Format::Esm => esm::recognises(&lines),
+        Format::PeerAt2 => peer_at2::recognises(&lines),
+        Format::Csv => true,
+    };
+    let format =
+        options.format.or_else(|| Format::VARIANTS.iter().find(recognises).copied()).unwrap_or(Format::Csv);
+    let mut motions = match format {
+        Format::Cosmos => cosmos::parse(&lines, options)?,
+        Format::Knet => vec![knet::parse(&lines, options)?],
+        Format::Esm => vec![esm::parse(&lines, options)?],
+        Format::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
+        Format::Csv => csv::parse(bytes, options)?,
+    };
+    for motion in &mut motions {
+        motion.format = format.into();
+        // Different peaks show a wrong unit or a wrong number of samples.
+        let found_m_s2 = peak(&motion.acceleration_m_s2);
+        if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga
+            && (found_m_s2 - m_s2).abs() > SAME_PEAK * m_s2 + rounding_m_s2
+        {
+            return Err(RecordFileError::Peak { header_m_s2: m_s2, found_m_s2 });
+        }
+    }
+    Ok(motions)
+}

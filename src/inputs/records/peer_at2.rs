@@ -1,0 +1,91 @@
+//! PEER's AT2: three lines of text, one with NPTS and DT, then accelerations in g. Old files (`ACCELERATION
+//! TIME HISTORY IN UNITS OF G`) and NGA files (`ACCELERATION TIME SERIES IN UNITS OF G`).
+
+use rockfrag_core::records::{Origin, RecordedMotion};
+use rockfrag_core::units::Unit;
+
+use super::ReadOptions;
+use super::error::RecordFileError;
+use super::header::{
+    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, time_step, unit, unit_of,
+    words,
+};
+
+/// Largest number of lines before the one with NPTS.
+const HEADER: usize = 8;
+
+/// Returns whether the header has a line with the number of samples.
+pub fn recognises(lines: &[&str]) -> bool {
+    line_of_counts(lines).is_some()
+}
+
+/// Finds the line with NPTS (or NPT) and DT, or with the two numbers alone below the unit.
+fn line_of_counts(lines: &[&str]) -> Option<usize> {
+    let header = &lines[..lines.len().min(HEADER)];
+    let named = header.iter().position(|line| after(line, "NPT").is_some());
+    let unit = header.iter().position(|line| after(line, "UNITS OF").is_some());
+    named.or(unit.map(|at| at + 1).filter(|at| header.get(*at).is_some_and(|line| are_counts(line))))
+}
+
+/// Whether a line has a number of samples and a time step, and nothing else.
+fn are_counts(line: &str) -> bool {
+    let words: Vec<&str> = line.split_ascii_whitespace().collect();
+    matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
+}
+
+/// Reads the motion of an AT2 file.
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
+    let missing = RecordFileError::missing;
+    let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
+    let (header, counts) = (&lines[..at], lines[at]);
+    expect_acceleration(header)?;
+    let stated = header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number)));
+    let line = stated.map_or(3, |(_, line)| line);
+    let unit = unit(stated.map(|(text, line)| unit_of(text, line)).transpose()?, options, line)?;
+    // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
+    let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
+    let (first, second) = (unnamed.next(), unnamed.next());
+    let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
+    let dt_s = time_step(named(counts, "DT").or(second), options, at + 1)?;
+    let values = samples(lines, at + 1, announced, numbers)?;
+
+    // Event, date, station and component, separated by commas; only the date has none inside.
+    let title: Vec<&str> = header.get(1).map_or("", |line| line).split(',').map(str::trim).collect();
+    let (component, before) = match title[..] {
+        [event] => ("", &[event][..]),
+        [ref before @ .., component] => (component, before),
+        [] => ("", &[][..]),
+    };
+    let date = before
+        .iter()
+        .position(|part| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic()));
+    let event_parts = date.map_or(1, |date| date + 1).min(before.len());
+    let (event, station) = before.split_at(event_parts);
+    let pga = header.iter().find_map(|line| after(line, "PGA"));
+    let origin = Origin {
+        azimuth_deg: azimuth_of(component),
+        earthquake: words(&event.join(", ")),
+        station: words(&station.join(", ")),
+        component: words(component),
+        ..Origin::default()
+    };
+    Ok(RecordedMotion {
+        header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), Unit::parse("g")?)),
+        ..RecordedMotion::new(dt_s, values, unit, origin)
+    })
+}
+
+/// The number behind a name: of `NPTS=  7818`.
+fn named(counts: &str, key: &str) -> Option<f64> {
+    let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
+    first_number(value.strip_prefix(['=', ':'])?)
+}
+
+/// Refuses a header of another quantity. Its first two lines are the database and the record.
+fn expect_acceleration(header: &[&str]) -> Result<(), RecordFileError> {
+    let mut others = header.iter().zip(1..).skip(2);
+    let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
+    other.map_or(Ok(()), |(text, line)| {
+        Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() })
+    })
+}
