@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 pub use rockfrag_core::number::*;
-pub use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 
 /// How the numbers of a kind are written, and their unit.
 #[derive(Debug, Clone, Copy)]
@@ -45,7 +45,7 @@ impl Style {
     }
 
     /// Writes a value without its limits; without a value the limits: `0.50 to 0.98 %`.
-    pub fn value(self, of: Limited) -> String {
+    pub fn value(self, of: Interval<Option<f64>>) -> String {
         match (of.value, of.low, of.high) {
             (Some(value), ..) => self.one(value),
             (None, Some(low), Some(high)) => self.range(low, high),
@@ -54,17 +54,17 @@ impl Style {
     }
 
     /// Writes the limits of a value, after words that name them: `(95 % limits 0.50 to 0.98 %)`.
-    pub fn limits(self, of: Limited, words: &str) -> String {
+    pub fn limits(self, of: Interval<Option<f64>>, words: &str) -> String {
         let limits = of.low.zip(of.high).filter(|_| of.value.is_some());
         limits.map_or(String::new(), |(low, high)| format!("({words}{})", self.range(low, high)))
     }
 
     /// Writes the limits of a value alone.
-    pub fn span(self, of: Limited) -> String {
+    pub fn span(self, of: Interval<Option<f64>>) -> String {
         self.limits(of, "").replace(['(', ')'], "")
     }
 
-    pub fn both(self, of: Limited, words: &str) -> String {
+    pub fn both(self, of: Interval<Option<f64>>, words: &str) -> String {
         format!("{} {}", self.value(of), self.limits(of, words)).trim_end().to_string()
     }
 }

@@ -9,7 +9,7 @@ use rockfrag_core::object::{Object, structure_warnings};
 use rockfrag_core::records::implausibility::implausibility;
 use rockfrag_core::rocking::{Ground, Record, TracePoint, simulate, trace};
 use rockfrag_core::statistics::distributions::t_quantile;
-use rockfrag_core::statistics::{Estimate, FitStatus, normal, tested_probit, variance};
+use rockfrag_core::statistics::{FitStatus, Interval, normal, tested_probit, variance};
 use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
@@ -126,9 +126,9 @@ pub fn fit_curve<'py>(
     let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
     let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
     let estimate = |(value, gradient): (f64, Vec<f64>)| {
-        Estimate::around(value, quantile * variance(covariance, &gradient).sqrt())
+        Interval::around(value, quantile * variance(covariance, &gradient).sqrt())
     };
-    let three = |Estimate { value, low, high }: Estimate| [value, low, high];
+    let three = |Interval { value, low, high }: Interval| [value, low, high];
     let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };
     result.set_item("status", status.to_string())?;
     result.set_item("theta", three(estimate(mu(b)).map(f64::exp)))?;

@@ -2,10 +2,11 @@
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::UNNAMED;
 
 use super::text::literal;
-use crate::number::{self, Limited, PERCENT};
+use crate::number::{self, PERCENT};
 use crate::table::answers::{Answer, ObjectRow, RatesRow, TargetBases};
 
 /// An object, and how often it reaches each limit state.
@@ -44,7 +45,7 @@ pub struct Change {
     /// Whether it stands on another floor.
     pub is_moved: bool,
     /// The probability of overturning then; several where what is measured may come out low or high.
-    pub p: Vec<Limited>,
+    pub p: Vec<Interval<Option<f64>>>,
 }
 
 impl Change {
@@ -205,8 +206,8 @@ pub const BANDS: [f64; 2] = [0.02, 0.1];
 /// A limit state, how likely it is in the exposure time, and how often it comes a year.
 pub struct State {
     pub name: String,
-    pub p: Limited,
-    pub per_year: Limited,
+    pub p: Interval<Option<f64>>,
+    pub per_year: Interval<Option<f64>>,
 }
 
 impl Answer<RatesRow> {
@@ -214,7 +215,7 @@ impl Answer<RatesRow> {
     pub fn states(&self) -> [State; 3] {
         let row = &self.row;
         let too_far = format!("{}, or overturns", self.object.too_far());
-        let [rocks, rocking_per_year] = [row.p_rocking, row.rocking_per_year].map(Limited::value);
+        let [rocks, rocking_per_year] = [row.p_rocking, row.rocking_per_year].map(Interval::without_limits);
         [
             ("rocks", rocks, rocking_per_year),
             (&too_far, row.p_failure, row.failure_per_year),
@@ -308,7 +309,7 @@ impl Expected {
     pub fn new<'a>(rows: impl IntoIterator<Item = &'a Rated>) -> Expected {
         let (mut sum, mut ln_none) = (Expected::default(), 0.0);
         for rated in rows {
-            let (count, Limited { value, low, high }) =
+            let (count, Interval { value, low, high }) =
                 (rated.object.count.unwrap_or(1.0), rated.row.p_overturning);
             let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else {
                 continue;

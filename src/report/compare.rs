@@ -2,6 +2,7 @@
 
 use rockfrag_core::hazard::{RateByParts, ratio_of_rates};
 use rockfrag_core::object::Part;
+use rockfrag_core::statistics::Interval;
 
 use super::answers::{Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
@@ -9,7 +10,7 @@ use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, Row, Value};
 use super::text::literal;
-use crate::number::{self, Limited, OF_HUNDRED, PERCENT, TWO_DIGITS};
+use crate::number::{self, OF_HUNDRED, PERCENT, TWO_DIGITS};
 
 /// Objects that are named in a sentence and in a line.
 const NAMED: usize = 4;
@@ -20,7 +21,7 @@ pub struct Pair<'a> {
     pub before: &'a Rated,
     pub after: &'a Rated,
     /// The rate after over the rate before, with limits; none where one has no rate.
-    pub ratio: Limited,
+    pub ratio: Interval<Option<f64>>,
 }
 
 /// The objects of both evaluations that have an answer in one, by name: those that are changed first, of
@@ -38,12 +39,12 @@ pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>>
 }
 
 /// PGV/PGA, and what is not known of the hazard, is the same only under the same hazard.
-fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Limited {
+fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Interval<Option<f64>> {
     let [before, after] = [before, after].map(|rated| {
         let rate = rated.row.overturning_per_year.value.filter(|rate| *rate > 0.0);
         rate.map(|rate| RateByParts { rate, sds: rated.doubts.part_sds() })
     });
-    let Some((before, after)) = before.zip(after) else { return Limited::default() };
+    let Some((before, after)) = before.zip(after) else { return Interval::default() };
     let is_shared = |part: Part| same_hazard || !matches!(part, Part::Velocity | Part::Hazard);
     ratio_of_rates(&before, &after, is_shared).into()
 }

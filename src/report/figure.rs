@@ -1,6 +1,6 @@
 //! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
-use rockfrag_core::statistics::{Estimate, Range};
+use rockfrag_core::statistics::{Interval, Range};
 
 use super::text::words;
 
@@ -149,7 +149,7 @@ impl Mark {
     }
 
     /// A value of y with its limits.
-    pub fn estimate(x: f64, Estimate { value, low, high }: Estimate) -> Mark {
+    pub fn estimate(x: f64, Interval { value, low, high }: Interval) -> Mark {
         Mark { low, high, ..Mark::new(x, value) }
     }
 

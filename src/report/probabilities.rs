@@ -1,9 +1,10 @@
 //! Probabilities of overturning in rows: names, values with their limits, words beside them, and a target.
 
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::Range;
 
 use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
-use crate::number::{Limited, OF_HUNDRED, PERCENT};
+use crate::number::{OF_HUNDRED, PERCENT};
 
 /// A row of a panel.
 pub struct Row {
@@ -17,14 +18,14 @@ pub struct Row {
 
 /// A probability, in a colour that the legend names.
 pub struct Value {
-    pub p: Limited,
+    pub p: Interval<Option<f64>>,
     pub ink: Ink,
     pub label: &'static str,
 }
 
 impl Row {
     /// A row of probabilities in one colour, with their values at its end.
-    pub fn new(name: &str, ink: Ink, label: &'static str, all: &[Limited]) -> Row {
+    pub fn new(name: &str, ink: Ink, label: &'static str, all: &[Interval<Option<f64>>]) -> Row {
         let words = all.iter().map(|p| match (p.value, p.high) {
             (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
             _ => OF_HUNDRED.value(*p),

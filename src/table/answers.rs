@@ -5,7 +5,7 @@ use rockfrag_core::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::object::{Object, Part};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
@@ -88,13 +88,13 @@ impl ObjectRow {
 #[serde(default)]
 pub struct RatesRow {
     pub rocking_per_year: Option<f64>,
-    pub failure_per_year: Limited,
-    pub overturning_per_year: Limited,
+    pub failure_per_year: Interval<Option<f64>>,
+    pub overturning_per_year: Interval<Option<f64>>,
     pub return_period_years: Option<f64>,
     pub years: Option<f64>,
     pub p_rocking: Option<f64>,
-    pub p_failure: Limited,
-    pub p_overturning: Limited,
+    pub p_failure: Interval<Option<f64>>,
+    pub p_overturning: Interval<Option<f64>>,
     /// Whether the hazard ends too early for a rate of overturning.
     pub is_range: Option<bool>,
     /// Source of PGV / PGA.
@@ -218,7 +218,7 @@ pub struct CurveRow {
     pub structure: String,
     pub pga_g: Option<f64>,
     pub pgv_m_s: Option<f64>,
-    pub p_rocking: Limited,
-    pub p_failure: Limited,
-    pub p_overturning: Limited,
+    pub p_rocking: Interval<Option<f64>>,
+    pub p_failure: Interval<Option<f64>>,
+    pub p_overturning: Interval<Option<f64>>,
 }

@@ -3,7 +3,7 @@
 use rockfrag_core::fragility::Group;
 use rockfrag_core::rocking::Capacity;
 use rockfrag_core::spelling::unknown_word;
-use rockfrag_core::statistics::{FitStatus, Limited};
+use rockfrag_core::statistics::{FitStatus, Interval};
 use serde::{Deserialize, Serialize};
 
 use super::responses::OutcomeWord;
@@ -53,8 +53,8 @@ pub struct CapacityFitRow {
     pub n_below: i64,
     /// Lowest intensity at which half of the motions overturn the structure.
     pub half_overturn_at: Option<f64>,
-    pub theta: Limited,
-    pub beta: Limited,
+    pub theta: Interval<Option<f64>>,
+    pub beta: Interval<Option<f64>>,
     pub status: FitStatus,
 }
 

@@ -21,7 +21,7 @@ use super::dictionary;
 use super::file::Table;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct
-/// in it. A value with its limits ([`rockfrag_core::statistics::Limited`]) is named by its field; a part whose name
+/// in it. A value with its limits ([`rockfrag_core::statistics::Interval`]) is named by its field; a part whose name
 /// begins with a low line continues that of its field.
 pub trait Row: Serialize + DeserializeOwned + 'static {}
 

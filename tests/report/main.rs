@@ -1,7 +1,7 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
 use resvg::{tiny_skia::Pixmap, usvg};
-use rockfrag::number::{self, Limited};
+use rockfrag::number;
 use rockfrag::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
 use rockfrag::report::figures::common::{observed_shares, ratio_bins};
 use rockfrag::report::figures::*;
@@ -18,7 +18,7 @@ use rockfrag_core::fragility::{
 use rockfrag_core::hazard::{Fragility, FragilityPoint, HazardCurve, RateByIntensity};
 use rockfrag_core::motion::IntensityMeasures;
 use rockfrag_core::rocking::{Outcome, SolverEvent, Structure};
-use rockfrag_core::statistics::{Estimate, Range};
+use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::{ReliabilityBin, observed_share};
 use serde_json::json;
 
@@ -66,8 +66,8 @@ fn tables(count: usize) -> (Vec<Cases>, Fits) {
     (groups, tables)
 }
 
-fn limited(value: f64) -> Limited {
-    Estimate { value, low: 0.3 * value, high: 3.0 * value }.into()
+fn limited(value: f64) -> Interval<Option<f64>> {
+    Interval { value, low: 0.3 * value, high: 3.0 * value }.into()
 }
 
 /// An evaluation of so many objects, one on a floor, with all that a page of one shows.
@@ -112,7 +112,7 @@ fn curve(count: usize) -> Fragility {
     let point = |k: usize| FragilityPoint {
         intensity: 0.981 * (1 + k) as f64,
         p: LimitStates { rocking: 1.0, failure: 0.5, overturning: 0.4 }
-            .map(|p| Estimate::around(p, 0.1).into()),
+            .map(|p| Interval::around(p, 0.1).into()),
     };
     Fragility::from_points(Peak::Pga, (0..count).map(point).collect())
 }
@@ -303,10 +303,10 @@ fn numbers_are_as_short_as_a_reader_needs() {
     assert_eq!([999, 27_000, 1_234_567].map(number::count), ["999", "27,000", "1,234,567"]);
     assert_eq!([0.8, 0.905, 12.0].map(number::length), ["0.80", "0.905", "12.00"]);
     assert_eq!([9.66, 1449.0, 27_290.0].map(number::period), ["9.7", "1,400", "27,000"]);
-    let of = Limited { value: Some(0.0069), low: Some(0.005), high: Some(0.00984) };
+    let of = Interval { value: Some(0.0069), low: Some(0.005), high: Some(0.00984) };
     assert_eq!(number::PERCENT.both(of, "95 % limits "), "0.69 % (95 % limits 0.50 to 0.98 %)");
     assert_eq!(
-        number::PERCENT.both(Limited { value: None, low: Some(0.0), high: Some(0.9999) }, ""),
+        number::PERCENT.both(Interval { value: None, low: Some(0.0), high: Some(0.9999) }, ""),
         "0 to >99.9 %"
     );
     assert_eq!([-1234.5, -123.0].map(|x| number::fixed(x, 1)), ["-1,234.5", "-123.0"]);

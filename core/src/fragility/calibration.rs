@@ -16,7 +16,7 @@ use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::{Bounds, Estimate, independent_errors, variance};
+use crate::statistics::{Bounds, Interval, independent_errors, variance};
 use crate::warning::Warning;
 
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
@@ -196,7 +196,7 @@ impl Calibration {
     ) -> Option<(Predictor, f64)> {
         let branch = self.branch(structure, mw);
         let predictor = branch.predictor_of(structure, measures)?;
-        let p = branch.probability(&predictor, Level::Estimate);
+        let p = branch.probability(&predictor, Level::Interval);
         (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
     }
 
@@ -219,12 +219,12 @@ impl Calibration {
         measures: &IntensityMeasures,
         mw: Option<f64>,
         scenarios: Scenarios,
-    ) -> Option<Estimate> {
+    ) -> Option<Interval> {
         let branch = self.branch(structure, mw);
         let predictor = branch.predictor_of(structure, measures)?;
         let [value, low, high] =
             Level::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
-        Some(Estimate { value, low, high })
+        Some(Interval { value, low, high })
     }
 
     /// Returns c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
@@ -334,7 +334,7 @@ impl Branch<'_> {
         let scaled = s * predictor.logit;
         let logit = c + scaled + m * magnitude + predictor.added;
         let (sign, scenarios) = match level {
-            Level::Estimate | Level::Error { .. } => return logit,
+            Level::Interval | Level::Error { .. } => return logit,
             Level::Low(scenarios) => (-1.0, scenarios),
             Level::High(scenarios) => (1.0, scenarios),
         };

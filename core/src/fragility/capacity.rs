@@ -8,7 +8,7 @@ use crate::statistics::clusters::clustered_mean;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::ln_cdf_and_slope;
-use crate::statistics::{Estimate, FitStatus};
+use crate::statistics::{FitStatus, Interval};
 
 /// What is known of a capacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,8 +26,8 @@ pub enum KnownCapacity {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
-    pub theta: Estimate,
-    pub beta: Estimate,
+    pub theta: Interval,
+    pub beta: Interval,
 }
 
 /// Fits the distribution. Where each capacity is known, of mean and standard deviation of their logarithms
@@ -74,8 +74,8 @@ fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<Capaci
     let beta = (squares / (n - 1.0)).sqrt();
     let half_width = t_quantile(0.975, n - 1.0) * beta / n.sqrt();
     let [low, high] = [0.975, 0.025].map(|share| (squares / chi_squared_quantile(share, n - 1.0)).sqrt());
-    let theta = Estimate::around(mean, half_width).map(f64::exp);
-    Ok(CapacityFit { theta, beta: Estimate { value: beta, low, high } })
+    let theta = Interval::around(mean, half_width).map(f64::exp);
+    Ok(CapacityFit { theta, beta: Interval { value: beta, low, high } })
 }
 
 /// Maximises the likelihood in 1/beta and (mu - mean)/beta, in which its logarithm is concave (Olsen 1978,
@@ -120,7 +120,7 @@ fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<Capacity
     let beta_factor = (Z_95 * covariance[(0, 0)].sqrt() / per_beta).exp();
     let (theta, beta) = ((mean + shift / per_beta).exp(), 1.0 / per_beta);
     Ok(CapacityFit {
-        theta: Estimate { value: theta, low: theta / theta_factor, high: theta * theta_factor },
-        beta: Estimate { value: beta, low: beta / beta_factor, high: beta * beta_factor },
+        theta: Interval { value: theta, low: theta / theta_factor, high: theta * theta_factor },
+        beta: Interval { value: beta, low: beta / beta_factor, high: beta * beta_factor },
     })
 }

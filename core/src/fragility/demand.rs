@@ -14,7 +14,7 @@ use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::spelling::unknown_word;
-use crate::statistics::{Estimate, FitStatus, LinearFit, held_out_log_score, least_squares};
+use crate::statistics::{FitStatus, Interval, LinearFit, held_out_log_score, least_squares};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
 /// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
@@ -146,7 +146,7 @@ fn residual(moments: Matrix4<f64>) -> Option<f64> {
 /// more than chance above it: limits that hold a break with this confidence, its jump being large against the
 /// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
 /// scatter on both sides). None without a scan.
-pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate> {
+pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Interval> {
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
     let likely = scan.iter().filter(|point| {
@@ -155,7 +155,7 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Estimate>
     });
     let mut likely = likely.map(|point| point.im4);
     let low = likely.next()?;
-    Some(Estimate { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
+    Some(Interval { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
 }
 
 /// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
@@ -334,14 +334,14 @@ impl DemandFit {
         measures: &IntensityMeasures,
         limit_state: f64,
         confidence: f64,
-    ) -> Option<Estimate> {
+    ) -> Option<Interval> {
         let beta = self.beta?;
         let ims = values(&self.im_x, self.im_y.as_ref(), measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
         let by_median = variance(&self.covariance, &design_row(&ims));
         let by_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
         let half_width = quantile(confidence, self.degrees) * (by_median + by_beta).sqrt();
-        Some(Estimate::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
+        Some(Interval::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
     }
 
     /// Returns it with each independent error of its coefficients, and that of beta, at the limits of

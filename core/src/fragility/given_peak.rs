@@ -9,7 +9,7 @@ use super::surface;
 use super::tree::LimitStates;
 use crate::motion::Peaks;
 use crate::statistics::numerics::{Panel, first, panels};
-use crate::statistics::{Estimate, Range, normal};
+use crate::statistics::{Interval, Range, normal};
 
 /// Standard deviations from the median within which all ratios lie that count.
 const FARTHEST: f64 = 6.0;
@@ -70,11 +70,11 @@ impl<'a> GivenPeak<'a> {
 
     /// Computes the probabilities of the limit states at an intensity; none where the model has none.
     pub fn limit_states(&self, intensity: f64) -> LimitStates<Option<f64>> {
-        self.at_levels(intensity, &[Level::Estimate])[0]
+        self.at_levels(intensity, &[Level::Interval])[0]
     }
 
     /// Computes them with limits.
-    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Estimate>> {
+    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
         LimitStates::from_levels(&self.at_levels(intensity, &Level::with_limits(scenarios)))
     }
 

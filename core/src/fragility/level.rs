@@ -1,7 +1,7 @@
 //! At which values of its parameters a model is taken.
 
 use super::tree::LimitStates;
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 
 /// Whether the limits of a probability include the standard deviation between earthquakes, tau; its value is
 /// the same.
@@ -17,7 +17,7 @@ pub enum Scenarios {
 /// the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
-    Estimate,
+    Interval,
     Low(Scenarios),
     High(Scenarios),
     Error { number: usize, is_high: bool },
@@ -26,16 +26,16 @@ pub(crate) enum Level {
 impl Level {
     /// Returns the levels of an estimate with its limits.
     pub fn with_limits(scenarios: Scenarios) -> [Level; 3] {
-        [Level::Estimate, Level::Low(scenarios), Level::High(scenarios)]
+        [Level::Interval, Level::Low(scenarios), Level::High(scenarios)]
     }
 }
 
-impl LimitStates<Option<Estimate>> {
+impl LimitStates<Option<Interval>> {
     /// Joins probabilities at the [levels of an estimate with its limits](Level::with_limits).
-    pub(super) fn from_levels(states: &[LimitStates<Option<f64>>]) -> LimitStates<Option<Estimate>> {
+    pub(super) fn from_levels(states: &[LimitStates<Option<f64>>]) -> LimitStates<Option<Interval>> {
         let limits = states[1].zip(states[2], Option::zip);
         states[0].zip(limits, |value, limits| {
-            value.zip(limits).map(|(value, (low, high))| Estimate { value, low, high })
+            value.zip(limits).map(|(value, (low, high))| Interval { value, low, high })
         })
     }
 }

@@ -9,7 +9,7 @@ use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Estimate, FitStatus, held_out_log_score, independent_errors, normal};
+use crate::statistics::{FitStatus, Interval, held_out_log_score, independent_errors, normal};
 use crate::statistics::{predict, probit, tested_probit, variance};
 
 /// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
@@ -170,7 +170,7 @@ impl CurveFit {
 
     /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
     /// of ln IM - mu. None without a fit, or where a measure is missing.
-    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Estimate> {
+    pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Interval> {
         let ims =
             values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
         let b = &self.coefficients;
@@ -181,7 +181,7 @@ impl CurveFit {
         };
         let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
         let half_width = quantile(confidence, self.degrees) * error;
-        Some(Estimate::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
+        Some(Interval::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
     }
 
     /// Returns it with each independent error of its coefficients at the limits of confidence.

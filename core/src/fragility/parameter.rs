@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::measure_names::Measure;
 use crate::spelling::unknown_word;
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 use crate::statistics::distributions::t_quantile;
 
 /// How many standard errors the limits of a confidence are away; normal ones without degrees of freedom.
@@ -59,8 +59,8 @@ pub struct ParameterRow {
 
 impl ParameterRow {
     /// Returns the value with its limits.
-    pub fn estimate(&self) -> Estimate {
-        Estimate { value: self.value, low: self.low, high: self.high }
+    pub fn estimate(&self) -> Interval {
+        Interval { value: self.value, low: self.low, high: self.high }
     }
 
     /// Returns theta, from mu.

@@ -9,7 +9,7 @@ use super::surface::{AtIm4, Cut};
 use super::tree::{GivenRocking, LimitStates, Probabilities, p_failure_given_rocking};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 
 impl Model {
     /// Computes the probabilities of the tree at an intensity (Eq. 12). A magnitude that is not known is
@@ -53,7 +53,7 @@ impl Model {
 
 impl Probabilities {
     /// Turns probabilities over the whole tree to those given rocking, which a floor may or may not cause.
-    fn on_floor(states: LimitStates<Option<Estimate>>) -> Probabilities {
+    fn on_floor(states: LimitStates<Option<Interval>>) -> Probabilities {
         let rocking = states.rocking.map_or(0.0, |p| p.value);
         let known = states.failure.zip(states.overturning).filter(|_| rocking > 0.0);
         let given_rocking = known.map(|(failure, overturning)| {
@@ -190,7 +190,7 @@ impl DirectionAtPga<'_> {
                         p.map(|p| match level {
                             Level::Low(_) => p.low,
                             Level::High(_) => p.high,
-                            Level::Estimate | Level::Error { .. } => p.value,
+                            Level::Interval | Level::Error { .. } => p.value,
                         })
                     }));
                 }
@@ -206,7 +206,7 @@ impl Level {
         let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
         let errors =
             (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
-        [Level::Estimate].into_iter().chain(errors).collect()
+        [Level::Interval].into_iter().chain(errors).collect()
     }
 }
 
@@ -237,7 +237,7 @@ impl<'a> ReadyObject<'a> {
     }
 
     /// Returns them with limits.
-    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Estimate>> {
+    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
         LimitStates::from_levels(&self.limit_states(peaks, &Level::with_limits(scenarios)))
     }
 }

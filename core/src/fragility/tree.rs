@@ -1,7 +1,7 @@
 //! The event tree of Figure 6 (Eq. 12): no rocking, safe rocking below or above the limit state, overturning.
 
 use crate::spelling::unknown_word;
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 
 /// The 97.5 % quantile of the normal distribution.
 pub const Z_95: f64 = 1.959_963_984_540_054;
@@ -100,13 +100,13 @@ impl<T: Copy> LimitStates<T> {
 /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
 /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
 /// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
-pub fn independent_failure(p_ro: Estimate, p_ex: Estimate) -> Estimate {
+pub fn independent_failure(p_ro: Interval, p_ex: Interval) -> Interval {
     // ln of survival, finite, so that a certain event has limits.
     let [ro, ex] = [p_ro, p_ex].map(|p| p.map(|p| (-p).ln_1p().max(f64::MIN_POSITIVE.ln())));
     let value = p_failure_given_rocking(p_ro.value, p_ex.value);
     let low = -(ro.value + ex.value + (ro.low - ro.value).hypot(ex.low - ex.value)).exp_m1();
     let high = -(ro.value + ex.value - (ro.high - ro.value).hypot(ex.high - ex.value)).exp_m1();
-    Estimate {
+    Interval {
         value,
         // What rounding loses of limits near 0.
         low: low.max(p_ro.low).max(p_ex.low).min(value),
@@ -127,11 +127,11 @@ pub struct Probabilities {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenRocking {
     /// A demand above the limit state, in safe rocking; none where no plane is fitted.
-    pub p_ex: Option<Estimate>,
+    pub p_ex: Option<Interval>,
     /// Overturning.
-    pub p_ro: Estimate,
+    pub p_ro: Interval,
     /// Failure, the one or the other (Eq. 12).
-    pub p_failure: Option<Estimate>,
+    pub p_failure: Option<Interval>,
 }
 
 impl Probabilities {
@@ -143,8 +143,8 @@ impl Probabilities {
 
     /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
     /// None where a measure is missing, or no plane is fitted.
-    pub fn limit_states(&self) -> LimitStates<Option<Estimate>> {
-        let rocking = Some(Estimate::exact(1.0 - self.p_nr));
+    pub fn limit_states(&self) -> LimitStates<Option<Interval>> {
+        let rocking = Some(Interval::exact(1.0 - self.p_nr));
         if self.p_nr == 1.0 {
             return LimitStates::all(rocking);
         }

@@ -2,7 +2,7 @@
 
 use crate::fragility::Z_95;
 use crate::object::{Part, Unknown};
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 use strum::VariantArray;
 
 /// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part:
@@ -54,19 +54,19 @@ impl Budget {
     }
 
     /// Gives an annual rate its 95 % limits, which are never above the rate of rocking.
-    pub fn limit_rate(&self, rate: f64, rocking: f64) -> Estimate {
+    pub fn limit_rate(&self, rate: f64, rocking: f64) -> Interval {
         let [down, up] = self.sds().map(|sd| (Z_95 * sd).exp());
-        Estimate { value: rate, low: rate / down, high: (rate * up).min(rocking.max(rate)) }
+        Interval { value: rate, low: rate / down, high: (rate * up).min(rocking.max(rate)) }
     }
 
     /// Gives a probability its 95 % limits, which are never above the probability of rocking; `tau` is the
     /// standard deviation of the logit between earthquakes.
-    pub fn limit_probability(&self, p: f64, rocking: f64, tau: f64) -> Estimate {
+    pub fn limit_probability(&self, p: f64, rocking: f64, tau: f64) -> Interval {
         if !(p > 0.0 && p < 1.0) {
-            return Estimate::exact(p);
+            return Interval::exact(p);
         }
         let [down, up] = self.sds().map(|sd| Z_95 * sd.hypot(tau));
         let [low, high] = [-down, up].map(|off| 1.0 / (1.0 + (1.0 - p) / p * (-off).exp()));
-        Estimate { value: p, low, high: high.min(rocking.max(p)) }
+        Interval { value: p, low, high: high.min(rocking.max(p)) }
     }
 }

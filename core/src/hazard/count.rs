@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::curve::HazardCurve;
 use crate::random::{Purpose, stream};
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 use crate::statistics::distributions::chi_squared_quantile;
 
 /// Most bins of equal numbers of motions, and least motions in each.
@@ -33,7 +33,7 @@ pub struct CountedMotion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
     /// The rate, a year.
-    pub annual_rate: Estimate,
+    pub annual_rate: Interval,
     /// How many motions were counted.
     pub motions: usize,
 }
@@ -78,7 +78,7 @@ pub fn counted_rate(
         [TAIL, 1.0 - TAIL].map(|share| drawn[(share * (drawn.len() - 1) as f64).round() as usize]);
     let poisson = poisson_limits(&in_all);
     let (low, high) = (poisson.low.min(drawn_low), poisson.high.max(drawn_high));
-    Some(CountedRate { annual_rate: Estimate { low, high, ..poisson }, motions: motions.len() })
+    Some(CountedRate { annual_rate: Interval { low, high, ..poisson }, motions: motions.len() })
 }
 
 /// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle
@@ -115,7 +115,7 @@ fn rate(bins: &[Bin]) -> f64 {
 }
 
 /// Returns the rate with the limits of a weighted sum of Poisson counts.
-fn poisson_limits(bins: &[Bin]) -> Estimate {
+fn poisson_limits(bins: &[Bin]) -> Interval {
     let (mut variance, mut largest) = (0.0, 0.0_f64);
     for Bin { annual_rate, motions, events } in bins {
         let weight = annual_rate / motions;
@@ -125,7 +125,7 @@ fn poisson_limits(bins: &[Bin]) -> Estimate {
     let value = rate(bins);
     let low = poisson_quantile(value, variance, TAIL);
     let high = poisson_quantile(value + largest, variance + largest * largest, 1.0 - TAIL);
-    Estimate { value, low, high }
+    Interval { value, low, high }
 }
 
 /// Computes a quantile of a gamma distribution of this mean and variance, by chi squared.

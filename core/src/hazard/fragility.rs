@@ -11,7 +11,7 @@ use crate::motion::Peaks;
 use crate::number::{plain, significant};
 use crate::object::{Subject, Unknown};
 use crate::statistics::numerics::{equal_ratios, first};
-use crate::statistics::{Estimate, Limited, least_squares, normal};
+use crate::statistics::{Interval, least_squares, normal};
 
 /// Motions of generic sites, of which one peak is given, and what narrows the other.
 ///
@@ -68,7 +68,7 @@ pub struct FragilityPoint {
     /// PGA (m/s2) or PGV (m/s).
     pub intensity: f64,
     /// Shares of the motions of this intensity, with limits; nothing of one where the model has none.
-    pub p: LimitStates<Limited>,
+    pub p: LimitStates<Interval<Option<f64>>>,
 }
 
 /// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
@@ -77,13 +77,13 @@ pub struct FragilityPoint {
 pub struct Lognormal {
     /// Where 16, 50 and 84 % of the motions have the effect; none beyond the last point.
     #[serde(rename = "_16")]
-    pub at_16: Limited,
+    pub at_16: Interval<Option<f64>>,
     /// Median.
     #[serde(rename = "_theta")]
-    pub theta: Limited,
+    pub theta: Interval<Option<f64>>,
     /// See `at_16`.
     #[serde(rename = "_84")]
-    pub at_84: Limited,
+    pub at_84: Interval<Option<f64>>,
     /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that
     /// is reached.
     #[serde(rename = "_beta")]
@@ -147,7 +147,7 @@ impl Fragility {
         let levels = Level::with_errors(&subject.directions);
         let by_level = probabilities(&middle, &intensities, &levels);
         let mut ends =
-            motions.ends(subject, |given| probabilities(given, &intensities, &[Level::Estimate]).remove(0));
+            motions.ends(subject, |given| probabilities(given, &intensities, &[Level::Interval]).remove(0));
         ends.extend(Unknown::from_fit_errors(&by_level));
         let values = &by_level[0];
         let budget = |k: usize, state: LimitState| {
@@ -158,8 +158,8 @@ impl Fragility {
         let points = intensities.iter().zip(values).enumerate().map(|(k, (&intensity, p))| {
             let [failure, overturning] = [LimitState::Failure, LimitState::Overturning]
                 .map(|state| Some(budget(k, state).limit_probability(p.get(state)?, p.rocking?, 0.0)));
-            let rocking = p.rocking.map(Estimate::exact);
-            let p = LimitStates { rocking, failure, overturning }.map(Limited::from);
+            let rocking = p.rocking.map(Interval::exact);
+            let p = LimitStates { rocking, failure, overturning }.map(Interval::from);
             FragilityPoint { intensity, p }
         });
         let points: Vec<FragilityPoint> = points.collect();
@@ -179,7 +179,7 @@ impl Fragility {
 impl Lognormal {
     /// Finds the intensities between points, without a dispersion.
     fn between(points: &[FragilityPoint], state: LimitState) -> Lognormal {
-        let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Limited {
+        let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Interval {
             value: crossing(points, level, |point| point.p.get(state).value),
             low: crossing(points, level, |point| point.p.get(state).high),
             high: crossing(points, level, |point| point.p.get(state).low),

@@ -6,7 +6,7 @@ use super::pgv_pga::PgvPgaRatio;
 use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
-use crate::statistics::{Estimate, Limited};
+use crate::statistics::Interval;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 ///
@@ -42,7 +42,7 @@ pub struct Motion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
-    pub states: LimitStates<Limited>,
+    pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.
     pub errors: Budget,
 }
@@ -68,7 +68,7 @@ impl Motion {
     /// Computes the probabilities for an object, averaged over the peak that is not known.
     pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
         if self.is_still() {
-            let states = LimitStates::all(Estimate::exact(0.0).into());
+            let states = LimitStates::all(Interval::exact(0.0).into());
             return MotionProbabilities { states, errors: Budget::default() };
         }
         let directions = &subject.directions[..];
@@ -78,7 +78,7 @@ impl Motion {
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
                 let ends = subject.ends(|directions| {
-                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Estimate])[0]
+                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Interval])[0]
                 });
                 Known::new(|scenarios| ready.estimates(peaks, scenarios), ends)
             }
@@ -92,7 +92,7 @@ impl Motion {
         let (errors, overturning) = known.limited(LimitState::Overturning);
         let rocking = known.many.rocking;
         MotionProbabilities {
-            states: LimitStates { rocking, failure, overturning }.map(Limited::from),
+            states: LimitStates { rocking, failure, overturning }.map(Interval::from),
             errors,
         }
     }
@@ -112,23 +112,23 @@ impl Motion {
 /// Probabilities for an object, and how well they are known.
 struct Known {
     /// With limits by the parameters of the model.
-    many: LimitStates<Option<Estimate>>,
+    many: LimitStates<Option<Interval>>,
     /// With limits by these and by the standard deviation between earthquakes, tau.
-    one: LimitStates<Option<Estimate>>,
+    one: LimitStates<Option<Interval>>,
     /// With each other unknown at its quantiles.
     ends: Vec<Unknown<LimitStates<Option<f64>>>>,
 }
 
 impl Known {
     fn new(
-        estimates: impl Fn(Scenarios) -> LimitStates<Option<Estimate>>,
+        estimates: impl Fn(Scenarios) -> LimitStates<Option<Interval>>,
         ends: Vec<Unknown<LimitStates<Option<f64>>>>,
     ) -> Known {
         Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
     }
 
     /// Returns the errors of the logit of a probability, without tau, and the probability with limits by all.
-    fn limited(&self, state: LimitState) -> (Budget, Option<Estimate>) {
+    fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
         let (values, [many, one]) =
             (self.many.map(|p| p.map(|p| p.value)), [self.many, self.one].map(|p| p.get(state)));
         let mut errors = Budget::new(&values, &self.ends, |states| states.get(state).map(logit));
@@ -151,7 +151,7 @@ pub(super) fn logit(p: f64) -> f64 {
 }
 
 /// The standard deviation of a logit by its 95 % limits.
-fn sd_of_limits(p: Estimate) -> f64 {
+fn sd_of_limits(p: Interval) -> f64 {
     let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
     if sd.is_finite() { sd } else { 0.0 }
 }

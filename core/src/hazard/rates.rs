@@ -64,7 +64,7 @@ impl Rate {
 
 /// Integrates the probabilities given one peak over its hazard curve; none where the model has none.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
-    OverCurve::new(given_peak, curve, &[Level::Estimate]).rates(0)
+    OverCurve::new(given_peak, curve, &[Level::Interval]).rates(0)
 }
 
 /// The probabilities of an object, at each level, at intensities that stand for all of a curve, and at its last

@@ -3,7 +3,7 @@
 
 use crate::fragility::Z_95;
 use crate::object::Part;
-use crate::statistics::Estimate;
+use crate::statistics::Interval;
 use strum::VariantArray;
 
 /// An annual rate, and the standard deviations of its logarithm by part.
@@ -28,12 +28,12 @@ pub fn ratio_of_rates(
     before: &RateByParts,
     after: &RateByParts,
     is_shared: impl Fn(Part) -> bool,
-) -> Estimate {
+) -> Interval {
     let variances = Part::VARIANTS.iter().map(|&part| {
         let [before, after] = [before, after].map(|of| of.sd(part));
         if is_shared(part) { (after - before).powi(2) } else { before * before + after * after }
     });
     let factor = (Z_95 * variances.sum::<f64>().sqrt()).exp();
     let ratio = after.rate / before.rate;
-    Estimate { value: ratio, low: ratio / factor, high: ratio * factor }
+    Interval { value: ratio, low: ratio / factor, high: ratio * factor }
 }

@@ -10,7 +10,7 @@ use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
-use crate::statistics::Limited;
+use crate::statistics::Interval;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -88,9 +88,9 @@ pub struct Site {
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
 pub struct SiteRates {
-    pub rocking: Limited,
-    pub failure: Limited,
-    pub overturning: Limited,
+    pub rocking: Interval<Option<f64>>,
+    pub failure: Interval<Option<f64>>,
+    pub overturning: Interval<Option<f64>>,
     /// Standard deviations of ln of the rate of overturning, by source of uncertainty.
     pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
@@ -124,7 +124,7 @@ impl Site {
                 let varied = Varied::new(
                     all,
                     subject.ends(|directions| {
-                        rates_over_pairs(directions, self.mw, bins, &[Level::Estimate])[0]
+                        rates_over_pairs(directions, self.mw, bins, &[Level::Interval])[0]
                     }),
                 );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
@@ -138,11 +138,11 @@ impl Site {
     pub fn overturning(&self, subject: &Subject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
-                rates_over_pairs(&subject.directions, self.mw, bins, &[Level::Estimate])[0]
+                rates_over_pairs(&subject.directions, self.mw, bins, &[Level::Interval])[0]
             }
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
-                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given, &[Level::Estimate]);
+                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given, &[Level::Interval]);
                 Some(over.rates(0)).filter(|_| !ends_early)?
             }
         };
@@ -239,14 +239,14 @@ impl Varied {
     }
 
     /// Gives one rate its limits.
-    fn limited(&self, state: LimitState, ends_early: bool) -> Limited {
+    fn limited(&self, state: LimitState, ends_early: bool) -> Interval<Option<f64>> {
         let Some((rate, rocking)) = self.rates.get(state).zip(self.rates.rocking) else {
-            return Limited::default();
+            return Interval::default();
         };
         let limited = |at: fn(&Rate) -> f64| self.budget(state, at).limit_rate(at(&rate), rocking.most());
         match ends_early {
             false => self.budget(state, |rate| rate.value).limit_rate(rate.value, rocking.value).into(),
-            true => Limited {
+            true => Interval {
                 value: None,
                 low: Some(limited(Rate::least).low),
                 high: Some(limited(Rate::most).high),

@@ -6,7 +6,7 @@ use argmin::solver::brent::BrentRoot;
 use super::site::Site;
 use crate::object::{Object, Subject};
 use crate::spelling::unknown_word;
-use crate::statistics::Limited;
+use crate::statistics::Interval;
 
 /// The base of an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ impl Site {
         &self,
         object: &Object,
         subject: &dyn Fn(&Object) -> Option<Subject>,
-        rate: Limited,
+        rate: Interval<Option<f64>>,
         target: f64,
     ) -> Bases {
         let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
@@ -155,7 +155,7 @@ struct Search<'a> {
 type Rate = fn(&Site, &Subject) -> Option<f64>;
 
 fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
-    let Limited { value, high, .. } = site.rates(subject).overturning;
+    let Interval { value, high, .. } = site.rates(subject).overturning;
     value.and(high)
 }
 

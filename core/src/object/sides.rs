@@ -6,7 +6,7 @@ use super::given::{Object, Place, Reason, Restitution, Shape};
 use super::subject::{Part, Unknown};
 use crate::fragility::Z_95;
 use crate::rocking::{Body, Structure, StructureError, housner_eta};
-use crate::statistics::{Estimate, normal, numerics};
+use crate::statistics::{Interval, normal, numerics};
 
 /// A direction in which an object rocks.
 #[derive(Debug, Clone, PartialEq)]
@@ -200,14 +200,14 @@ impl Side {
 
 /// Finds the median and the 2.5 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as
 /// bad.
-fn folded_quantiles(mean: f64, sd: f64) -> Estimate {
+fn folded_quantiles(mean: f64, sd: f64) -> Interval {
     if sd == 0.0 {
-        return Estimate::exact(mean.abs());
+        return Interval::exact(mean.abs());
     }
     let [low, value, high] = [0.025, 0.5, 0.975].map(|share| {
         numerics::first(0.0, mean.abs() + 5.0 * sd, |x| {
             normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd) > share
         })
     });
-    Estimate { value, low, high }
+    Interval { value, low, high }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! linear         least squares (Eqs. 16 and 17)
 //! binary         probit regression by maximum likelihood (Eqs. 19 to 22)
-//! estimate       a value with limits
+//! interval       a value with limits
 //! fit            coefficients, covariance and status of a regression
 //! design         design matrix
 //! newton         maximum of a log-likelihood
@@ -22,8 +22,8 @@ mod binary;
 pub mod clusters;
 mod design;
 pub mod distributions;
-mod estimate;
 mod fit;
+mod interval;
 mod linear;
 #[doc(hidden)]
 pub mod newton;
@@ -35,7 +35,7 @@ pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::{Folds, held_out_log_score};
-pub use estimate::{Estimate, Limited};
 pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
+pub use interval::Interval;
 pub use linear::{LinearFit, least_squares, tested_least_squares};
 pub use range::{Bounds, Range};

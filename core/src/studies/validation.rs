@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::fragility::{Event, Z_95};
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::scores::{auc, brier_score, log_score};
-use crate::statistics::{Estimate, normal, tested_probit};
+use crate::statistics::{Interval, normal, tested_probit};
 
 /// Groups of rising probability in a reliability curve.
 const BINS: usize = 10;
@@ -140,11 +140,11 @@ impl Forecasts<'_> {
 
 /// Estimates the probability of what happened in `observed` of `n` independent cases: their share, with 95 %
 /// limits (Wilson 1927, Journal of the American Statistical Association 22, 209-212).
-pub fn observed_share(observed: usize, n: usize) -> Estimate {
+pub fn observed_share(observed: usize, n: usize) -> Interval {
     let (n, share) = (n as f64, observed as f64 / n as f64);
     let (middle, width) = (share + Z_95 * Z_95 / (2.0 * n), 1.0 + Z_95 * Z_95 / n);
     let half = Z_95 * (share * (1.0 - share) / n + (Z_95 / (2.0 * n)).powi(2)).sqrt();
-    Estimate {
+    Interval {
         value: share,
         low: ((middle - half) / width).max(0.0),
         high: ((middle + half) / width).min(1.0),

@@ -11,7 +11,7 @@ use rockfrag_core::hazard::{
 };
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Part, Restitution, Subject};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use strum::VariantArray;
 
 /// A curve that ends where nothing is stronger.
@@ -77,7 +77,7 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
         let Lognormal { at_16, theta, beta, largest_error, .. } =
             SitesInGeneral { over, mw, ..general }.fragility(&block(0.5)).overturning;
         let still = Motion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
-        for (level, Limited { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
+        for (level, Interval { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
             let motion = match over {
                 Peak::Pga => Motion { pga_m_s2: value, ..still },
                 Peak::Pgv => Motion { pgv_m_s: value, ..still },

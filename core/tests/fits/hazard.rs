@@ -10,7 +10,7 @@ use rockfrag_core::hazard::{
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Part, Subject, Unknown};
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::statistics::{Limited, normal};
+use rockfrag_core::statistics::{Interval, normal};
 
 use crate::common::{cases, close, equipment, read};
 
@@ -212,7 +212,7 @@ fn squat() -> Subject {
     Subject::shipped(&Object::block("squat", 0.9, 1.4), Kind::Recorded, 0.1).unwrap()
 }
 
-fn range(rate: Limited) -> [f64; 2] {
+fn range(rate: Interval<Option<f64>>) -> [f64; 2] {
     assert_eq!(rate.value, None);
     [rate.low, rate.high].map(Option::unwrap)
 }

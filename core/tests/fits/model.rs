@@ -10,7 +10,7 @@ use rockfrag_core::fragility::{
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::rocking::{Outcome, Structure};
-use rockfrag_core::statistics::Estimate;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 use strum::VariantArray;
 
@@ -223,7 +223,7 @@ fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
 }
 
 /// Limits that are finite, hold the value, and are not all of 0 to 1.
-fn expect_limits(p: Estimate) {
+fn expect_limits(p: Interval) {
     assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
     // Magnitude is not known of any of these motions.
     assert!(p.high - p.low < 0.98, "{p:?}");
@@ -288,7 +288,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
             [Some(given.p_ro), given.p_ex, given.p_failure].map(Option::unwrap)
         };
         let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
-        let joined = |of: fn(Estimate) -> f64| p_failure_given_rocking(of(one[0]), of(one[1]));
+        let joined = |of: fn(Interval) -> f64| p_failure_given_rocking(of(one[0]), of(one[1]));
         close(one[2].value, joined(|p| p.value), 1e-12);
         close(one[2].low, joined(|p| p.low), 1e-12);
         close(one[2].high, joined(|p| p.high), 1e-12);
@@ -299,7 +299,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
         }
     }
     let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Scenarios::One);
-    assert_eq!(still.limit_states(), LimitStates::all(Some(Estimate::exact(0.0))));
+    assert_eq!(still.limit_states(), LimitStates::all(Some(Interval::exact(0.0))));
     let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Scenarios::One);
     assert_eq!(unknown.limit_states().overturning, None, "no velocity");
 }

@@ -6,7 +6,7 @@ use rockfrag_core::fragility::{
     p_failure_given_rocking, p_no_rocking, paper_probabilities,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::statistics::{Estimate, normal};
+use rockfrag_core::statistics::{Interval, normal};
 
 use crate::common::{close, equipment, rocking};
 
@@ -42,16 +42,16 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
             IntensityMeasures::new(&equipment(), Peaks { pga_m_s2: pga, pgv_m_s: pgv }, None, None);
         paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).limit_states()
     };
-    assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), LimitStates::all(Some(Estimate::exact(0.0))));
+    assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), LimitStates::all(Some(Interval::exact(0.0))));
     let above = at(uplift * (1.0 + 1e-12), 1.0).map(Option::unwrap);
-    assert_eq!(above.rocking, Estimate::exact(1.0));
+    assert_eq!(above.rocking, Interval::exact(1.0));
     assert!(above.failure.value > 0.0 && above.overturning.value > 0.0);
     assert_eq!(at(9.0, 0.0).failure, None, "no velocity, no IM3");
 }
 
 /// Phi(z), with limits.
-fn around(z: f64, half_width: f64) -> Estimate {
-    Estimate::shifted(half_width, |shift| normal::cdf(z + shift))
+fn around(z: f64, half_width: f64) -> Interval {
+    Interval::shifted(half_width, |shift| normal::cdf(z + shift))
 }
 
 proptest! {

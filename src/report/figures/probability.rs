@@ -4,7 +4,7 @@ use rockfrag_core::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure,
 use rockfrag_core::motion::IntensityMeasures;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::scores::sample_quantile;
-use rockfrag_core::statistics::{Estimate, Range};
+use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::{Fits, by, called, compare, demands, label};
 use super::common::{observed_shares, ratio_bins, rocked};
@@ -98,7 +98,7 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
 }
 
 /// A curve with its band, broken where it has no value.
-fn curve(x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Estimate>) -> Vec<Mark> {
+fn curve(x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Interval>) -> Vec<Mark> {
     x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| Mark::estimate(x, p))).collect()
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Fragility, FragilityPoint, intensity_in_words};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 
 use super::object::Predicted;
@@ -14,7 +14,7 @@ use crate::report::fragility::{cells, half_in_words};
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 
 impl Predicted for FragilityRow {
-    fn overturning(&self) -> Limited {
+    fn overturning(&self) -> Interval<Option<f64>> {
         self.overturning.theta
     }
 

@@ -5,7 +5,7 @@ use rockfrag_core::fragility::Model;
 use rockfrag_core::hazard::Budget;
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Subject};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 
 use crate::pipeline::context::Context;
@@ -16,7 +16,7 @@ use crate::table::rows::Row;
 /// A row of predictions; the default one is that of an object without an answer.
 pub trait Predicted: Row + Default + Send + Sync {
     /// Probability or rate of overturning.
-    fn overturning(&self) -> Limited;
+    fn overturning(&self) -> Interval<Option<f64>>;
 
     /// By which objects are sorted, the worst first.
     fn severity(&self) -> f64 {

@@ -3,7 +3,7 @@
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Hazard, HazardCurve, Site, exceedance, probability_in_years};
 use rockfrag_core::object::{Object, Subject};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use serde_json::Value;
 
 use super::point::{self, TreeRow};
@@ -103,6 +103,6 @@ fn outline(object: &Object, subject: &Subject) -> Option<Outline> {
     Some(Outline { width, height, centre_height, centre_offset, alpha_rad })
 }
 
-fn overturning(subject: &Subject, site: &Site, years: f64) -> Limited {
+fn overturning(subject: &Subject, site: &Site, years: f64) -> Interval<Option<f64>> {
     site.rates(subject).overturning.map(|rate| probability_in_years(rate, years))
 }

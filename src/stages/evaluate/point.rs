@@ -6,7 +6,7 @@ use rockfrag_core::fragility::{Direction, LimitStates, Scenarios};
 use rockfrag_core::hazard::{Budget, Motion, MotionProbabilities};
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::object::Subject;
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use serde::{Deserialize, Serialize};
 
@@ -23,13 +23,13 @@ pub struct TreeRow {
     pub pga_m_s2: Option<f64>,
     pub pgv_m_s: Option<f64>,
     pub p_nr: Option<f64>,
-    pub p_ex: Limited,
-    pub p_ro: Limited,
-    pub p_f_r: Limited,
+    pub p_ex: Interval<Option<f64>>,
+    pub p_ro: Interval<Option<f64>>,
+    pub p_f_r: Interval<Option<f64>>,
     pub p_f: Option<f64>,
     /// Failure, and overturning, over the whole tree.
     #[serde(skip)]
-    states: LimitStates<Limited>,
+    states: LimitStates<Interval<Option<f64>>>,
 }
 
 impl TreeRow {
@@ -64,7 +64,7 @@ impl TreeRow {
     pub fn without_rates(&self) -> RatesRow {
         let LimitStates { failure, overturning, .. } = self.states;
         let p_rocking = self.p_nr.map(|p_nr| 1.0 - p_nr);
-        let (p_failure, p_overturning) = (Limited::value(failure.value), overturning);
+        let (p_failure, p_overturning) = (Interval::without_limits(failure.value), overturning);
         RatesRow { p_rocking, p_failure, p_overturning, ..RatesRow::default() }
     }
 
@@ -74,12 +74,12 @@ impl TreeRow {
 }
 
 /// A probability over that of rocking; none where that is 0.
-fn over(rocking: Option<f64>, p: Limited) -> Limited {
-    rocking.filter(|rocking| *rocking > 0.0).map_or(Limited::default(), |rocking| p.map(|p| p / rocking))
+fn over(rocking: Option<f64>, p: Interval<Option<f64>>) -> Interval<Option<f64>> {
+    rocking.filter(|rocking| *rocking > 0.0).map_or(Interval::default(), |rocking| p.map(|p| p / rocking))
 }
 
 impl Predicted for TreeRow {
-    fn overturning(&self) -> Limited {
+    fn overturning(&self) -> Interval<Option<f64>> {
         self.states.overturning
     }
 }
@@ -115,7 +115,7 @@ fn tell_list(all: &[Answer<TreeRow>], out: Option<&Path>) -> String {
     let worst = &all[0];
     let first = match worst.row.overturning() {
         _ if !all.iter().any(|answer| answer.row.rocks()) => "nothing rocks".to_string() + &where_silent(all),
-        Limited { value: None | Some(0.0), .. } => "nothing overturns".to_string() + &where_silent(all),
+        Interval { value: None | Some(0.0), .. } => "nothing overturns".to_string() + &where_silent(all),
         p => {
             let (name, p) = (name(&worst.object.structure), PERCENT.both(p, "95 % limits "));
             format!("{name} is the most likely to overturn: {p}")

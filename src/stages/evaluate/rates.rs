@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Hazard, PeakHazard, Site, VelocitySource};
-use rockfrag_core::statistics::Limited;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 
 use super::object::Predicted;
@@ -14,7 +14,7 @@ use crate::report::answers::{Expected, NO_RATE, State, in_years};
 use crate::table::answers::{Answer, RatesRow};
 
 impl Predicted for RatesRow {
-    fn overturning(&self) -> Limited {
+    fn overturning(&self) -> Interval<Option<f64>> {
         self.overturning_per_year
     }
 }
@@ -84,7 +84,7 @@ fn tell_list(all: &[Answer<RatesRow>], site: &Site, target: Option<f64>, out: Op
     let table = table(&headings, all, out, |answer| {
         let (object, rates) = (&answer.object, &answer.row);
         let mut cells = vec![
-            RATE.value(Limited::value(rates.rocking_per_year)),
+            RATE.value(Interval::without_limits(rates.rocking_per_year)),
             RATE.value(rates.overturning_per_year),
             rates.return_period_years.map_or("-".to_string(), period),
             PERCENT.value(rates.p_overturning),
@@ -161,13 +161,15 @@ fn extrapolated(rates: &RatesRow) -> Option<String> {
 /// How often it overturns, with limits or bounds.
 fn how_often(rates: &RatesRow, site: &Site) -> String {
     match rates.overturning_per_year {
-        Limited { value: Some(0.0), .. } => "does not overturn: nothing of the hazard uplifts it".to_string(),
-        Limited { value: Some(rate), .. } => {
+        Interval { value: Some(0.0), .. } => {
+            "does not overturn: nothing of the hazard uplifts it".to_string()
+        }
+        Interval { value: Some(rate), .. } => {
             let (period, in_years, p) = (period(1.0 / rate), when(rates), rates.p_overturning);
             let (value, limits) = (PERCENT.value(p), PERCENT.limits(p, "95 % limits "));
             format!("overturns once in {period} years; {value} {in_years} {limits}")
         }
-        bounds @ Limited { value: None, low: Some(_), high: Some(_) } => {
+        bounds @ Interval { value: None, low: Some(_), high: Some(_) } => {
             let end = match &site.hazard {
                 Hazard::Curve(PeakHazard { peak, curve, .. }) => {
                     let [_, (last, rate)] = curve.ends();

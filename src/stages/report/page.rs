@@ -2,6 +2,7 @@
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Parameter};
 use rockfrag_core::rocking::{Outcome, Structure};
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
 use rockfrag_core::studies::paper::Comparison;
 use rockfrag_core::warning::Warnings;
@@ -9,7 +10,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::tables::{Kind, Tables};
-use crate::number::{self, Limited, TWO_DIGITS, listed};
+use crate::number::{self, TWO_DIGITS, listed};
 use crate::report::answers::Evaluation;
 use crate::report::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::report::figures::*;
@@ -256,12 +257,12 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
-fn curve_parameters(tables: &Tables, cases: &Cases) -> (Limited, Limited) {
+fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, Interval<Option<f64>>) {
     let curve = tables.fits.curve(cases, &Measure::Im5, None);
     let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
     let [theta, beta] = [Parameter::Theta, Parameter::Beta].map(|which| {
         let row = parameters.iter().find(|row| row.parameter == which);
-        row.map_or(Limited::default(), |row| row.estimate().into())
+        row.map_or(Interval::default(), |row| Interval::<Option<f64>>::from(row.estimate()))
     });
     let pgv_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
     (theta.map(|im5| im5 * pgv_m_s), beta)
