@@ -112,6 +112,8 @@ fn a_search_for_a_base_says_what_ends_it() {
         ("--width 1 --height 6 --target 1%", true, true, None),
         ("--width 0.5 --height 1.9 --magnitude 6.5 --target 0.1%", true, false, Some("hazard")),
         ("--width 0.06 --height 0.2 --target 1%", true, false, Some("model")),
+        // Rocks only where the curve has ended: the search goes inwards.
+        ("--width 1.2 --height 2 --target 10%", true, true, None),
         ("--width 0.2 --height 2.2 --target 1e-7%", false, false, Some("hazard")),
         ("--width 0.2 --height 2.2 --target 1e-7% --extrapolate", false, false, Some("model")),
         ("--p 2 --alpha 0.2 --eta 0.9 --target 1%", false, false, None),

@@ -86,14 +86,11 @@ impl Site {
                 && let Some([least, start, most]) = sides(object, base)
             {
                 let search = Search { site: self, object, subject, base, target, least, most };
-                let estimate = search.ln_side(start, Site::overturning);
+                let estimate = search.ln_side(search.last_known(least, start), Site::overturning);
                 let limit = estimate.and_then(|ln_side| {
                     // The limit is as far above the rate as it is now, or so.
-                    let mut near = (ln_side + ln_margin / FALL).min(most);
-                    if search.excess(near, Site::overturning).is_err() {
-                        near = search.last_known(ln_side, near);
-                    }
-                    search.ln_side(near, upper_limit)
+                    let near = (ln_side + ln_margin / FALL).min(most);
+                    search.ln_side(search.last_known(ln_side, near), upper_limit)
                 });
                 let [estimate, by_limit] = [estimate, limit].map(|side| side.ok().map(|ln| base(ln.exp())));
                 bases = Bases { by_estimate: bases.by_estimate.or(estimate), by_limit, end: limit.err() };
@@ -192,8 +189,12 @@ impl Search<'_> {
         Ok(side)
     }
 
-    /// Finds the last side with a rate on the way from one that has a rate to one that has none.
+    /// Finds the last side with a rate on the way from one that has a rate: a wide base may rock only where
+    /// the hazard curve has ended.
     fn last_known(&self, mut side: f64, mut beyond: f64) -> f64 {
+        if self.excess(beyond, Site::overturning).is_ok() {
+            return beyond;
+        }
         while (beyond - side).abs() > ACCURACY {
             let middle = 0.5 * (side + beyond);
             *(if self.excess(middle, Site::overturning).is_ok() { &mut side } else { &mut beyond }) = middle;
