@@ -112,9 +112,10 @@ pub fn is_view(path: &Path) -> bool {
 fn is_ours(path: &Path, context: &Context) -> bool {
     match () {
         _ if ends_in(path, &NAMED) => names_rockfrag(path),
-        // The numbers of a figure go with it.
+        // The numbers of a figure go with it, or with its page.
         _ if is_view(path) && !context.plan.outputs.contains(&path.to_path_buf()) => {
             names_rockfrag(&path.with_extension("svg"))
+                || context.plan.outputs.iter().any(|out| names_rockfrag(out))
         }
         _ if is_view(path) => context.caller == Caller::Run,
         _ => Provenance::read(path).is_ok_and(|made| made.is_some()),
