@@ -1,4 +1,4 @@
-"""Accelerations of floors by scipy.signal.lsim: python floors.py tests/reference
+"""Accelerations of floors by scipy.signal.lsim: python floors.py core/tests/reference
 
 Ten motions of rocking/motions.parquet, each with 10 s of rest behind it, on nine floors of a uniform shear
 beam, by state space with all five modes at once; every hundredth sample and the largest, m/s2:

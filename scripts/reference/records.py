@@ -1,4 +1,4 @@
-"""Measures and pulses of motions by other programs: python records.py tests/reference
+"""Measures and pulses of motions by other programs: python records.py core/tests/reference
 
 Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias
 intensity and durations) and records/pulses.csv (the indicator of Baker 2007 with PyWavelets' db4 at full
