@@ -80,8 +80,6 @@
 //! Nothing here reads a file, asks the time or prints. The crate `rockfrag` reads the files of agencies and runs these
 //! steps over Parquet files: `rockfrag --help`.
 
-#![warn(missing_docs)]
-
 pub mod fragility;
 pub mod hazard;
 pub mod motion;

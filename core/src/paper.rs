@@ -32,7 +32,6 @@ pub fn example(structure: &Structure) -> IntensityMeasures {
 
 /// A published number: a row of data/paper.csv.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Published {
     pub quantity: String,
     /// Place in the paper.
@@ -51,7 +50,6 @@ pub struct Published {
 
 /// Our value of a published quantity for one seed: a row of data/seed_spread.csv.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct SeedValue {
     pub quantity: String,
     pub suite: String,

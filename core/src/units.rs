@@ -11,7 +11,6 @@ pub const CM_PER_M: f64 = 100.0;
 
 /// Physical quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub enum Quantity {
     Acceleration,
     Velocity,

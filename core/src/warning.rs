@@ -11,7 +11,6 @@ use crate::spelling::unknown_word;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[derive(PartialOrd, Ord)]
-#[expect(missing_docs, reason = "text() says it")]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Warning>)]
 pub enum Warning {

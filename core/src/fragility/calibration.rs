@@ -22,7 +22,6 @@ use crate::warning::Warning;
 /// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
 /// the uplift term g of the [predictor](Predictor), and the magnitude M.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Calibration {
     pub suite: Option<String>,
     pub kind: Kind,

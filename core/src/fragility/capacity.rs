@@ -24,7 +24,6 @@ pub enum KnownCapacity {
 /// A lognormal distribution of capacities: median theta, in their unit, and dispersion beta, with 95 %
 /// limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct CapacityFit {
     pub theta: Interval,
     pub beta: Interval,

@@ -199,7 +199,6 @@ pub enum DemandModel {
 
 /// A regression of ln EDP in safe rocking: a row of pex.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct DemandFit {
     pub suite: Option<String>,
     pub structure: String,

@@ -103,7 +103,6 @@ pub fn design_row(ims: &[f64]) -> Vec<f64> {
 
 /// One measure, or two that make a plane or a hybrid one (Eq. 23), written as `im5` or `im4:im3_inv`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Predictors {
     pub im_x: Measure,
     pub im_y: Option<Measure>,

@@ -15,7 +15,6 @@ use crate::warning::Warning;
 
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the types say it")]
 pub enum Model {
     /// The universal surface, calibrated.
     Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },

@@ -114,7 +114,6 @@ pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) 
 
 /// A fragility curve: a row of pro.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct CurveFit {
     pub suite: Option<String>,
     pub structure: String,

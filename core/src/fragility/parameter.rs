@@ -38,7 +38,6 @@ pub enum Parameter {
 
 /// A parameter of a fit: a row of pex.parameters.parquet or pro.parameters.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct ParameterRow {
     pub suite: Option<String>,
     pub structure: String,

@@ -40,7 +40,6 @@ pub struct JointPeaks {
 /// strongest PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each
 /// side with its sd.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the formula says it")]
 pub struct RatioGiven {
     pub intercept: f64,
     pub slope: f64,

@@ -52,7 +52,6 @@ pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
 /// assert_eq!(return_periods.rocking, 250.0);
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-#[expect(missing_docs, reason = "LimitState says it")]
 pub struct LimitStates<T> {
     pub rocking: T,
     pub failure: T,

@@ -22,7 +22,6 @@ pub(super) struct Node {
 
 /// Why points make no hazard curve. `point` counts from 0, in messages from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum HazardError {
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),

@@ -40,7 +40,6 @@ pub struct Motion {
 
 /// Probabilities of the limit states, with limits; nothing of one where the model has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct MotionProbabilities {
     pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.

@@ -104,7 +104,6 @@ const LARGEST_REMAINDER: f64 = 0.4;
 
 /// Why two curves do not belong together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum MatchError {
     #[error("the curves have no rates in common: {0:.1e} to {1:.1e} a year; expected three times as far")]
     NothingInCommon(f64, f64),

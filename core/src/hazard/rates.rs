@@ -33,7 +33,6 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
 
 /// A mean annual rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Rate {
     pub value: f64,
     /// The part of it above the last intensity of the curve, with the probability at that intensity.

@@ -86,7 +86,6 @@ pub struct Site {
 /// hazard ends too early for a value there are limits alone: the lower one of what it is if no stronger motion
 /// than the last has the effect, and the upper one of what it is if each has.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct SiteRates {
     pub rocking: Interval<Option<f64>>,
     pub failure: Interval<Option<f64>>,

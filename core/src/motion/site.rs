@@ -14,7 +14,6 @@ pub struct SiteAmplification(Vec<(f64, f64)>);
 /// An invalid table of amplification. `row` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("site table, row {row}: expected rising frequencies in Hz and factors above 0, in 2 rows or more")]
-#[expect(missing_docs, reason = "the message says it")]
 pub struct SiteTableError {
     pub row: usize,
 }

@@ -18,7 +18,6 @@ const MARGIN_S: f64 = 2.0;
 
 /// The model of synthetic motions, with its options.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct MotionModel {
     pub dt_s: f64,
     /// Treatment of the difference of the Fourier amplitudes of high frequencies and pulse.

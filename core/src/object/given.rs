@@ -15,7 +15,6 @@ use crate::warning::UNNAMED;
 /// those of [`Field`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "Field says it")]
 pub struct Shape {
     pub width: Option<f64>,
     pub depth: Option<f64>,
@@ -32,7 +31,6 @@ pub struct Shape {
 /// Where an object stands, and how well it is known.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "Field says it")]
 pub struct Place {
     pub period: Option<f64>,
     pub level: Option<f64>,

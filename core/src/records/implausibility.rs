@@ -34,7 +34,6 @@ fn digits(value: &f64) -> String {
 
 /// Why a motion is implausible: value found, value expected, likely mistake.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum Implausibility {
     #[error("dt {} s; expected 0.0001 to 0.1 s: milliseconds, or sample numbers?", digits(.dt_s))]
     TimeStep { dt_s: f64 },

@@ -36,7 +36,6 @@ pub struct NamedRecord {
 
 /// Why a record cannot be processed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum ProcessingError {
     #[error("{0} (--accept-implausible imports it anyway)")]
     Implausible(Implausibility),
@@ -55,7 +54,6 @@ pub enum ProcessingError {
 
 /// An imported motion: a row of a table of motions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct ImportedMotion {
     pub motion_id: String,
     pub suite: Suite,
@@ -82,7 +80,6 @@ pub struct ImportedMotion {
 /// What is known of the pair and the pulse of a motion: peaks over all directions, the indicator if pulses
 /// were searched, and the fitted pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct PulseColumns {
     pub rotd50_pga_m_s2: Option<f64>,
     pub rotd100_pga_m_s2: Option<f64>,
@@ -131,7 +128,6 @@ impl PulseColumns {
 /// Whether to search for pulses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[expect(missing_docs, reason = "the words say it")]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<PulseSearch>)]
 pub enum PulseSearch {
@@ -141,7 +137,6 @@ pub enum PulseSearch {
 
 /// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Processing {
     pub baseline: Baseline,
     /// Corner of a high-pass filter, Hz.

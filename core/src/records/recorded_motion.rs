@@ -4,7 +4,6 @@ use crate::units::Unit;
 
 /// Where a record is from, as named in its file.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Origin {
     pub earthquake: Option<String>,
     pub mw: Option<f64>,
@@ -18,7 +17,6 @@ pub struct Origin {
 
 /// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct RecordedMotion {
     pub dt_s: f64,
     pub acceleration_m_s2: Vec<f64>,

@@ -35,7 +35,6 @@ fn is_right_angle(first_deg: f64, second_deg: f64) -> bool {
 
 /// Two horizontal components of one station at right angles, of equal time step and length.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct HorizontalPair {
     pub first: RecordedMotion,
     pub second: RecordedMotion,
@@ -43,7 +42,6 @@ pub struct HorizontalPair {
 
 /// The parts of a direction along the components of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Parts {
     pub first: f64,
     pub second: f64,

@@ -20,7 +20,6 @@ const CORNER: f64 = 0.9;
 /// Baseline to remove from an acceleration: nothing, its mean, or its least-squares line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[expect(missing_docs, reason = "the words say it")]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Baseline>)]
 pub enum Baseline {

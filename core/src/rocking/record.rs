@@ -23,7 +23,6 @@ pub struct Record<'a> {
 
 /// An invalid record. `sample` counts from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum RecordError {
     #[error("dt_s is {0}; expected a time step above 0 s, from 1e-6 to 10")]
     TimeStep(f64),
@@ -113,7 +112,6 @@ impl<'a> Record<'a> {
 
 /// The motion of the ground at a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Ground {
     pub acceleration_m_s2: f64,
     pub velocity_m_s: f64,

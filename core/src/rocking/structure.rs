@@ -33,7 +33,6 @@ const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
 /// A parameter out of range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
-#[expect(missing_docs, reason = "the message says it")]
 pub struct StructureError {
     pub structure: String,
     pub parameter: &'static str,

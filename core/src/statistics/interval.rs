@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!((bounds.estimate(), bounds.high), (None, Some(rate.high)));
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Interval<T = f64> {
     pub value: T,
     pub low: T,

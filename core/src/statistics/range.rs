@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 /// The values from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Range {
     pub low: f64,
     pub high: f64,
@@ -43,7 +42,6 @@ impl Range {
 
 /// The bounds of values, if there are any.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Bounds {
     pub low: Option<f64>,
     pub high: Option<f64>,

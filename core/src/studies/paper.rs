@@ -12,7 +12,6 @@ use crate::statistics::normal;
 
 /// A published number beside ours: a row of paper.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Comparison {
     pub quantity: String,
     pub place: String,

@@ -23,7 +23,6 @@ const LEAST: f64 = 1e-15;
 /// assert!(forecasts.validate().is_some_and(|scores| scores.observed == 1 && scores.brier < 0.05));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct Forecasts<'a> {
     pub suite: Option<&'a str>,
     pub structure: &'a str,
@@ -38,7 +37,6 @@ pub struct Forecasts<'a> {
 
 /// How forecasts did: a row of validation.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct Validation {
     pub suite: Option<String>,
     pub structure: String,
@@ -65,7 +63,6 @@ pub struct Validation {
 
 /// Cases of about the same probability: a row of validation.reliability.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(missing_docs, reason = "data/columns.csv says it")]
 pub struct ReliabilityBin {
     pub suite: Option<String>,
     pub structure: String,
