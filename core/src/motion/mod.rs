@@ -18,8 +18,7 @@
 mod combine;
 mod design;
 pub mod floor;
-#[doc(hidden)]
-pub mod fourier;
+pub(crate) mod fourier;
 mod intensity_measures;
 pub mod measures;
 mod peaks;

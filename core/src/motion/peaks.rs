@@ -1,4 +1,4 @@
-//! The peaks of a ground motion, and whether they can be those of one.
+//! The peaks of a ground motion, and checks that one motion can have both.
 
 use std::ops::RangeInclusive;
 
@@ -6,18 +6,14 @@ use crate::number::{plain, significant};
 use crate::plausibility::{PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median};
 use crate::units::G_M_S2;
 
-/// The peaks of a ground motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Peaks {
-    /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
-    /// Peak ground velocity, m/s.
     pub pgv_m_s: f64,
 }
 
 impl Peaks {
-    /// Moves peaks beyond any record to the rim of what was recorded: tails of ground-motion models have such
-    /// motions.
+    /// Limits the peaks to the range of records, which the tails of ground-motion models exceed.
     pub fn at_rim(self) -> Peaks {
         let pga_m_s2 = self.pga_m_s2.min(STRONGEST_PGA_G * G_M_S2);
         let pgv_m_s = self.pgv_m_s.min(STRONGEST_PGV_M_S);
@@ -26,8 +22,7 @@ impl Peaks {
         Peaks { pga_m_s2, pgv_m_s: if is_possible { pgv_m_s } else { pgv_m_s.clamp(least, most) } }
     }
 
-    /// Why they cannot be of one motion.
-    #[doc(hidden)]
+    /// Fails, with the reason, where no motion has both peaks.
     pub fn judge(self) -> Result<(), String> {
         let ratio_s = self.pgv_m_s / self.pga_m_s2;
         match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
@@ -41,12 +36,11 @@ impl Peaks {
     }
 }
 
-/// Peaks, g and m/s, that the typical motion of a table does not reach, and its PGV/PGA, s.
+/// Limits of the medians of a table of motions: of PGA (g) and of PGV (m/s), and the range of PGV/PGA (s).
 const STRONGEST_MEDIAN: f64 = 3.0;
 const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
 
-/// Judges the motions of a table by the medians of their peaks, which show a wrong unit.
-#[doc(hidden)]
+/// Fails, with the reason, where the medians of the peaks of a table of motions show a wrong unit.
 pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), String> {
     let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / G_M_S2));
     let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));

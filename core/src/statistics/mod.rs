@@ -25,10 +25,8 @@ pub mod distributions;
 mod fit;
 mod interval;
 mod linear;
-#[doc(hidden)]
-pub mod newton;
+pub(crate) mod newton;
 pub mod normal;
-#[doc(hidden)]
 pub mod numerics;
 mod range;
 pub mod scores;
