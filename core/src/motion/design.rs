@@ -13,9 +13,8 @@ use crate::spelling::unknown_word;
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Design>)]
 pub enum Design {
-    /// Latin hypercube: each parameter has one sample in each of as many strata as samples.
+    /// Latin hypercube: each parameter has as many strata as samples, and one sample in each.
     Lhs,
-    /// Independent samples.
     Random,
 }
 
@@ -32,46 +31,37 @@ const DIMENSIONS: usize = 4;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// Moment magnitudes.
     pub mw: Vec<f64>,
-    /// Distances, km.
     pub re_km: Vec<f64>,
     /// Scenarios in each cell.
     pub samples: usize,
-    /// How a cell is sampled.
     pub design: Design,
-    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Grid {
-    /// Returns the number of cells: magnitudes times distances.
     pub fn cells(&self) -> usize {
         self.mw.len() * self.re_km.len()
     }
 
-    /// Begins to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
+    /// Prepares to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
     pub fn cell(&self, cell: usize) -> Cell<'_> {
-        let strata = || std::array::from_fn(|dimension| self.strata(cell, dimension));
-        Cell { grid: self, cell, strata: (self.design == Design::Lhs).then(strata) }
+        let strata = |dimension: usize| {
+            let mut strata: Vec<u32> = (0..self.samples as u32).collect();
+            let row = (cell * DIMENSIONS + dimension) as u64;
+            strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
+            strata
+        };
+        let is_lhs = self.design == Design::Lhs;
+        Cell { grid: self, cell, strata: is_lhs.then(|| std::array::from_fn(strata)) }
     }
 
-    /// Draws the stratum of each sample of a cell, for one parameter.
-    fn strata(&self, cell: usize, dimension: usize) -> Vec<u32> {
-        let mut strata: Vec<u32> = (0..self.samples as u32).collect();
-        let row = (cell * DIMENSIONS + dimension) as u64;
-        strata.shuffle(&mut stream(self.seed, Purpose::Strata, row));
-        strata
-    }
-
-    /// Samples the scenarios of a cell.
     pub fn scenarios_of_cell(&self, cell: usize) -> Vec<Scenario> {
         let cell = self.cell(cell);
         (0..self.samples).map(|sample| cell.scenario(sample)).collect()
     }
 }
 
-/// A cell of the grid.
 pub struct Cell<'a> {
     grid: &'a Grid,
     cell: usize,
@@ -80,7 +70,6 @@ pub struct Cell<'a> {
 }
 
 impl Cell<'_> {
-    /// Samples a scenario of the cell.
     pub fn scenario(&self, sample: usize) -> Scenario {
         let Grid { mw, re_km, .. } = self.grid;
         let (mw, re_km) = (mw[self.cell / re_km.len()], re_km[self.cell % re_km.len()]);
@@ -92,7 +81,7 @@ impl Cell<'_> {
         }
     }
 
-    /// Samples a point of the unit cube.
+    /// Draws the quantiles of Vp, Tp, gamma and nu.
     pub fn quantiles(&self, sample: usize) -> [f64; DIMENSIONS] {
         let mut random = stream(self.grid.seed, Purpose::Sample, self.scenario_id(sample));
         // The quantile of 0 is infinite.

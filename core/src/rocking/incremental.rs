@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::response::{Outcome, Response};
 use crate::spelling::unknown_word;
+use crate::statistics::numerics::equal_ratios;
 
 /// Halvings of a step between levels where the structure rocks: the resolution.
 const HALVINGS: i32 = 4;
@@ -46,32 +47,26 @@ const ROUNDING: f64 = 1.0 + 1e-12;
 pub struct Scan {
     /// Intensities at which every case is simulated, ascending.
     pub levels: Vec<f64>,
-    /// Ratio of neighbouring levels.
     pub ratio: f64,
 }
 
-/// The response at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanResponse {
-    /// Intensity of the motion.
     pub intensity: f64,
-    /// Response to it.
     pub response: Response,
 }
 
 /// A case (a structure under a motion) and an intensity to simulate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ScanPoint {
-    /// Index of the case.
     pub case: usize,
-    /// Intensity to simulate.
     pub intensity: f64,
 }
 
 impl Scan {
     /// Divides the range from `from` to `to` in `steps` equal ratios.
     pub fn new(from: f64, to: f64, steps: usize) -> Scan {
-        let below = (0..steps).map(|k| from * (to / from).powf(k as f64 / steps as f64));
+        let below = equal_ratios(from, to, steps).take(steps);
         Scan { levels: below.chain([to]).collect(), ratio: (to / from).powf(1.0 / steps as f64) }
     }
 
@@ -138,7 +133,6 @@ impl Scan {
         !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio()
     }
 
-    /// Finds the capacity in responses at ascending intensity.
     pub fn capacity(&self, responses: &[ScanResponse]) -> Capacity {
         let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
         let safe = runs.next_if(|run| !run[0].overturns());
@@ -165,39 +159,34 @@ impl Scan {
     pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
         let bands = self.levels.windows(2).map(|band| {
             let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < band[end]));
-            let sum: f64 = responses[from..=to].windows(2).map(overturning_width).sum();
+            let parts = responses[from..=to].windows(2).map(|step| {
+                let ends = step.iter().filter(|end| end.overturns()).count();
+                0.5 * ends as f64 * width(step).ln()
+            });
+            let sum: f64 = parts.sum();
             (sum / (band[1] / band[0]).ln()).min(1.0)
         });
         bands.collect()
     }
 }
 
-/// Returns the part of a step that overturns, in logarithms: half of it where one end does.
-fn overturning_width(step: &[ScanResponse]) -> f64 {
-    let ends = step.iter().filter(|end| end.overturns()).count();
-    0.5 * ends as f64 * (step[1].intensity / step[0].intensity).ln()
-}
-
-/// Returns the ratio of the last intensity of a run to its first.
 fn width(run: &[ScanResponse]) -> f64 {
     run[run.len() - 1].intensity / run[0].intensity
 }
 
-/// Returns whether the demand may reach the tipping point in a step, by its rate of change in safe steps
-/// near.
+/// Whether the demand may reach the tipping point in a step, by its rate of change there and beside it.
 fn may_tip(found: &[ScanResponse], step: usize) -> bool {
     let beside = &found[step.saturating_sub(1)..found.len().min(step + 3)];
     let rates = beside.windows(2).filter_map(|pair| {
         let change = pair[1].response.outcome.demand()? - pair[0].response.outcome.demand()?;
-        Some(change.abs() / (pair[1].intensity / pair[0].intensity).ln())
+        Some(change.abs() / width(pair).ln())
     });
     let ends = &found[step..=step + 1];
-    let growth = GROWTH * rates.fold(0.0, f64::max) * (ends[1].intensity / ends[0].intensity).ln();
+    let growth = GROWTH * rates.fold(0.0, f64::max) * width(ends).ln();
     ends.iter().filter_map(|end| end.response.outcome.demand()).any(|demand| demand + growth > TIPPING)
 }
 
 impl ScanResponse {
-    /// Whether the structure overturns.
     pub fn overturns(&self) -> bool {
         self.response.outcome == Outcome::Overturned
     }
@@ -217,18 +206,14 @@ pub enum CapacityStatus {
     Below,
 }
 
-/// The overturning capacity of a structure in a scan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Capacity {
-    /// Whether and where it overturns.
     #[serde(rename = "capacity")]
     pub status: CapacityStatus,
     /// Largest safe intensity below the first overturning one.
     pub safe_below: Option<f64>,
-    /// Least overturning intensity.
     #[serde(rename = "overturning_intensity")]
     pub overturning: Option<f64>,
-    /// Safe ranges above it.
     #[serde(skip)]
     pub windows: Vec<SafeWindow>,
     /// Largest safe intensity.
@@ -238,7 +223,6 @@ pub struct Capacity {
 /// A safe range above an overturning intensity, at least as wide as the resolution of the scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SafeWindow {
-    /// Least safe intensity.
     pub low: f64,
     /// Largest safe intensity; none where the scan ends within the window.
     pub high: Option<f64>,

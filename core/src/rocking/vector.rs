@@ -27,7 +27,6 @@ pub struct Vector<S: Simd> {
     registers: [S::f64s; REGISTERS],
 }
 
-/// A boolean for each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct Mask<S: Simd> {
     simd: S,
@@ -58,7 +57,6 @@ impl<S: Simd> Vector<S> {
         Vector { simd, registers: [simd.splat_f64s(value); REGISTERS] }
     }
 
-    /// Returns a vector of `value` in every lane, for the same registers.
     #[inline(always)]
     pub fn like(self, value: f64) -> Vector<S> {
         Vector::splat(self.simd, value)
@@ -107,6 +105,22 @@ impl<S: Simd> Vector<S> {
         let (simd, a, b) = (self.simd, self.registers, other.registers);
         Mask { simd, registers: in_each!(k: simd.less_than_or_equal_f64s(a[k], b[k])) }
     }
+
+    /// Computes sine and cosine of angles from 0 to pi/2.
+    #[inline(always)]
+    pub fn sin_cos(self) -> (Vector<S>, Vector<S>) {
+        // Above pi/4, the polynomials of the complement, exchanged.
+        let beyond = self.like(std::f64::consts::FRAC_PI_4).lt(self);
+        let complement = (self.like(HALF_PI.0) - self) + self.like(HALF_PI.1);
+        let y = beyond.select(complement, self);
+        let z = y * y;
+        let sine = (y * z).mul_add(horner(&SINE, z), y);
+        let half = z * 0.5;
+        let one = z.like(1.0);
+        let leading = one - half;
+        let cosine = leading + (z * z).mul_add(horner(&COSINE, z), (one - leading) - half);
+        (beyond.select(cosine, sine), beyond.select(sine, cosine))
+    }
 }
 
 impl<S: Simd> Mask<S> {
@@ -130,7 +144,6 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-/// Packs the mask of one register into bits.
 #[inline(always)]
 fn bits_of<S: Simd>(mask: &S::m64s) -> u32 {
     let bytes = bytemuck::bytes_of(mask);
@@ -211,7 +224,6 @@ const COSINE: [f64; 6] = [
     -1.1359647557788195e-11,
 ];
 
-/// Evaluates c[0] + c[1] z + ...
 #[inline(always)]
 fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
     let [lower @ .., leading] = c;
@@ -220,22 +232,4 @@ fn horner<S: Simd>(c: &[f64; 6], z: Vector<S>) -> Vector<S> {
         sum = sum.mul_add(z, z.like(coefficient));
     }
     sum
-}
-
-impl<S: Simd> Vector<S> {
-    /// Computes sine and cosine of angles from 0 to pi/2.
-    #[inline(always)]
-    pub fn sin_cos(self) -> (Vector<S>, Vector<S>) {
-        // Above pi/4, the polynomials of the complement, exchanged.
-        let beyond = self.like(std::f64::consts::FRAC_PI_4).lt(self);
-        let complement = (self.like(HALF_PI.0) - self) + self.like(HALF_PI.1);
-        let y = beyond.select(complement, self);
-        let z = y * y;
-        let sine = (y * z).mul_add(horner(&SINE, z), y);
-        let half = z * 0.5;
-        let one = z.like(1.0);
-        let leading = one - half;
-        let cosine = leading + (z * z).mul_add(horner(&COSINE, z), (one - leading) - half);
-        (beyond.select(cosine, sine), beyond.select(sine, cosine))
-    }
 }
