@@ -4,6 +4,7 @@ use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
 
 use super::site::SiteAmplification;
 
+// Crust, spreading and attenuation of Atkinson & Silva (2000).
 /// Density of the crust, g/cm3.
 const DENSITY: f64 = 2.8;
 /// Shear-wave velocity of the crust, km/s.
@@ -13,9 +14,9 @@ const CROSSOVER_KM: f64 = 40.0;
 /// Quality factor Q = 180 f^0.45.
 const QUALITY: f64 = 180.0;
 const QUALITY_EXPONENT: f64 = 0.45;
-/// Peak of the window as a fraction of its duration: Boore's epsilon.
+/// Peak of the window as a fraction of its duration: epsilon of Boore (2003).
 pub const PEAK_SHARE: f64 = 0.2;
-/// Value of the window at its end: Boore's eta.
+/// Value of the window at its end: eta of Boore (2003).
 const END_VALUE: f64 = 0.05;
 
 /// Constant C of the amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x
@@ -24,16 +25,8 @@ pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
     / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
 
 /// The stochastic model apart from the scenario.
-///
-/// ```
-/// use rockfrag_core::motion::stochastic::{Source, StochasticModel, Window};
-/// let source = Source::new(6.5, 10.0);
-/// assert!(StochasticModel::default().fourier_amplitude_cm_s(&source, 1.0) > 0.0);
-/// assert_eq!(Window::new(source.duration_s()).value(-1.0), 0.0);
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct StochasticModel {
-    /// Site amplification V(f).
     pub site: SiteAmplification,
     /// kappa of the near-surface attenuation exp(-pi kappa f), s.
     pub kappa_s: f64,
@@ -76,22 +69,18 @@ impl StochasticModel {
 /// The two-corner source of Atkinson & Silva (2000) at a distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
-    /// Lower corner frequency fa, Hz.
     pub fa_hz: f64,
-    /// Higher corner frequency fb, Hz.
     pub fb_hz: f64,
     /// Weight epsilon of the higher corner.
     pub epsilon: f64,
-    /// Effective distance R, km.
     pub distance_km: f64,
-    /// Seismic moment M0, dyne cm.
     pub moment_dyne_cm: f64,
 }
 
 impl Source {
-    /// Computes the source of an earthquake of magnitude `mw` at the distance `re_km`.
     pub fn new(mw: f64, re_km: f64) -> Source {
-        // The depth h of the equivalent point source: R = sqrt(re^2 + h^2).
+        // The depth h of the equivalent point source: R = sqrt(re^2 + h^2). The magnitude sets depth, corners
+        // and weight (Atkinson & Silva 2000).
         let depth_km = 10_f64.powf(-0.05 + 0.15 * mw);
         Source {
             fa_hz: 10_f64.powf(2.181 - 0.496 * mw),
@@ -127,18 +116,14 @@ fn spreading(distance_km: f64) -> f64 {
 /// The window w = a (t/te)^b exp(-c t/te) of Saragoni & Hart, with the parameters of Boore (2003).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
-    /// Scale that makes the peak 1.
     pub a: f64,
-    /// Power of the rise.
     pub b: f64,
-    /// Rate of the decay.
     pub c: f64,
     /// te: twice the duration of the source, s.
     pub duration_s: f64,
 }
 
 impl Window {
-    /// Makes the window of a motion from the duration of source and path, s.
     pub fn new(source_duration_s: f64) -> Window {
         // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon,
         // a = (e / epsilon)^b.

@@ -3,19 +3,8 @@
 use super::taylor::State;
 
 /// The outcome of one structure under one ground motion (Figure 6).
-///
-/// ```
-/// use rockfrag_core::rocking::{Outcome, Record, Structure, simulate};
-/// let block = Structure::new("block", 2.5, 0.2, 0.92)?;
-/// let Outcome::SafeRocking(demand) = simulate(&block, &Record::new(&[0.0, 3.0, 0.0], 0.1)?).outcome else {
-///     panic!("it rocks and does not overturn")
-/// };
-/// assert!(0.0 < demand && demand < 1.0 && Outcome::Overturned.demand().is_none());
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
-    /// The structure stays on its base.
     NoRocking,
     /// The structure rocks and comes to rest. The demand is |theta|max / alpha (Eq. 7).
     SafeRocking(f64),
@@ -34,10 +23,8 @@ impl Outcome {
     }
 }
 
-/// The response of one structure to one ground motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
-    /// Whether it rocked, and how far, or overturned.
     pub outcome: Outcome,
     /// Number of impacts during the record.
     pub impacts: u32,

@@ -10,7 +10,6 @@ use super::fit::Fit;
 
 /// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI).
 pub const MIN_CLUSTERS: usize = 10;
-/// Folds of a cross-validation.
 const FOLDS: usize = 10;
 
 /// Sums `k` terms over the cases of each cluster that has any; `add` adds a case to a sum.
@@ -60,22 +59,14 @@ pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
 
 /// Assignment of cases to folds, by cluster, since motions of one earthquake, or of one magnitude and
 /// distance, are alike (Roberts et al. 2017, Ecography 40, 913-929).
-///
-/// ```
-/// let folds = rockfrag_core::statistics::Folds::new(&[7, 7, 3, 5, 3], 2);
-/// assert!(folds.is_some_and(|folds| folds.split(0).1.len() + folds.split(1).1.len() == 5));
-/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Folds {
-    /// Fold of each case.
     fold: Vec<usize>,
-    /// Number of folds.
     pub count: usize,
 }
 
 impl Folds {
-    /// Deals the clusters to at most `most` folds in turn, so that neighbours are apart. None for one
-    /// cluster.
+    /// Deals clusters in turn, so that neighbours are apart, to at most `most` folds. None for one cluster.
     pub fn new(clusters: &[u32], most: usize) -> Option<Folds> {
         let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
         let count = distinct.len().min(most);

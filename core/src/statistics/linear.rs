@@ -8,25 +8,15 @@ use super::distributions::f_upper_tail;
 use super::fit::{Fit, FitStatus, predict};
 
 /// A linear regression y = b0 + b1 x1 + ... with normal errors.
-///
-/// ```
-/// use rockfrag_core::statistics::least_squares;
-/// let line = least_squares(&[[0.0, 1.0, 2.0, 3.0]], &[1.0, 3.1, 4.9, 7.0])?;
-/// assert!((line.fit.coefficients[1] - 1.98).abs() < 1e-9 && line.r2() > 0.99);
-/// # Ok::<(), rockfrag_core::statistics::FitStatus>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearFit {
-    /// Coefficients and their covariance.
     pub fit: Fit,
-    /// Residual sum of squares.
+    /// Sums of squares: of the residuals, and about the mean of y.
     pub rss: f64,
-    /// Sum of squares about the mean.
     pub tss: f64,
 }
 
 impl LinearFit {
-    /// Computes the coefficient of determination R2.
     pub fn r2(&self) -> f64 {
         1.0 - self.rss / self.tss
     }
