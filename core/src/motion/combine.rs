@@ -1,7 +1,6 @@
 //! Combines high frequencies and pulse into one motion (section 2.1.3).
 
 use super::fourier::Complex64;
-
 use crate::spelling::unknown_word;
 
 /// Treatment of the difference D = |H| - |P| of the Fourier amplitudes of high frequencies and pulse. The

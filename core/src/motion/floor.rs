@@ -1,6 +1,6 @@
-//! Floors of buildings: the motion of one, and its peaks from those of the ground. The building is a linear
-//! uniform shear beam; its modes i = 1 to 5 have periods T1/(2i - 1) and at height z (of the roof) the shares
-//! G_i = 4/((2i - 1) pi) sin((2i - 1) pi z/2).
+//! Floors of buildings: their motion, and its peaks from those of the ground. The building is a linear
+//! uniform shear beam; its modes i = 1 to 5 have periods T1/(2i - 1) and, at height z (1 at the roof), the
+//! shares G_i = 4/((2i - 1) pi) sin((2i - 1) pi z/2) of the motion.
 
 use std::f64::consts::{PI, TAU};
 
@@ -22,7 +22,7 @@ pub struct Floor {
     pub level: f64,
 }
 
-/// Correlation of the logarithms of a floor's peaks about their medians.
+/// Correlation of the logarithms of both peaks of a floor about their medians, by scripts/floors/peaks.py.
 pub const CORRELATION: f64 = 0.58;
 /// Modes: three give peak accelerations up to 30 % too low in long buildings.
 const MODES: usize = 5;
@@ -46,12 +46,11 @@ const ACCELERATION_BY_PERIOD: PeakByPeriod =
     PeakByPeriod { b: -0.090, k: 3.430, d: 3.635, e: 0.112, l: 0.434, h: 1.494 };
 const VELOCITY_BY_PERIOD: PeakByPeriod =
     PeakByPeriod { b: 0.930, k: 3.199, d: 3.569, e: -0.225, l: 1.574, h: 0.637 };
-/// Standard deviation of ln of both peaks, of a motion that is all resonance.
+/// Standard deviations of ln PFA and ln PFV of a motion that is all resonance, by scripts/floors/peaks.py.
 const SCATTER_OF_ACCELERATION: f64 = 0.284;
 const SCATTER_OF_VELOCITY: f64 = 0.314;
 
 impl Floor {
-    /// Shares G_i of the modes.
     fn shares(&self) -> [f64; MODES] {
         std::array::from_fn(|i| {
             let odd = (2 * i + 1) as f64;
@@ -94,7 +93,7 @@ impl Floor {
         self.amplifier().at((ground.pgv_m_s / ground.pga_m_s2).ln())
     }
 
-    /// The floor, ready for the peaks of many motions.
+    /// Computes what depends on the floor only, once for the peaks of many motions.
     pub(crate) fn amplifier(&self) -> Amplifier {
         Amplifier {
             ln_period: (self.period_s / TAU).ln(),
@@ -115,7 +114,7 @@ impl Floor {
     }
 }
 
-/// What depends on the floor alone of the peaks that it makes of the ground's.
+/// The part of the prediction of peaks that depends on the floor only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Amplifier {
     /// ln(T1 / 2 pi), s.
@@ -133,18 +132,17 @@ struct Mode {
     by_h: f64,
 }
 
-/// Peaks of a floor over those of the ground: medians, and scatter of correlation [`CORRELATION`].
+/// Amplification of the peaks of the ground by a floor. Deviations from both medians have the correlation
+/// [`CORRELATION`].
 #[derive(Debug, Clone, Copy)]
 pub struct Amplified {
     /// Median ln(PFA / PGA).
     pub ln_pfa: f64,
-    /// Standard deviation of ln PFA.
     pub sd_ln_pfa: f64,
     /// Median ln(PFV / PGV).
     pub ln_pfv: f64,
-    /// Standard deviation of ln PFV.
     pub sd_ln_pfv: f64,
-    /// Share of resonance in the squared velocity, 0 on the ground: how narrow the band of the motion is.
+    /// Share of resonance in the squared velocity, 0 on the ground: near 1, the frequency band is narrow.
     pub resonant_share: f64,
 }
 

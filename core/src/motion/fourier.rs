@@ -7,7 +7,6 @@ use std::sync::Arc;
 pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// The transforms of a length.
 #[derive(Clone)]
 struct Planned {
     forward: Arc<dyn RealToComplex<f64>>,
@@ -61,7 +60,6 @@ pub fn even_smooth_at_least(n: usize) -> usize {
     (n.max(2)..).find(|&candidate| candidate % 2 == 0 && is_smooth(candidate)).unwrap_or(n)
 }
 
-/// Returns whether a number has no prime factors above 5.
 fn is_smooth(mut n: usize) -> bool {
     for prime in [2, 3, 5] {
         while n.is_multiple_of(prime) {

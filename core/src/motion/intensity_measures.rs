@@ -56,7 +56,6 @@ impl IntensityMeasures {
         }
     }
 
-    /// Computes the peaks of the motion from IM4 and IM5.
     pub fn peaks(&self, structure: &Structure) -> Peaks {
         let g_tan_alpha = structure.uplift_acceleration_m_s2();
         Peaks { pga_m_s2: self.im4 * g_tan_alpha, pgv_m_s: self.im5 * g_tan_alpha / structure.p_rad_s }

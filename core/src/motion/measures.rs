@@ -6,23 +6,18 @@ use super::fourier::{even_smooth_at_least, transform};
 use crate::statistics::numerics::first;
 use crate::units::G_M_S2;
 
-/// Largest frequency step of the mean period, Hz.
+/// Largest frequency step and frequency band of the mean period, Hz (Rathje et al. 1998).
 const FREQUENCY_STEP_HZ: f64 = 0.05;
-/// Frequency band of the mean period, Hz.
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
 /// Damping ratio of spectral accelerations and of the Housner intensity.
 const DAMPING: f64 = 0.05;
-/// First and last period (s) of the Housner intensity, and number of periods.
+/// First and last period (s) of the Housner intensity (Housner 1952), and number of periods: every 0.05 s.
 const HOUSNER_PERIODS: (f64, f64, usize) = (0.1, 2.5, 49);
 
-/// The measures of a motion.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MotionMeasures {
-    /// Peak ground acceleration, m/s2.
     pub pga_m_s2: f64,
-    /// Peak ground velocity, m/s.
     pub pgv_m_s: f64,
-    /// Peak ground displacement, m.
     pub pgd_m: f64,
     /// Mean period, s; none without energy between 0.25 and 20 Hz.
     pub tm_s: Option<f64>,
@@ -34,7 +29,6 @@ pub struct MotionMeasures {
     pub d5_75_s: f64,
     /// Significant duration, s: from 5 to 95 % of the Arias intensity.
     pub d5_95_s: f64,
-    /// Housner intensity, m, if it is requested.
     pub housner_m: Option<f64>,
     /// Pseudo-spectral accelerations at the periods of the plan, 5 % damping, m/s2.
     #[serde(skip)]
@@ -53,7 +47,6 @@ pub struct MotionMeasures {
 pub struct MeasurePlan {
     /// Whether to compute the Housner intensity, which takes as long as all others together.
     pub housner: bool,
-    /// Periods of the spectral accelerations, s.
     pub sa_periods_s: Vec<f64>,
 }
 
@@ -105,7 +98,6 @@ fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) ->
     dt_s * ((after - 1) as f64 + first(0.0, 1.0, |part| sum(part) >= reached))
 }
 
-/// Integrates a line between two samples.
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {
     0.5 * dt_s * (left + right)
 }
@@ -120,7 +112,6 @@ fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Returns the largest absolute value of a series.
 pub fn peak(series: &[f64]) -> f64 {
     series.iter().fold(0.0, |largest, value| larger(largest, value.abs()))
 }
@@ -159,7 +150,7 @@ pub fn mean_period(acceleration: &[f64], dt_s: f64) -> Option<f64> {
 /// A linear oscillator under an acceleration of its base, exact for lines between samples (Nigam & Jennings
 /// 1969), from rest.
 pub struct Oscillator {
-    /// Circular frequency, that of damped vibration, rad/s, and the damping ratio.
+    /// Circular frequencies without and with damping, rad/s, and the damping ratio.
     w: f64,
     wd: f64,
     damping: f64,
@@ -174,7 +165,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// Makes an oscillator at rest, of a period (s) and a damping ratio in [0, 1), for samples at steps of `dt_s`.
+    /// Makes an oscillator at rest. The damping ratio is in [0, 1); samples are `dt_s` apart.
     pub fn new(period_s: f64, damping: f64, dt_s: f64) -> Oscillator {
         let w = 2.0 * PI / period_s;
         let wd = w * (1.0 - damping * damping).sqrt();
@@ -198,7 +189,6 @@ impl Oscillator {
             + linear;
     }
 
-    /// The acceleration of its mass, m/s2.
     pub fn absolute_acceleration(&self) -> f64 {
         -self.w * (self.w * self.displacement + 2.0 * self.damping * self.velocity)
     }

@@ -19,11 +19,9 @@ const NEWTON_STEPS: usize = 4;
 pub struct Pulse {
     /// Amplitude A of Eq. 1, m/s; the largest velocity is A times [`largest_velocity`].
     pub amplitude_m_s: f64,
-    /// Period Tp, s.
     pub tp_s: f64,
     /// Number of half cycles.
     pub gamma: f64,
-    /// Phase, rad.
     pub nu_rad: f64,
 }
 
@@ -34,7 +32,6 @@ impl Pulse {
         Pulse { amplitude_m_s: vp_m_s / largest_velocity(gamma, nu_rad), tp_s, gamma, nu_rad }
     }
 
-    /// Returns the duration gamma Tp, s.
     pub fn duration_s(&self) -> f64 {
         self.gamma * self.tp_s
     }
@@ -78,7 +75,7 @@ impl Pulse {
         acceleration
     }
 
-    /// Computes x = wp (t - t0); none outside the pulse, |x| > pi gamma.
+    /// Computes x = wp (t - t0) of Eq. 1; none outside the pulse, |x| > pi gamma.
     fn phase(&self, time_s: f64) -> Option<f64> {
         let x = 2.0 * PI / self.tp_s * time_s;
         (x.abs() <= PI * self.gamma).then_some(x)

@@ -11,25 +11,21 @@ pub struct Scenario {
     pub scenario_id: i64,
     /// Cell of the magnitude-distance grid, magnitude by magnitude.
     pub cell: i32,
-    /// Sample within the cell.
     pub sample: i32,
-    /// Moment magnitude.
     pub mw: f64,
     /// Distance from the rupture, km.
     pub re_km: f64,
     /// Amplitude of the velocity pulse, m/s.
     pub vp_m_s: f64,
-    /// Period of the pulse, s.
     pub tp_s: f64,
     /// Number of half cycles of the pulse.
     pub gamma: f64,
-    /// Phase of the pulse, rad.
     pub nu_rad: f64,
 }
 
 /// Magnitude at which the pulse amplitude saturates.
 const SATURATION_MW: f64 = 7.0;
-/// Standard deviations of log10 Vp and log10 Tp.
+/// Standard deviations of log10 Vp (Eq. 2) and log10 Tp (Eq. 3).
 const SIGMA_LOG10_VP: f64 = 0.16;
 const SIGMA_LOG10_TP: f64 = 0.18;
 /// Mean and standard deviation of gamma, before truncation below 1.
@@ -39,9 +35,8 @@ const NU_RAD: (f64, f64) = (1.83, 0.98);
 
 impl Scenario {
     /// Makes the first scenario of a grid at a magnitude and a distance (km), from quantiles `u` in (0, 1) of
-    /// Vp, Tp, gamma and nu: Vp and Tp lognormal (Eqs. 2 and 3), gamma normal truncated below at 1, nu normal.
+    /// Vp and Tp, lognormal (Eqs. 2 and 3), gamma, normal and truncated below at 1, and nu, normal.
     pub fn at_quantiles(mw: f64, re_km: f64, u: [f64; 4]) -> Scenario {
-        // Both sigmas are of the logarithm to base 10.
         let log10_vp = mean_log10_vp_cm_s(mw, re_km) + SIGMA_LOG10_VP * normal::quantile(u[0]);
         let log10_tp = mean_log10_tp_s(mw) + SIGMA_LOG10_TP * normal::quantile(u[1]);
         let (mean, sd) = GAMMA;
@@ -74,9 +69,8 @@ pub fn mean_log10_tp_s(mw: f64) -> f64 {
 }
 
 /// A kind of ground motion in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[derive(Hash)]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Suite>)]
 pub enum Suite {
@@ -86,7 +80,6 @@ pub enum Suite {
     Csgm,
     /// The stochastic high-frequency component alone.
     Hfc,
-    /// A recorded motion.
     Record,
 }
 

@@ -18,7 +18,7 @@ pub struct SiteTableError {
     pub row: usize,
 }
 
-/// Frequency (Hz), amplification of generic rock and of generic soil.
+/// Frequency (Hz), amplification of generic rock and of generic soil (Boore & Joyner 1997).
 const GENERIC: [(f64, f64, f64); 11] = [
     (0.01, 1.00, 1.00),
     (0.09, 1.10, 1.34),
@@ -34,17 +34,14 @@ const GENERIC: [(f64, f64, f64); 11] = [
 ];
 
 impl SiteAmplification {
-    /// No amplification.
     pub fn none() -> SiteAmplification {
         SiteAmplification(vec![(0.0, 1.0)])
     }
 
-    /// Generic rock (Boore & Joyner 1997).
     pub fn rock() -> SiteAmplification {
         SiteAmplification(GENERIC.map(|(f, rock, _)| (f, rock)).to_vec())
     }
 
-    /// Generic soil (Boore & Joyner 1997).
     pub fn soil() -> SiteAmplification {
         SiteAmplification(GENERIC.map(|(f, _, soil)| (f, soil)).to_vec())
     }

@@ -20,9 +20,7 @@ const MARGIN_S: f64 = 2.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionModel {
     pub dt_s: f64,
-    /// Treatment of the difference of the Fourier amplitudes of high frequencies and pulse.
     pub difference: Difference,
-    /// When the pulse peaks.
     pub epoch: Epoch,
     pub stochastic: StochasticModel,
     pub seed: u64,
@@ -41,7 +39,6 @@ impl Default for MotionModel {
 }
 
 impl MotionModel {
-    /// Computes the number of samples of the motions of a scenario.
     pub fn samples(&self, scenario: &Scenario) -> usize {
         let source = Source::new(scenario.mw, scenario.re_km);
         self.time_axis(&Window::new(source.duration_s()), &Pulse::of(scenario)).1
@@ -64,23 +61,18 @@ impl MotionModel {
     }
 }
 
-/// The motions of one scenario on one time axis: accelerations, m/s2. Those of other suites are empty.
+/// The motions of one scenario on one time axis: accelerations, m/s2, empty for suites not asked for.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
-    /// Time between samples, s.
     pub dt_s: f64,
     /// Time of the middle of the pulse from the first sample, s.
     pub epoch_s: f64,
-    /// The pulse alone.
     pub pulse: Vec<f64>,
-    /// The high frequencies alone.
     pub high_frequency: Vec<f64>,
-    /// Both combined.
     pub combined: Vec<f64>,
 }
 
 impl Synthetic {
-    /// Returns the samples of the motion in a suite, m/s2.
     pub fn samples(&self, suite: Suite) -> &[f64] {
         match suite {
             Suite::Pulse => &self.pulse,
@@ -140,7 +132,6 @@ impl Earthquake {
 }
 
 impl Synthesizer {
-    /// Makes a synthesizer of some suites.
     pub fn new(model: MotionModel, suites: &[Suite]) -> Synthesizer {
         Synthesizer {
             high_frequency: suites.contains(&Suite::Hfc) || model.epoch != Epoch::EnvelopePeak,
@@ -150,7 +141,6 @@ impl Synthesizer {
         }
     }
 
-    /// Synthesizes the motions of a scenario.
     pub fn synthesize(&mut self, scenario: &Scenario) -> Synthetic {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
@@ -182,7 +172,6 @@ impl Synthesizer {
         made
     }
 
-    /// Draws normal noise, times the window.
     fn windowed_noise(&self, of: &Scenario, weights: &[f64], onset: usize, samples: usize) -> Vec<f64> {
         let mut samples = vec![0.0; samples];
         let noise = stream(self.model.seed, Purpose::Noise, of.scenario_id as u64);

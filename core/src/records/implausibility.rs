@@ -20,8 +20,8 @@ const SPIKE: (f64, f64) = (0.02, 0.25);
 /// A drift is a final velocity above the first value, m/s, and the second, as a fraction of PGV: the ground
 /// is at rest at the end of a record. The records of FEMA P695 end at 0.015 m/s and 0.025 of PGV at most.
 const DRIFT: (f64, f64) = (0.1, 0.5);
-/// The last share of a record, its first time, s, and the share of the PGA that they do not reach: of 607
-/// components (PEER, FEMA P695) the loudest end has 0.21, the loudest beginning 0.06.
+/// The end of a record (share of its samples), its beginning (s), and the share of the PGA that neither
+/// reaches: of 607 components (PEER, FEMA P695) the loudest end has 0.21, the loudest beginning 0.06.
 const LAST: f64 = 0.05;
 const FIRST_S: f64 = 0.1;
 const QUIET: f64 = 0.3;
@@ -47,7 +47,10 @@ pub enum Implausibility {
     Pga { pga_g: f64 },
     #[error("no sample below 0; expected both signs: a spectrum, or absolute values?")]
     OneSided,
-    #[error("velocity {} m/s at the end; expected rest: an uncorrected baseline (--baseline linear)?", digits(.velocity_m_s))]
+    #[error(
+        "velocity {} m/s at the end; expected rest: an uncorrected baseline (--baseline linear)?",
+        digits(.velocity_m_s)
+    )]
     Drift { velocity_m_s: f64 },
     #[error("PGV {} m/s; records reach 3 m/s: another unit or time step?", digits(.pgv_m_s))]
     Pgv { pgv_m_s: f64 },
@@ -81,7 +84,7 @@ impl Implausibility {
     }
 }
 
-/// Why peaks (m/s2 and m/s) are rare, of which one may be unknown.
+/// Returns the reason why peaks (m/s2 and m/s, either may be unknown) are rare, if they are.
 pub fn rarity(pga_m_s2: Option<f64>, pgv_m_s: Option<f64>) -> Option<Implausibility> {
     let pga_g = pga_m_s2.map(|pga| pga / G_M_S2).filter(|pga| *pga > RARE_PGA_G);
     let pgv_m_s = pgv_m_s.filter(|pgv| *pgv > RARE_PGV_M_S);
@@ -119,7 +122,7 @@ pub fn implausibility(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     warnings.into_iter().find_map(|(is_so, warning)| is_so.then_some(warning))
 }
 
-/// Checks that an acceleration (m/s2) at steps of `dt_s` is all of a record, which a pulse or a sine is not.
+/// Checks that an acceleration (m/s2) at steps of `dt_s` is a whole record: quiet at both ends, not clipped.
 pub fn incompleteness(acceleration: &[f64], dt_s: f64) -> Option<Implausibility> {
     let (samples, pga_m_s2) = (acceleration.len(), peak(acceleration));
     let (start, end) = ((FIRST_S / dt_s) as usize, ((1.0 - LAST) * samples as f64) as usize);

@@ -16,7 +16,7 @@ use crate::spelling::unknown_word;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
-/// Share of the PGA whose loss by resampling is told.
+/// A loss of more than this share of the PGA by resampling is reported.
 const NOTICEABLE_LOSS: f64 = 0.01;
 
 /// A record with its name and its file.
@@ -28,9 +28,8 @@ pub struct NamedRecord {
     pub source_file: String,
     /// BLAKE3 of its content, in hexadecimal digits.
     pub source_blake3: String,
-    /// The record.
     pub motion: RecordedMotion,
-    /// What speaks against it, though it is imported.
+    /// Warnings about a record that is imported nevertheless.
     pub doubts: Vec<(Warning, String)>,
 }
 
@@ -125,7 +124,6 @@ impl PulseColumns {
     }
 }
 
-/// Whether to search for pulses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -135,13 +133,11 @@ pub enum PulseSearch {
     Skip,
 }
 
-/// Options of the processing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Processing {
     pub baseline: Baseline,
     /// Corner of a high-pass filter, Hz.
     pub high_pass_hz: Option<f64>,
-    /// Another time step, s.
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
     pub direction: Option<Direction>,
@@ -153,7 +149,6 @@ pub struct Processing {
 }
 
 impl Processing {
-    /// Processes a record.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
         self.scaled(self.corrected(record)?, None)
     }
@@ -198,7 +193,6 @@ impl Processing {
         Ok(record)
     }
 
-    /// Rotates two components to the chosen direction.
     fn rotated(&self, first: NamedRecord, second: NamedRecord) -> (NamedRecord, RotD) {
         let pair = HorizontalPair::new(first.motion, second.motion);
         let azimuth_deg = match self.direction {
@@ -281,7 +275,6 @@ impl Processing {
         Ok(motions)
     }
 
-    /// Searches a record for a pulse, and fits it.
     fn pulse_of(&self, motion: &RecordedMotion) -> (Option<PulseIndicator>, Option<FittedPulse>) {
         if self.pulses == PulseSearch::Skip {
             return (None, None);

@@ -15,16 +15,14 @@ pub struct Origin {
     pub azimuth_deg: Option<f64>,
 }
 
-/// One component of a record.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedMotion {
     pub dt_s: f64,
     pub acceleration_m_s2: Vec<f64>,
     pub origin: Origin,
-    /// Whether the instrument is in a borehole, where rocks do not rock.
+    /// Whether the instrument is in a borehole: no object stands there.
     pub is_in_borehole: bool,
     pub header_pga: Option<HeaderPga>,
-    /// Name of the file format.
     pub format: &'static str,
     /// Unit of the samples in the file.
     pub unit: Unit,

@@ -9,9 +9,9 @@ use crate::motion::measures::{peak, velocity};
 /// Directions of RotD: each degree of a half turn.
 const DIRECTIONS: usize = 180;
 
-/// Pairs each component, by its origin and time step (s), with the first free earlier one of its earthquake,
-/// station and time step at right angles, by their places in the order of the first. Those that are vertical,
-/// of unknown origin or without a partner are in no pair.
+/// Pairs each component, given its origin and time step (s), with the first unpaired one before it of the
+/// same earthquake, station and time step at right angles. Returns the indices, in the order of the first
+/// component of a pair. Components that are vertical, of unknown origin or without a partner are in no pair.
 pub fn pairs(components: &[(&Origin, f64)]) -> Vec<[usize; 2]> {
     let mut waiting: HashMap<_, Vec<(usize, f64)>> = HashMap::new();
     let mut found = Vec::new();
@@ -47,16 +47,12 @@ pub struct Parts {
     pub second: f64,
 }
 
-/// Peaks over all directions (Boore 2010).
+/// Peaks over all directions: RotD50, the median, and RotD100, the largest (Boore 2010).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotD {
-    /// Median peak acceleration, m/s2.
     pub pga50_m_s2: f64,
-    /// Largest peak acceleration, m/s2.
     pub pga100_m_s2: f64,
-    /// Median peak velocity, m/s.
     pub pgv50_m_s: f64,
-    /// Largest peak velocity, m/s.
     pub pgv100_m_s: f64,
 }
 
@@ -85,7 +81,6 @@ impl HorizontalPair {
         east.atan2(north).to_degrees().rem_euclid(360.0)
     }
 
-    /// Computes RotD50 and RotD100 of peak acceleration and velocity (Boore 2010).
     pub fn rotd(&self) -> RotD {
         let (first, second) = (&self.first.acceleration_m_s2, &self.second.acceleration_m_s2);
         let dt_s = self.first.dt_s;
@@ -119,13 +114,11 @@ fn median(ascending: &[f64]) -> f64 {
     0.5 * (ascending[(DIRECTIONS - 1) / 2] + ascending[DIRECTIONS / 2])
 }
 
-/// Target direction of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// Azimuth of the strongest wavelet (Shahi & Baker 2014).
     StrongestPulse,
-    /// An azimuth, degrees.
     #[serde(untagged)]
     Azimuth(f64),
 }

@@ -29,7 +29,6 @@ pub enum Baseline {
 }
 
 impl Baseline {
-    /// Removes the baseline from samples, in place.
     pub fn remove_from(self, samples: &mut [f64]) {
         let n = samples.len() as f64;
         let mean = samples.iter().sum::<f64>() / n;
@@ -72,7 +71,6 @@ pub fn high_pass(samples: &mut [f64], dt_s: f64, corner_hz: f64) {
     samples.copy_from_slice(&padded[pad..pad + record]);
 }
 
-/// Computes the number of samples of a resampled record.
 pub fn resampled_length(samples: usize, dt_s: f64, new_dt_s: f64) -> f64 {
     // Tolerance for rounding, which would lose the last sample.
     ((samples.max(1) - 1) as f64 * dt_s / new_dt_s + 1e-9).floor() + 1.0
@@ -109,7 +107,6 @@ fn bessel_i0(x: f64) -> f64 {
     (1..40).rev().fold(1.0, |sum, k| 1.0 + 0.25 * x * x / f64::from(k * k) * sum)
 }
 
-/// Scaling of records.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scaling {
     /// By each factor: one motion each.

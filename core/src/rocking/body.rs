@@ -7,7 +7,8 @@ use crate::units::G_M_S2;
 ///
 /// ```
 /// use rockfrag_core::rocking::Body;
-/// let (block, bottom_heavy) = (Body::solid(0.4, 1.6), Body { centre_height_m: 0.5, ..Body::solid(0.4, 1.6) });
+/// let block = Body::solid(0.4, 1.6);
+/// let bottom_heavy = Body { centre_height_m: 0.5, ..block };
 /// assert!(bottom_heavy.alpha_rad() > block.alpha_rad());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,14 +29,13 @@ impl Body {
         (width_m * width_m + height_m * height_m) / 12.0
     }
 
-    /// A solid rectangular block.
     pub fn solid(width_m: f64, height_m: f64) -> Body {
         let inertia_m2 = Body::solid_inertia_m2(width_m, height_m);
         Body { width_m, centre_height_m: 0.5 * height_m, centre_offset_m: 0.0, inertia_m2 }
     }
 
-    /// The lines from either edge to the centre of mass, of the weaker side, to which it is nearer, first:
-    /// length R (m) and angle alpha from the vertical (rad).
+    /// Length R (m) and angle alpha from the vertical (rad) of the lines from both edges to the centre of
+    /// mass. The weaker side comes first: its edge is nearer to the centre of mass.
     fn sides(&self) -> [(f64, f64); 2] {
         [-1.0, 1.0].map(|sign| {
             let distance = 0.5 * self.width_m + sign * self.centre_offset_m.abs();
@@ -63,7 +63,7 @@ impl Body {
         common / ((self.inertia_m2 + weak_r * weak_r) * (self.inertia_m2 + strong_r * strong_r)).sqrt()
     }
 
-    /// The structure that rocks as it does: of its weaker side, with its own restitution or `eta`.
+    /// The structure with p and alpha of the weaker side, and `eta` or else the restitution of the body.
     ///
     /// # Errors
     /// If the centre of mass is not above the base, or eta is out of range (of a squat body).

@@ -27,9 +27,7 @@ const LONGEST_STEP: f64 = 0.03;
 /// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
-    /// The structure.
     pub structure: &'a Structure,
-    /// The motion of its base.
     pub record: Record<'a>,
 }
 
@@ -40,7 +38,6 @@ pub struct Events {
     pub ended: u32,
     /// The structure came to rest after an impact.
     pub rested: u32,
-    /// The structure overturned.
     pub overturned: u32,
 }
 
@@ -56,11 +53,10 @@ pub struct Lanes<'a, S: Simd> {
     problems: &'a [Problem<'a>],
     /// Index of the next problem.
     waiting: usize,
-    /// The responses so far.
     pub(super) responses: Vec<Response>,
     /// The lanes in use, one bit for each.
     pub(super) busy: u32,
-    /// Index of the problem.
+    /// Index of the problem in each lane.
     problem: [usize; MOST_LANES],
     pub(super) samples: [&'a [f64]; MOST_LANES],
     /// Index of the last sample passed.
@@ -89,7 +85,6 @@ pub struct Lanes<'a, S: Simd> {
 }
 
 impl<'a, S: Simd> Lanes<'a, S> {
-    /// Puts the first problems into the lanes.
     pub fn new(simd: S, problems: &'a [Problem<'a>]) -> Lanes<'a, S> {
         let zero = Vector::splat(simd, 0.0);
         let mut lanes = Lanes {
@@ -119,7 +114,6 @@ impl<'a, S: Simd> Lanes<'a, S> {
         lanes
     }
 
-    /// Finishes or restarts the lanes with events.
     #[inline(never)]
     pub fn handle(&mut self, events: Events) {
         for lane in each(events.overturned) {
@@ -155,6 +149,8 @@ impl<'a, S: Simd> Lanes<'a, S> {
                 return;
             }
         }
+        // An idle lane takes steps of no length, at a rotation above 0 and below its peak and pi/2: it never
+        // strikes, overturns or peaks, and `busy` masks the end of its record. NaN compares false.
         self.busy &= !(1 << lane);
         self.samples[lane] = &[];
         self.index[lane] = 0;
@@ -185,17 +181,19 @@ impl<'a, S: Simd> Lanes<'a, S> {
     /// Advances a lane from rest to the next uplift. Returns false if there is none.
     fn leave_rest(&mut self, lane: usize) -> bool {
         let (samples, index, tan) = (self.samples[lane], self.index[lane], self.slenderness.tan.lane(lane));
-        // A lane at its last sample.
+        // After the last sample the ground is still, and the structure stays at rest.
         if index + 1 >= samples.len() {
             return false;
         }
         let (now, next) = (self.now.lane(lane), self.next.lane(lane) * G_PER_M_S2);
+        // A structure that strikes its base without end rests to the next sample.
         let soon =
             Uplift::between(now, next, tan).filter(|_| self.bounces.lane(lane) < f64::from(MOST_IMPACTS));
         let Some(uplift) = soon else {
             self.bounces.set(lane, 0.0);
             return self.start_at(lane, Uplift::next(samples, index + 1, tan));
         };
+        // This is a fraction of the time left; `start_at` takes it as one of a whole step.
         let left = self.left.lane(lane) * (1.0 - uplift.fraction);
         self.start_at(lane, Some(Uplift { index, ..uplift }));
         self.set_left(lane, left);

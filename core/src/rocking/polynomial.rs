@@ -12,7 +12,6 @@ const NARROWEST_BRACKET: f64 = 1e-12;
 /// Newton steps before bisection alone, which always ends.
 const MOST_NEWTON_STEPS: usize = 64;
 
-/// Evaluates the polynomial at `x` (Horner).
 pub fn value(c: &Polynomial, x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }

@@ -64,17 +64,14 @@ impl<'a> Record<'a> {
         Ok(Record { acceleration_m_s2, dt_s, peak_m_s2 })
     }
 
-    /// Returns the peak ground acceleration, m/s2.
     pub fn peak_m_s2(&self) -> f64 {
         self.peak_m_s2
     }
 
-    /// Returns the samples, m/s2.
     pub fn acceleration_m_s2(&self) -> &'a [f64] {
         self.acceleration_m_s2
     }
 
-    /// Returns the time between samples, s.
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
@@ -110,7 +107,6 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The motion of the ground at a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ground {
     pub acceleration_m_s2: f64,

@@ -62,7 +62,6 @@ fn step(structure: &Structure, from: Rocking, ground: impl Fn(f64) -> f64, h: f6
     Rocking { side, theta, velocity: velocity + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4) }
 }
 
-/// An event of a rocking structure in the solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -72,7 +71,6 @@ pub enum SolverEvent {
     Uplift,
     /// The structure strikes its base and continues on the other side.
     Impact,
-    /// The structure comes to rest.
     Rest,
     /// Its rotation reaches pi/2.
     Overturn,
@@ -90,7 +88,6 @@ pub enum SolverEvent {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {
-    /// Time from the start of the record, s.
     pub time_s: f64,
     /// Rotation theta, rad; a positive ground acceleration turns a structure at rest to negative theta.
     pub theta_rad: f64,

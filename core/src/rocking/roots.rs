@@ -8,7 +8,7 @@ use pulp::Simd;
 use super::polynomial::{self, ORDER, Polynomial};
 use super::vector::{Mask, Vector};
 
-/// After a Halley step this small, relative to the root, the next is below rounding.
+/// After a Halley step this small, relative to the root, the next is about its cube, below rounding.
 const CONVERGED: f64 = 4e-6;
 
 /// More iterations than bisection alone needs to narrow the bracket to rounding.
@@ -24,7 +24,6 @@ pub fn values<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
     sum
 }
 
-/// Evaluates the slopes at `x` (Horner).
 #[inline(always)]
 pub fn slopes<S: Simd>(c: &Polynomial<Vector<S>>, x: Vector<S>) -> Vector<S> {
     let mut sum = c[ORDER] * ORDER as f64;
@@ -97,7 +96,6 @@ pub fn first_overturning(rotation: &Polynomial) -> Option<f64> {
     polynomial::roots(&margin).first().copied()
 }
 
-/// Finds the largest rotation from the start of the step to `until`.
 pub fn largest(rotation: &Polynomial, until: f64) -> f64 {
     let turns = polynomial::roots(&polynomial::derivative(rotation)).into_iter().filter(|x| *x < until);
     let rotations = turns.chain([0.0, until]).map(|x| polynomial::value(rotation, x));

@@ -70,6 +70,8 @@ impl<S: Simd> Lanes<'_, S> {
         let excess = Excess { start: self.side.mul_add(self.now, tan), end: self.side.mul_add(ground, tan) };
         let r = series(&self.slenderness, excess, self.state, h);
 
+        // The powers of the fraction grow from 0 to 1: the sum of the positive terms bounds the rise from the
+        // start of the step, and to its end.
         let mut rise = r[1].max(zero);
         for coefficient in &r[2..] {
             rise = rise + coefficient.max(zero);
@@ -108,6 +110,8 @@ impl<S: Simd> Lanes<'_, S> {
         if self.peak.lt(step.high).any() {
             self.raise_peak(step, until);
         }
+        // The order matters: `now` needs the next sample, which `pass_samples` replaces last, and an impact
+        // counts among the bounces only after a new sample has reset them.
         let passed = until * step.fraction;
         let within = passed.lt(one);
         let arrived = !within.bits();
@@ -161,7 +165,6 @@ impl<S: Simd> Lanes<'_, S> {
         each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
-    /// Updates the peaks.
     #[inline(always)]
     fn raise_peak(&mut self, step: &Step<S>, until: Vector<S>) {
         let zero = Vector::splat(self.simd, 0.0);

@@ -16,11 +16,8 @@ use crate::units::G_M_S2;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
-    /// Name in tables.
     pub name: String,
-    /// Frequency parameter p, rad/s.
     pub p_rad_s: f64,
-    /// Slenderness alpha, rad.
     pub alpha_rad: f64,
     /// Coefficient of restitution eta: the ratio of the angular velocities after and before impact.
     pub eta: f64,
@@ -30,7 +27,6 @@ pub struct Structure {
 const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
 const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
 
-/// A parameter out of range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
 pub struct StructureError {
@@ -41,7 +37,6 @@ pub struct StructureError {
 }
 
 impl StructureError {
-    /// Makes the error of a parameter of the structure of this name.
     pub fn new(
         structure: &str,
         parameter: &'static str,

@@ -20,14 +20,13 @@ use super::polynomial::{ORDER, Polynomial};
 use super::vector::{Vector, unrolled};
 
 /// A structure whose velocity eta |theta'| after an impact is below this fraction of p rests, or uplifts at
-/// once if the ground acceleration is large enough.
+/// once if the ground acceleration is large enough. On still ground it would rotate by 1e-12 / alpha at most.
 pub const REST_VELOCITY: f64 = 1e-6;
 
 /// After this many impacts between two samples the structure rests until the next one: a bound of the work.
 /// Only coefficients of restitution near 1 and velocities of about 1e-6 p reach it.
 pub const MOST_IMPACTS: u32 = 10_000;
 
-/// Functions of the slenderness alpha.
 #[derive(Debug, Clone, Copy)]
 pub struct Slenderness<T = f64> {
     pub tan: T,

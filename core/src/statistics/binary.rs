@@ -25,19 +25,16 @@ const ENDLESS: f64 = 1e3;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbitFit {
-    /// Coefficients and their covariance.
     pub fit: Fit,
     /// Logarithm of the likelihood at the maximum (Eq. 21).
     pub log_likelihood: f64,
 }
 
 impl ProbitFit {
-    /// Computes Akaike's information criterion.
     pub fn aic(&self) -> f64 {
         2.0 * self.fit.coefficients.len() as f64 - 2.0 * self.log_likelihood
     }
 
-    /// Computes the Bayesian information criterion.
     pub fn bic(&self) -> f64 {
         self.fit.coefficients.len() as f64 * (self.fit.n as f64).ln() - 2.0 * self.log_likelihood
     }

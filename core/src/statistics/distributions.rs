@@ -12,17 +12,14 @@ pub fn t_quantile(p: f64, degrees: f64) -> f64 {
     StudentsT::new(0.0, 1.0, degrees).map_or(f64::NAN, |t| t.inverse_cdf(p))
 }
 
-/// Computes the probability that F exceeds `x`.
 pub fn f_upper_tail(x: f64, numerator: f64, denominator: f64) -> f64 {
     FisherSnedecor::new(numerator, denominator).map_or(f64::NAN, |f| f.sf(x))
 }
 
-/// Computes the probability that chi squared exceeds `x`.
 pub fn chi_squared_upper_tail(x: f64, degrees: f64) -> f64 {
     ChiSquared::new(degrees).map_or(f64::NAN, |chi_squared| chi_squared.sf(x))
 }
 
-/// Computes the `p` quantile of chi squared.
 pub fn chi_squared_quantile(p: f64, degrees: f64) -> f64 {
     ChiSquared::new(degrees).map_or(f64::NAN, |chi_squared| chi_squared.inverse_cdf(p))
 }

@@ -10,7 +10,6 @@ use crate::spelling::unknown_word;
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<FitStatus>)]
 pub enum FitStatus {
-    /// Usable.
     Ok,
     /// Squares and products of the predictors improve the fit (p < 0.01).
     PoorFit,
@@ -27,13 +26,11 @@ pub enum FitStatus {
 }
 
 impl FitStatus {
-    /// Returns whether the fit is usable.
     pub fn is_usable(self) -> bool {
         matches!(self, FitStatus::Ok | FitStatus::PoorFit)
     }
 }
 
-/// Largest p-value of a poor fit.
 const POOR_FIT: f64 = 0.01;
 
 /// A linear predictor z = b0 + b1 x1 + ..., by least squares or maximum likelihood.
@@ -49,7 +46,6 @@ pub struct Fit {
     pub clusters: usize,
     /// Degrees of freedom of the limits without clusters: n - k of least squares, infinite of a likelihood.
     pub degrees: f64,
-    /// Number of cases.
     pub n: usize,
     /// p-value of the squares and products of the predictors; none if not tested, or degenerate.
     pub misfit_p: Option<f64>,
@@ -68,7 +64,6 @@ impl Fit {
         Fit { coefficients, covariance, clustered, clusters, degrees, n, misfit_p, status }
     }
 
-    /// Stores the p-value of the test of the form.
     pub(super) fn note_misfit(&mut self, p: Option<f64>) {
         self.misfit_p = p;
         if p.is_some_and(|p| p < POOR_FIT) {
@@ -94,8 +89,8 @@ pub fn predict(coefficients: &[f64], x: &[&[f64]]) -> Vec<f64> {
     z
 }
 
-/// Coefficients with each of k independent errors at both ends, this many standard deviations away: along the
-/// columns of L, where L L' = C is their covariance (k x k, by row). None where C has no such L.
+/// Moves the coefficients by this many standard deviations, down and up, along each of k independent errors:
+/// the columns of L, where L L' = C is their covariance (k x k, by row). Empty where C has no such L.
 pub fn independent_errors(coefficients: &[f64], covariance: &[f64], deviations: f64) -> Vec<[Vec<f64>; 2]> {
     let k = coefficients.len();
     let square = (covariance.len() == k * k).then(|| DMatrix::from_row_slice(k, k, covariance));

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A value with its limits of confidence. Where something may be missing, each is an option: all of what is not
-/// known, the value of what only has bounds.
+/// A value with its confidence limits. In `Interval<Option<f64>>` all three are none where nothing is known,
+/// and only the value where bounds alone are known.
 ///
 /// ```
 /// use rockfrag_core::statistics::Interval;
@@ -20,17 +20,15 @@ pub struct Interval<T = f64> {
 }
 
 impl Interval {
-    /// Makes an estimate that is known for certain.
     pub const fn exact(value: f64) -> Interval {
         Interval { value, low: value, high: value }
     }
 
-    /// Makes an estimate whose limits are this far away on either side.
     pub fn around(value: f64, half_width: f64) -> Interval {
         Interval { value, low: value - half_width, high: value + half_width }
     }
 
-    /// Computes a function that rises with a shift of its argument, at 0 and at the limits of the shift.
+    /// Evaluates a function that rises with a shift, at no shift and at the limits of the shift.
     pub fn shifted(half_width: f64, at: impl Fn(f64) -> f64) -> Interval {
         let [low, value, high] = [-half_width, 0.0, half_width].map(at);
         Interval { value, low, high }
@@ -52,7 +50,6 @@ impl Interval {
 }
 
 impl Interval<Option<f64>> {
-    /// Makes a value without limits.
     pub fn without_limits(value: Option<f64>) -> Interval<Option<f64>> {
         Interval { value, low: None, high: None }
     }

@@ -4,19 +4,17 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// Largest number of steps.
 const MOST_STEPS: usize = 100;
 /// The iterations end when the expected gain of a step is smaller.
 const LEAST_GAIN: f64 = 1e-12;
-/// Relative loss of a value in a step that is rounding.
+/// A step that loses no more than this share of the value is not halved: the loss is rounding.
 const ROUNDING: f64 = 1e-12;
-/// Cases in a partial sum.
+/// Cases in a partial sum: the same for any number of threads.
 const CHUNK: usize = 8192;
 
 /// The value of a function to maximise, with its derivatives at k coefficients.
 #[derive(Debug, Clone)]
 pub struct Objective {
-    /// Value.
     pub value: f64,
     /// First derivatives, k.
     pub gradient: DVector<f64>,
@@ -50,11 +48,8 @@ impl Objective {
 /// The end of the iterations.
 #[derive(Debug, Clone)]
 pub struct Maximum {
-    /// Coefficients, k.
     pub at: DVector<f64>,
-    /// The function there.
     pub objective: Objective,
-    /// Whether it is a maximum.
     pub converged: bool,
 }
 
@@ -62,8 +57,10 @@ pub struct Maximum {
 pub fn maximise(objective: impl Fn(&DVector<f64>) -> Objective, start: DVector<f64>) -> Maximum {
     let mut here = Maximum { objective: objective(&start), at: start, converged: false };
     for _ in 0..MOST_STEPS {
+        // Where the function does not curve down in all directions, Newton's step may lead down.
         let Some(factors) = here.objective.information.clone().cholesky() else { break };
         let mut step = factors.solve(&here.objective.gradient);
+        // What the step gains if the function is the parabola of its derivatives here.
         let gain = 0.5 * step.dot(&here.objective.gradient);
         if gain <= LEAST_GAIN {
             let at = here.at + step;
@@ -71,6 +68,7 @@ pub fn maximise(objective: impl Fn(&DVector<f64>) -> Objective, start: DVector<f
             let converged = objective.value.is_finite();
             return Maximum { at, objective, converged };
         }
+        // Of a concave function a shorter step gains, where the whole step goes too far.
         let least = here.objective.value - ROUNDING * (1.0 + here.objective.value.abs());
         let mut next = objective(&(&here.at + &step));
         while (next.value.is_nan() || next.value < least) && step.norm() > 0.0 {

@@ -12,12 +12,10 @@ pub fn cdf(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
 }
 
-/// Computes the density.
 pub fn density(x: f64) -> f64 {
     (-0.5 * x * x).exp() / TAU.sqrt()
 }
 
-/// Computes the logarithm of the density.
 pub fn ln_density(x: f64) -> f64 {
     -0.5 * (x * x + TAU.ln())
 }

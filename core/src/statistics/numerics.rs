@@ -1,6 +1,5 @@
 //! Quadrature, bisection and steps of equal ratio.
 
-/// Nodes of a panel.
 const ORDER: usize = 8;
 
 /// Nodes and weights on (0, 1) of the Gauss-Legendre rule, exact for polynomials of degree 15.
@@ -31,14 +30,13 @@ pub fn panels(from: f64, to: f64, widest: f64) -> impl Iterator<Item = Panel> {
 }
 
 impl Panel {
-    /// Returns nodes and weights of the integral.
     pub fn nodes(self) -> impl Iterator<Item = (f64, f64)> {
         let width = self.to - self.from;
         GAUSS_LEGENDRE.into_iter().map(move |(node, weight)| (self.from + node * width, weight * width))
     }
 
-    /// Returns nodes and weights of the integral over masses at places within it, by the moments of these on
-    /// the Legendre polynomials.
+    /// Returns nodes and weights of the integral over point masses (place, mass) within the panel: that over
+    /// the density of degree 7 which has their moments on the Legendre polynomials.
     pub fn nodes_of(self, masses: impl Iterator<Item = (f64, f64)>) -> [(f64, f64); ORDER] {
         let width = self.to - self.from;
         let mut moments = [0.0; ORDER];
@@ -65,7 +63,7 @@ fn legendre(place: f64) -> [f64; ORDER] {
     values
 }
 
-/// Returns the values from one to another in so many steps of equal ratio.
+/// Returns the ends of `steps` steps of equal ratio between two values.
 pub fn equal_ratios(from: f64, to: f64, steps: usize) -> impl Iterator<Item = f64> {
     (0..=steps).map(move |k| from * (to / from).powf(k as f64 / steps as f64))
 }
@@ -73,7 +71,7 @@ pub fn equal_ratios(from: f64, to: f64, steps: usize) -> impl Iterator<Item = f6
 /// Halvings of an interval to rounding.
 const HALVINGS: usize = 60;
 
-/// Finds by bisection the least value between two at which a condition holds; it holds from there on, and at
+/// Finds by bisection the least value from `low` to `high` at which a condition holds, which then holds up to
 /// `high`.
 pub fn first(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {

@@ -2,14 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The values from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     pub low: f64,
     pub high: f64,
 }
 
-/// The relative amount by which a value may pass a bound, as rounding in print does.
+/// A value beyond a bound by this share of it counts as within: bounds are printed with rounding errors.
 const UNSEEN: f64 = 1e-5;
 
 impl Range {
@@ -19,22 +18,19 @@ impl Range {
         values.into_iter().fold(none, |range, value| range.with(value))
     }
 
-    /// Returns whether a positive value is within it, as printed.
+    /// Whether a positive value is within the range, up to the rounding of print.
     pub fn has(&self, value: f64) -> bool {
         (self.low * (1.0 - UNSEEN)..=self.high * (1.0 + UNSEEN)).contains(&value)
     }
 
-    /// Returns a value, or the bound that it is beyond.
     pub fn held(&self, value: f64) -> f64 {
         value.clamp(self.low, self.high)
     }
 
-    /// Widens it to a value.
     pub fn with(&self, value: f64) -> Range {
         Range { low: self.low.min(value), high: self.high.max(value) }
     }
 
-    /// Returns the range of the logarithms.
     pub fn ln(&self) -> Range {
         Range { low: self.low.ln(), high: self.high.ln() }
     }
@@ -57,7 +53,7 @@ impl FromIterator<f64> for Bounds {
 }
 
 impl Bounds {
-    /// Returns whether a value is within this factor of values between them; any is where a bound is missing.
+    /// Whether a value is within the bounds, widened by `factor`. A bound that is missing does not limit it.
     pub fn has(&self, value: f64, factor: f64) -> bool {
         self.low.is_none_or(|low| value >= low / factor)
             && self.high.is_none_or(|high| value <= high * factor)

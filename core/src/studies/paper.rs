@@ -19,11 +19,11 @@ pub struct Comparison {
     pub structure: String,
     pub published: Option<f64>,
     pub ours: Option<f64>,
-    /// Mean, standard deviation and number of ours over seeds, of the paper's set-up.
+    /// Mean, standard deviation and number of our values over seeds, in the set-up of the paper.
     pub mean: Option<f64>,
     pub sd: Option<f64>,
     pub seeds: i64,
-    /// (published - ours) / sd; none where the print leaves open more than two of these sds, ours among it.
+    /// (published - ours) / sd; none where ours is within the rounding of the print, wider than two sds.
     pub z: Option<f64>,
     pub t2: Option<f64>,
     pub t2_p: Option<f64>,
@@ -48,10 +48,10 @@ pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
 }
 
 fn comparison(number: Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comparison {
-    let its = seeds.iter().filter(|seed| {
+    let of_number = seeds.iter().filter(|seed| {
         (&seed.quantity, &seed.suite, &seed.structure) == (&number.quantity, &number.suite, &number.structure)
     });
-    let values: Vec<f64> = its.map(|seed| seed.value).collect();
+    let values: Vec<f64> = of_number.map(|seed| seed.value).collect();
     let n = values.len() as f64;
     let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
     let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
@@ -61,15 +61,13 @@ fn comparison(number: Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comp
     Comparison { quantity, place, suite, structure, published, ours, mean, sd, seeds, z, t2, t2_p }
 }
 
-/// Computes (published - ours) / sd; none where the print leaves open more than two of these sds, ours among
-/// it.
 fn z(number: &Published, ours: Option<f64>, sd: Option<f64>) -> Option<f64> {
     let (ours, sd, low, high) = (ours?, sd?, number.print_low?, number.print_high?);
     let is_open = (low..=high).contains(&ours) && high - low > 2.0 * sd;
     (sd > 0.0 && !is_open).then_some((number.published? - ours) / sd)
 }
 
-/// The fits, of which some are of a suite and structure.
+/// All fits, and the suite and structure whose fits are looked up.
 struct Fits<'a> {
     group: Group<'a>,
     demand: &'a [DemandFit],
@@ -77,7 +75,7 @@ struct Fits<'a> {
 }
 
 impl Fits<'_> {
-    /// Our value of a published quantity; none where the fits do not have it.
+    /// Our value of a published quantity; none where no fit gives it.
     fn value(&self, quantity: &str) -> Option<f64> {
         // The example takes the curve of the equipment for both structures.
         let equipment = || self.hybrid("electrical-equipment").map(|curve| &curve.coefficients);

@@ -1,4 +1,4 @@
-//! Probabilities of cases that were not fitted, tested on what happened.
+//! Tests of forecast probabilities on the outcomes of cases that were not fitted.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,6 @@ use crate::statistics::clusters::clustered_mean;
 use crate::statistics::scores::{auc, brier_score, log_score};
 use crate::statistics::{Interval, normal, tested_probit};
 
-/// Groups of rising probability in a reliability curve.
 const BINS: usize = 10;
 /// A probability is taken no nearer to 0 or 1 than this where its quantile is needed.
 const LEAST: f64 = 1e-15;
@@ -27,7 +26,6 @@ pub struct Forecasts<'a> {
     pub suite: Option<&'a str>,
     pub structure: &'a str,
     pub event: Event,
-    /// What gave the probabilities.
     pub model: &'a str,
     pub probabilities: &'a [f64],
     pub happened: &'a [bool],
@@ -35,7 +33,7 @@ pub struct Forecasts<'a> {
     pub clusters: &'a [u32],
 }
 
-/// How forecasts did: a row of validation.parquet.
+/// The scores of forecasts: a row of validation.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Validation {
     pub suite: Option<String>,
@@ -43,7 +41,6 @@ pub struct Validation {
     pub event: Event,
     pub model: String,
     pub n: i64,
-    /// Events observed.
     pub observed: i64,
     /// Events expected: the sum of the probabilities.
     pub expected: f64,
@@ -68,7 +65,6 @@ pub struct ReliabilityBin {
     pub structure: String,
     pub event: Event,
     pub model: String,
-    /// Mean probability.
     pub predicted: f64,
     /// Share of events, with Wilson's 95 % limits.
     pub share: f64,

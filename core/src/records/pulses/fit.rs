@@ -28,10 +28,8 @@ const PARTS_OF_PERIOD: f64 = 100.0;
 const MOST_STEPS: u64 = 300;
 const TOLERANCE: f64 = 1e-10;
 
-/// A pulse fitted to a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FittedPulse {
-    /// Amplitude A, period, gamma and phase.
     pub pulse: Pulse,
     /// Time t0 of its middle from the first sample, s.
     pub t0_s: f64,
@@ -40,8 +38,7 @@ pub struct FittedPulse {
 }
 
 impl FittedPulse {
-    /// Fits a pulse to a velocity (m/s) at steps of `dt_s`, from period and time (s) of a wavelet. None of
-    /// zeros.
+    /// Fits a velocity (m/s) at steps of `dt_s`, from period and time (s) of a wavelet; none if it is zero.
     pub fn fit(velocity: &[f64], dt_s: f64, period_s: f64, time_s: f64) -> Option<FittedPulse> {
         let series = Series::new(velocity, dt_s, period_s);
         let mut starts = Vec::new();
@@ -70,7 +67,6 @@ struct Series {
     means: Vec<f64>,
     /// Middle of the first interval, s.
     first_s: f64,
-    /// Length of an interval, s.
     step_s: f64,
 }
 

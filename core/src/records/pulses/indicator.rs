@@ -6,6 +6,7 @@ use crate::motion::measures::peak;
 use crate::records::rotation::Parts;
 use crate::spelling::unknown_word;
 
+// Least indicator, least peak velocity and early arrival of a pulse are those of Baker (2007).
 /// Range of pulse periods, s.
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
 /// Number of periods of the scan, in equal ratios, and subdivisions of an interval about a local maximum.
@@ -13,11 +14,10 @@ const PERIODS: usize = 60;
 const REFINED: usize = 20;
 /// Local maxima of at least this share of the largest square are refined; no other can become the largest.
 const LEAST_PEAK: f64 = 0.9;
-/// Wavelets of the extracted pulse.
 const WAVELETS: usize = 10;
 /// Largest distance of the other wavelets from the first, as a fraction of its scale (period times 5/7).
 const REACH: f64 = 10.0 / 25.0 * 5.0 / 7.0;
-/// Largest time step of the search, s, unless the record is coarser.
+/// Largest time step of the search, s, unless the record is coarser: 12 steps in the shortest period.
 const STEP_S: f64 = 0.02;
 /// Least indicator of a pulse.
 pub const THRESHOLD: f64 = 0.85;
@@ -26,12 +26,10 @@ pub const LEAST_PGV_M_S: f64 = 0.3;
 /// A pulse is early if the first share of its squared velocity precedes the second share of the record's.
 const EARLY: (f64, f64) = (0.10, 0.20);
 
-/// Pulse indicator of one component, with the extracted pulse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PulseIndicator {
     /// From 0 (no pulse) to 1 (a pulse); see [`indicator`].
     pub indicator: f64,
-    /// Period of the extracted pulse, s.
     pub period_s: f64,
     /// Middle of its strongest wavelet, s.
     pub centre_s: f64,
@@ -39,7 +37,6 @@ pub struct PulseIndicator {
     pub verdict: Verdict,
 }
 
-/// Whether a record has a pulse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]

@@ -15,7 +15,6 @@ const FILTER: [f64; 8] = [
     0.032_883_011_666_982_945,
     -0.010_597_401_784_997_278,
 ];
-/// Length of the support.
 const SUPPORT: usize = FILTER.len() - 1;
 /// Halvings of the step between tabulated values.
 const LEVELS: u32 = 9;
@@ -34,7 +33,6 @@ pub struct Wavelet {
 }
 
 impl Wavelet {
-    /// Samples the wavelet of a period at steps of `dt_s`.
     pub fn new(period_s: f64, dt_s: f64) -> Wavelet {
         let scale_s = period_s * CENTRE_FREQUENCY;
         let middle = 0.5 * SUPPORT as f64;
