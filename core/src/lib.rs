@@ -2,7 +2,7 @@
 //! how often this happens at a site.
 //!
 //! A cabinet, a statue or a frame on rocking columns stays on its base until the ground acceleration exceeds
-//! g tan *α*. Then it rocks, and either comes to rest or overturns. Its response depends on three parameters:
+//! g tan *α*. Then it rocks, and comes to rest or overturns. Its response depends on three parameters:
 //! the frequency parameter *p* (rad/s; smaller for larger blocks), the slenderness *α* (rad; width over
 //! height is tan *α*), and the coefficient of restitution *η* (the ratio of the velocities after and before
 //! an impact). PGA decides whether it rocks; PGA and PGV together, whether it overturns.
@@ -61,7 +61,7 @@
 //!
 //! | module | holds | in the paper |
 //! |---|---|---|
-//! | [`motion`] | scenarios, synthetic motions, intensity measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
+//! | [`motion`] | scenarios, synthetic motions, their measures | sections 2.1, 2.2.3, Eqs. 1 to 3, 9, 10, 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
 //! | [`object`] | what is known of an object, and what is not | |
@@ -77,8 +77,8 @@
 //! Eq. 13. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
 //! numbers for any number of threads.
 //!
-//! Nothing here reads a file, asks the time or prints. The crate `rockfrag` reads the files of agencies and runs these
-//! steps over Parquet files: `rockfrag --help`.
+//! Nothing here reads a file, asks the time or prints. The crate `rockfrag` reads the files of agencies and
+//! runs these steps over Parquet files: `rockfrag --help`.
 
 pub mod fragility;
 pub mod hazard;

@@ -1,10 +1,9 @@
-//! Numbers as a person reads them, significant digits with their zeros (0.30) and commas between thousands
-//! (27,000); and texts of others, with nothing in them that moves a terminal.
+//! Numbers for people, significant digits with their zeros (0.30) and commas between thousands (27,000); and
+//! texts of users without characters that control a terminal.
 
 use std::borrow::Cow;
 use std::fmt::Display;
 
-/// Writes a number with this many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     // What rounds to zero has no sign.
@@ -18,17 +17,16 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     text.char_indices().flat_map(with_comma).collect()
 }
 
-/// Writes a count: `3,500`.
 pub fn count(value: usize) -> String {
     fixed(value as f64, 0)
 }
 
-/// Writes a count of things: `1 motion`, `3,500 motions`.
+/// `1 motion`, `3,500 motions`.
 pub fn counted(value: usize, one: &str) -> String {
     format!("{} {one}{}", count(value), if value == 1 { "" } else { "s" })
 }
 
-/// Joins the items of a list, the first few by name: `a, b, c and 9 more`.
+/// `a, b, c and 9 more`, with the first few by name.
 pub fn listed<T: Display>(items: &[T], named: usize) -> String {
     let first: Vec<String> = items.iter().take(named).map(T::to_string).collect();
     match items.len() - first.len() {
@@ -37,12 +35,12 @@ pub fn listed<T: Display>(items: &[T], named: usize) -> String {
     }
 }
 
-/// Writes a number as one types it, without zeros at its end.
+/// A number as one types it, without zeros at its end.
 pub fn plain(value: f64) -> String {
     fixed(value, 6).trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// Writes a number with this many significant digits, small and large ones with a power of ten: 2.9e-5.
+/// Small and large numbers have a power of ten: 2.9e-5.
 pub fn significant(value: f64, digits: usize) -> String {
     let text = format!("{value:.*e}", digits - 1);
     let power: i32 = text.split_once('e').map_or(0, |(_, power)| power.parse().unwrap_or(0));
@@ -54,19 +52,18 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Rounds off what a change of unit leaves in the last digits: 1.8 mm are 0.0018 m, not
-/// 0.0018000000000000002.
+/// Rounds off errors of a change of unit in the last digits: 1.8 mm are 0.0018 m, not 0.0018000000000000002.
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
-/// Writes a length in m, to the centimetre or, where it has them, millimetres.
+/// In m, to the centimetre or, if not a round one, the millimetre.
 pub fn length(length_m: f64) -> String {
     let text = fixed(length_m, 3);
     text.strip_suffix('0').unwrap_or(&text).to_string()
 }
 
-/// Writes a return period in years with two digits.
+/// A return period with two digits.
 pub fn period(years: f64) -> String {
     let unit = 10_f64.powf((years.log10().floor() - 1.0).max(0.0));
     match years {
@@ -81,20 +78,19 @@ const LONGEST_NAME: usize = 100;
 /// Letters of any text that are shown on a line.
 pub const LONGEST_TEXT: usize = 1000;
 
-/// Writes a name of the user: the beginning of a long one, as [`shown`].
+/// A name given by a user, as [`shown`].
 pub fn name(name: &str) -> Cow<'_, str> {
     shown(name, LONGEST_NAME)
 }
 
-/// Whether a letter is none to read: it moves or colours a terminal, turns the letters beside it around, or
-/// is no letter of XML.
+/// Whether a letter controls a terminal, changes the direction of text, or is not allowed in XML.
 pub fn is_hidden(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}')
         || matches!(letter, '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}')
 }
 
-/// Writes a text whose hidden letters, but those `kept`, are escapes as JSON has them: `\u001b`.
+/// Hidden letters other than `kept` are escaped as in JSON: `\u001b`.
 pub fn visible<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     let is_escaped = |letter: char| is_hidden(letter) && !kept.contains(&letter);
     if !text.contains(is_escaped) {
@@ -108,7 +104,7 @@ pub fn visible<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     Cow::Owned(text.chars().map(letter).collect())
 }
 
-/// Writes a text on one line, cut to this many letters.
+/// On one line, cut to this many letters.
 pub fn shown(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         Some((end, _)) => Cow::Owned(visible(&text[..end], &[]).into_owned() + "..."),

@@ -16,7 +16,6 @@ pub const ETA: f64 = 0.92;
 /// Name, p (rad/s) and alpha (rad) of the two structures.
 pub const STRUCTURES: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrical-equipment", 2.5, 0.20)];
 
-/// Returns the two structures.
 pub fn structures() -> Vec<Structure> {
     STRUCTURES.map(|(name, p, alpha)| Structure::new(name, p, alpha, ETA).expect("possible values")).into()
 }
@@ -24,7 +23,7 @@ pub fn structures() -> Vec<Structure> {
 /// Exponent lambda implied by the hybrid measures of the worked example (section 3).
 pub const EXAMPLE_LAMBDA: f64 = 1.5;
 
-/// Computes the measures of the worked example (section 3: PGA 0.5 g, PGA/PGV 2 1/s) for a structure.
+/// The worked example (section 3): PGA 0.5 g, PGA/PGV 2 1/s.
 pub fn example(structure: &Structure) -> IntensityMeasures {
     let pga_m_s2 = 0.5 * G_M_S2;
     IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s: pga_m_s2 / 2.0 }, None, None)
@@ -58,12 +57,12 @@ pub struct SeedValue {
     pub value: f64,
 }
 
-/// Reads the published numbers, in the order of display.
+/// In the order of display.
 pub fn published() -> Vec<Published> {
     read(include_str!("../data/paper.csv"))
 }
 
-/// Reads our values for twenty seeds.
+/// For twenty seeds.
 pub fn seed_values() -> Vec<SeedValue> {
     read(include_str!("../data/seed_spread.csv"))
 }

@@ -51,8 +51,7 @@ pub const LEAST_P_RAD_S: f64 = 0.9;
 /// Slenderness, rad, of a base of a 25th of the height: few monuments stand on less.
 pub const LEAST_ALPHA_RAD: f64 = 0.04;
 
-/// Columns with a range of their own, and what is expected of them; of motions those that solver and scaling
-/// bear.
+/// Columns with a range of their own, and what is expected; of motions by what solver and scaling allow.
 const COLUMNS: [(&[&str], RangeInclusive<f64>, &str); 13] = [
     (&["mw"], MAGNITUDES, "a moment magnitude, from 1 to 9.9"),
     (&["re_km"], DISTANCES_KM, "a distance from the rupture in km, from 0 to 1000"),
@@ -81,8 +80,8 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 /// PGA, g, that the hazard of any site reaches; PGV, m/s, and SA(1.0 s), g, reach a third of it.
 const REACHED_PGA_G: f64 = 0.03;
 
-/// Judges annual rates at which PGV (m/s), or PGA or a spectral acceleration (g), is exceeded, and guesses what
-/// they are instead.
+/// Judges annual rates of exceedance of PGV (m/s), or of PGA or a spectral acceleration (g), and guesses what
+/// implausible ones are instead.
 pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), String> {
     let is_velocity = measure == "PGV";
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));

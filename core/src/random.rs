@@ -22,8 +22,7 @@ pub enum Purpose {
     Bootstrap,
 }
 
-/// Returns the random stream of a seed, a purpose and a row: ChaCha with 8 rounds, its key from seed and
-/// purpose, its stream number the row.
+/// ChaCha with 8 rounds, its key from seed and purpose, its stream number the row.
 pub fn stream(seed: u64, purpose: Purpose, row: u64) -> ChaCha8Rng {
     let key = blake3::hash(format!("rockfrag {purpose} {seed}").as_bytes());
     let mut generator = ChaCha8Rng::from_seed(*key.as_bytes());

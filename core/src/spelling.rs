@@ -1,14 +1,13 @@
-//! Words of people: which were expected, and which was meant.
+//! Messages about unknown words: the known ones, and the most similar one.
 
 use strum::VariantArray;
 
-/// Says which words are known, and which of them was meant.
 pub fn unknown_word<T: VariantArray + Into<&'static str> + Copy>(word: &str) -> String {
     let known: Vec<&str> = T::VARIANTS.iter().map(|&keyword| keyword.into()).collect();
     format!("'{word}' is not one of {}{}", known.join(", "), hint(word, &known))
 }
 
-/// Asks whether the most similar known word was meant, if any is similar.
+/// Empty if no known word is similar.
 pub fn hint(word: &str, known: &[&str]) -> String {
     let similarity = |candidate: &&str| strsim::jaro_winkler(word, candidate);
     let best = known.iter().copied().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));

@@ -9,7 +9,6 @@ pub const G_PER_M_S2: f64 = 1.0 / G_M_S2;
 /// Centimetres per metre: published ground-motion relations are in cm/s and cm/s2.
 pub const CM_PER_M: f64 = 100.0;
 
-/// Physical quantity of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     Acceleration,
@@ -22,12 +21,9 @@ pub enum Quantity {
     Counts,
 }
 
-/// A unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// As it is written.
     pub name: &'static str,
-    /// What it measures.
     pub quantity: Quantity,
     /// Value in m/s2, m/s, m, s, rad or rad/s.
     pub si: f64,
@@ -96,10 +92,8 @@ impl Unit {
         Some(Unit { name, quantity: *quantity, si: *si })
     }
 
-    /// Reads a unit of acceleration.
-    ///
     /// # Errors
-    /// With the known units, if it is not one of them.
+    /// With the known units of acceleration, if it is not one of them.
     pub fn parse_acceleration(text: &str) -> Result<Unit, String> {
         let known = UNITS.iter().filter(|(_, quantity, ..)| *quantity == Acceleration);
         let known: Vec<&str> = known.map(|(name, ..)| *name).collect();

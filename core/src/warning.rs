@@ -45,7 +45,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Returns the text of the warning, at most 15 words.
+    /// At most 15 words.
     pub fn text(self) -> &'static str {
         use Warning::*;
         match self {
@@ -81,16 +81,14 @@ impl Warning {
     }
 }
 
-/// Warnings, each with what it is about.
+/// Warnings, each with its subjects.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Warnings(BTreeMap<Warning, Subjects>);
 
-/// What a warning is about.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 struct Subjects {
-    /// The names of the first ones.
+    /// The first few.
     named: Vec<String>,
-    /// The number of all.
     count: usize,
 }
 
@@ -102,7 +100,7 @@ const LONGEST_SUBJECT: usize = 300;
 pub const UNNAMED: &str = "structure";
 
 impl Warnings {
-    /// Returns one line for each warning, the most important first, with the first subjects that it is about.
+    /// One line for each warning, the most important first, with its first subjects.
     pub fn lines(&self) -> Vec<String> {
         let line = |(warning, Subjects { named, count }): (&Warning, &Subjects)| {
             let named = named.iter().map(|name| shown(name, LONGEST_SUBJECT)).collect::<Vec<_>>().join(", ");
@@ -115,7 +113,6 @@ impl Warnings {
         self.0.iter().map(line).collect()
     }
 
-    /// Adds a warning about a subject.
     pub fn add(&mut self, warning: Warning, about: String) {
         let subjects = self.0.entry(warning).or_default();
         subjects.count += 1;
@@ -134,18 +131,17 @@ impl Warnings {
         }
     }
 
-    /// Drops a warning that does not hold after all.
     pub fn remove(&mut self, warning: Warning) {
         self.0.remove(&warning);
     }
 
-    /// Joins the warnings of another stage, which may be about the same subjects.
+    /// Adds the warnings of another stage, which may be about the same subjects.
     pub fn join(&mut self, others: &Warnings) {
         for (warning, others) in &others.0 {
             let subjects = self.0.entry(*warning).or_default();
             let new = others.named.iter().filter(|name| !subjects.named.contains(name));
             let named = [subjects.named.clone(), new.cloned().collect()].concat();
-            // Of subjects without a name it is not known whether they are the same.
+            // Subjects without a name may be the same or others.
             subjects.count = subjects.count.max(others.count).max(named.len());
             subjects.named = named;
             subjects.named.truncate(NAMED);

@@ -1,7 +1,6 @@
-//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, L the logit of
-//! the surface, M the magnitude and g what makes P go to 0 at uplift. c, s and m are estimated from the
-//! responses of one structure to one suite of motions; without responses they are those of the kind of
-//! motion.
+//! The universal surface, calibrated by three numbers: logit P = c + s L + m (M - 6.9) + g, with the logit L
+//! of the surface, the magnitude M and a term g by which P is 0 at uplift. c, s and m are estimated from the
+//! responses of a structure to a suite of motions; without responses they are those of the kind of motion.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -19,8 +18,7 @@ use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::{Bounds, Interval, independent_errors, variance};
 use crate::warning::Warning;
 
-/// The calibration of the surface for a structure: logit P = c + s L + m (M - 6.9) + g, with the logit L and
-/// the uplift term g of the [predictor](Predictor), and the magnitude M.
+/// The universal surface, calibrated for one structure and suite.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     pub suite: Option<String>,
@@ -40,10 +38,10 @@ pub struct Calibration {
     pub tau: f64,
     pub n: i64,
     pub n_events: i64,
-    /// Events that the surface for the kind of motion predicts.
+    /// Number of events that the uncalibrated surface predicts.
     pub expected: f64,
     pub n_clusters: i64,
-    /// Least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the motions that it was fitted to.
+    /// Least and largest PGA (m/s2), PGV (m/s) and PGV/PGA (s) of the fitted motions.
     pub pga: Bounds,
     pub pgv: Bounds,
     pub ratio: Bounds,
@@ -52,52 +50,45 @@ pub struct Calibration {
     pub ratio_given_pgv: Vec<f64>,
 }
 
-/// The logit of the surface and its terms for one case, to be calibrated.
+/// The terms of the logit for one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Predictor {
     /// L, the logit of the surface.
     pub logit: f64,
-    /// M - 6.9, M within the magnitudes of the kind of motion; where M is not known, that which PGV / PGA
-    /// tells.
+    /// M - 6.9, M within the magnitudes of the kind of motion; an unknown M is inferred from PGV / PGA.
     pub magnitude: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
-    /// What the calibrated logit gains: -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
+    /// The uplift term g = -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
     pub added: f64,
 }
 
-/// What stood or fell in an earthquake.
+/// An object that stood or fell in an earthquake.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObservedOutcome {
-    /// The structure that it rocks like.
     pub structure: Structure,
-    /// Peaks of the motion.
     pub peaks: Peaks,
-    /// Magnitude, where it is known.
     pub mw: Option<f64>,
     /// Number of the earthquake: its outcomes depend on each other.
     pub earthquake: u32,
-    /// Whether it fell.
     pub fell: bool,
 }
 
-/// The suite of calibrations to what stood and what fell.
+/// The suite of calibrations to observed outcomes.
 const OUTCOMES: &str = "outcomes";
-/// With fewer cases on a side the level is uncertain.
+/// With fewer events, or fewer other cases, the level is uncertain.
 const FEW_EVENTS: i64 = 10;
-/// A peak within this factor of those of the data is like them.
+/// A peak within this factor of the fitted ones is covered.
 const LIKE: f64 = 1.2;
 
 impl Calibration {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
 }
 
 impl Calibration {
-    /// Makes that of a kind of motion, for a structure without responses of its own; `limit_state` of P_ex,
-    /// `None` for P_ro.
+    /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
         let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
@@ -134,8 +125,8 @@ impl Calibration {
         }
     }
 
-    /// Fits c, ln s and m of P_ro to what stood and what fell in earthquakes. Objects that the motion does
-    /// not uplift do not count. The first object stands for all.
+    /// Fits c, ln s and m of P_ro to observed outcomes. Objects that the motion does not uplift do not count;
+    /// p, alpha and eta are those of the first object.
     pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
         let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
         let observed = outcomes.iter().filter_map(|outcome| {
@@ -149,12 +140,11 @@ impl Calibration {
         Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(&observed) })
     }
 
-    /// Returns whether it is fitted to what stood and what fell: it is for other objects, too.
+    /// Whether it was fitted to observed outcomes, and so applies to other objects too.
     pub fn is_of_outcomes(&self) -> bool {
         self.suite.as_deref() == Some(OUTCOMES)
     }
 
-    /// Fits it to cases of its kind of motion.
     fn fitted(&self, cases: &[Observed]) -> Calibration {
         let (at, covariance, n_clusters) = maximum(cases, &surface::prior(self.kind, self.limit_state));
         let peaks = cases.iter().map(|case| case.peaks);
@@ -174,8 +164,7 @@ impl Calibration {
         }
     }
 
-    /// What the surface says of a motion, of magnitude `mw` where it is known; none where a measure is
-    /// missing.
+    /// The terms of the logit of a motion, of magnitude `mw` if known; none where a measure is missing.
     pub fn predictor(
         &self,
         structure: &Structure,
@@ -185,8 +174,7 @@ impl Calibration {
         self.branch(structure, mw).predictor_of(structure, measures)
     }
 
-    /// Returns the predictor of a case that counts, with the probability; none at uplift, or where a measure
-    /// is missing.
+    /// The predictor with its probability; none at uplift, or where a measure is missing.
     fn prediction(
         &self,
         structure: &Structure,
@@ -199,7 +187,6 @@ impl Calibration {
         (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
     }
 
-    /// Makes the calibrated surface ready for a structure and motions of a magnitude, if it is known.
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
         let section = Section::new(self.kind, structure, self.limit_state, mw);
         let errors = self.errors().map(|ends| ends.map(Parameters::new)).collect();
@@ -211,7 +198,7 @@ impl Calibration {
         }
     }
 
-    /// Computes the calibrated probability given rocking, with limits; none where a measure is missing.
+    /// The probability given rocking, with limits; none where a measure is missing.
     pub fn probability(
         &self,
         structure: &Structure,
@@ -226,19 +213,17 @@ impl Calibration {
         Some(Interval { value, low, high })
     }
 
-    /// Returns c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
+    /// c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
     fn errors(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
         let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
         errors.into_iter().map(|ends| ends.map(|b| [b[0], b[1], b[2]]))
     }
 
-    /// Returns it with each independent error of c, ln s and m at its 2.5 and 97.5 % quantiles.
     pub(super) fn ends(&self) -> Vec<[Calibration; 2]> {
         let with = |[c, ln_s, m]: [f64; 3]| Calibration { c, ln_s, m, ..self.clone() };
         self.errors().map(|ends| ends.map(with)).collect()
     }
 
-    /// Returns how PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> JointPeaks {
         let usual = surface::peaks(self.kind);
         JointPeaks {
@@ -247,7 +232,7 @@ impl Calibration {
         }
     }
 
-    /// Returns the warnings about it as a whole; none where it is that of a kind of motion.
+    /// Warnings about the calibration as a whole; none without responses.
     pub fn warnings(&self) -> Vec<Warning> {
         if self.n == 0 {
             return Vec::new();
@@ -262,8 +247,7 @@ impl Calibration {
         few_events.into_iter().chain(few_clusters).collect()
     }
 
-    /// Returns whether some of the motions that it was fitted to had a similar PGA and PGV; that of a kind of
-    /// motion is fitted to all that the surface covers.
+    /// Whether PGA, PGV and PGV / PGA are like those fitted; always so without responses.
     pub fn covers(&self, structure: &Structure, measures: &IntensityMeasures) -> bool {
         let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
         let fitted = [(self.pga, pga_m_s2), (self.pgv, pgv_m_s), (self.ratio, pgv_m_s / pga_m_s2)];
@@ -271,17 +255,16 @@ impl Calibration {
     }
 }
 
-/// P_ro or P_ex of a structure under motions of one magnitude: ready for many of them.
+/// P_ro or P_ex of a structure under motions of one magnitude.
 #[derive(Debug, Clone)]
 pub(super) struct Branch<'a> {
     calibration: &'a Calibration,
     pub section: Section,
     parameters: Parameters,
-    /// With each independent error at its 2.5 and 97.5 % quantiles.
+    /// At the 2.5 and 97.5 % quantiles of each independent error.
     errors: Vec<[Parameters; 2]>,
 }
 
-/// The three numbers of a calibration.
 #[derive(Debug, Clone, Copy)]
 struct Parameters {
     c: f64,
@@ -296,14 +279,13 @@ impl Parameters {
 }
 
 impl Branch<'_> {
-    /// Returns what the surface says of a motion; none where a measure is missing.
     fn predictor_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<Predictor> {
         let ln_seconds = ln_seconds(structure, measures)?;
         let cut = self.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
         Some(self.predictor(&cut, ln_seconds, self.section.magnitude(ln_seconds + cut.excess)))
     }
 
-    /// Returns what the surface says of motions with this ln(PGV / PGA), s, and M - 6.9.
+    /// For motions with this ln(PGV / PGA), s, and M - 6.9.
     pub fn predictor(&self, cut: &Cut, ln_seconds: f64, magnitude: f64) -> Predictor {
         Predictor {
             logit: cut.logit(ln_seconds),
@@ -313,20 +295,18 @@ impl Branch<'_> {
         }
     }
 
-    /// Computes the probability, whose logit is c + s L + m (M - 6.9) + g.
     pub fn probability(&self, predictor: &Predictor, level: Level) -> f64 {
         logistic(self.logit(predictor, level))
     }
 
-    /// Computes the logit. Its 95 % limits are those of c + s L + m (M - 6.9) by the delta method, J V J', and of
-    /// one scenario by tau and the spread of an unknown magnitude too.
+    /// The logit c + s L + m (M - 6.9) + g. Its 95 % limits are by the delta method, J V J', without g; those
+    /// of one scenario add tau and the spread of an unknown magnitude.
     pub fn logit(&self, predictor: &Predictor, level: Level) -> f64 {
         let Parameters { c, s, m } = match level {
             Level::Error { number, is_high } => self.errors[number][usize::from(is_high)],
             _ => self.parameters,
         };
-        // A magnitude that PGV / PGA tells does not count where P would fall with it: P never falls as PGV
-        // rises.
+        // P must not fall as PGV rises: where it would, a magnitude inferred from PGV / PGA does not count.
         let is_told = predictor.magnitude_sd > 0.0;
         let magnitude =
             if is_told && m < 0.0 { self.section.middle_magnitude() } else { predictor.magnitude };
@@ -346,7 +326,7 @@ impl Branch<'_> {
     }
 }
 
-/// Returns ln(PGV / PGA), s, of a motion; none where a measure is missing.
+/// ln(PGV / PGA), s; none where a measure is missing.
 fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
     let im5 = Measure::Im5.value_of(measures)?;
     Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
@@ -356,14 +336,12 @@ fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// A response that counts.
+/// A case of the likelihood.
 struct Observed {
-    /// What the surface says of it.
     predictor: Predictor,
     happened: bool,
-    /// The probability by the surface for the kind of motion.
+    /// The probability by the uncalibrated surface.
     expected: f64,
-    /// Peaks of the motion.
     peaks: Peaks,
     /// Cases of one cluster may depend on each other.
     cluster: u32,
@@ -382,7 +360,7 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
     counts.collect()
 }
 
-/// Finds c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
+/// c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
 /// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
 /// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
 /// one more cluster.
@@ -434,12 +412,12 @@ fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Object
     sum
 }
 
-/// The information of the prior on c, ln s and m.
+/// Inverse variances of c, ln s and m.
 fn information(prior: &Prior) -> DVector<f64> {
     DVector::from_vec(prior.sd.map(|sd| 1.0 / (sd * sd)).to_vec())
 }
 
-/// Computes ln(1 + e^x).
+/// ln(1 + e^x).
 fn softplus(x: f64) -> f64 {
     x.max(0.0) + (-x.abs()).exp().ln_1p()
 }

@@ -10,32 +10,27 @@ use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::ln_cdf_and_slope;
 use crate::statistics::{FitStatus, Interval};
 
-/// What is known of a capacity.
+/// A capacity: known exactly, or only to lie below or above an intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KnownCapacity {
-    /// Known exactly.
     At(f64),
-    /// Below this intensity.
     Below(f64),
-    /// Above this intensity.
     Above(f64),
 }
 
-/// A lognormal distribution of capacities: median theta, in their unit, and dispersion beta, with 95 %
-/// limits.
+/// Median theta, in the unit of the capacities, and dispersion beta, lognormal, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CapacityFit {
     pub theta: Interval,
     pub beta: Interval,
 }
 
-/// Fits the distribution. Where each capacity is known, of mean and standard deviation of their logarithms
-/// (divisor n - 1), with the exact limits of a normal sample. Else by maximum likelihood, capacities above or
-/// below an intensity counting with the probability of that (Baker 2015, Efficient analytical fragility
-/// function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599); limits from the
-/// information in ln theta and ln beta, which are too narrow for few capacities. Motions of one cluster
-/// (`clusters`, one number per capacity) may depend on each other: limits widen by the ratio of the clustered
-/// to the unclustered standard error of the mean.
+/// Exact capacities alone are fitted by mean and standard deviation of their logarithms (divisor n - 1), with
+/// the exact limits of a normal sample. Others are fitted by maximum likelihood (Baker 2015, Efficient
+/// analytical fragility function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599),
+/// with limits from the information in ln theta and ln beta, which are too narrow for few capacities.
+/// Motions of one cluster (`clusters`, one number per capacity) may depend on each other: limits widen by the
+/// ratio of the clustered to the unclustered standard error of the mean.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
@@ -46,17 +41,16 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     });
     let (ln_x, clusters): (Vec<f64>, Vec<u32>) = known.unzip();
     let fit = fit_independent(capacities, &ln_x)?;
-    // The variance of the mean of the known ones by clusters, over that without.
     let alone: Vec<u32> = (0..ln_x.len() as u32).collect();
     let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
-    // Of one earthquake alone nothing is known about others.
+    // The responses to one earthquake say nothing about others.
     let wider = if wider.is_finite() { wider } else { 1.0 };
     let [theta, beta] = [fit.theta, fit.beta]
         .map(|estimate| estimate.map(|x| estimate.value * (x / estimate.value).powf(wider)));
     Ok(CapacityFit { theta, beta })
 }
 
-/// Fits it to capacities that do not depend on each other; `known` has the logarithms of the known ones.
+/// For capacities that do not depend on each other; `known` are the logarithms of the exact ones.
 fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<CapacityFit, FitStatus> {
     if known.len() < 2 {
         return Err(FitStatus::TooFewEvents);

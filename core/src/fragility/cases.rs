@@ -8,7 +8,7 @@ use crate::rocking::{Outcome, Structure};
 use crate::spelling::unknown_word;
 use crate::statistics::Range;
 
-/// The most cases of one structure and suite.
+/// The most cases of one structure and suite: they take about 3 GB of memory.
 pub const MOST_CASES: usize = 20_000_000;
 
 /// The event whose probability is fitted.
@@ -28,7 +28,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// Returns whether it happened in a response; none where the response does not count.
+    /// Whether it happened in a response; none where the response does not count.
     pub fn happened(self, outcome: Outcome, limit_state: f64) -> Option<bool> {
         match (self, outcome) {
             (Event::Rocking, _) => Some(outcome != Outcome::NoRocking),
@@ -39,27 +39,23 @@ impl Event {
     }
 }
 
-/// The suite and the structure that responses, and rows of fits, are of.
+/// What responses and fits are grouped by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Group<'a> {
-    /// Suite of the motions, if they have one.
     pub suite: Option<&'a str>,
-    /// Name of the structure.
     pub structure: &'a str,
 }
 
-/// What the motions of cases share, so that the cases may depend on each other.
+/// What motions share, so that responses to them may depend on each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cluster {
-    /// Name of the earthquake.
     Earthquake(String),
-    /// Magnitude and distance, as the bits of these numbers.
+    /// Magnitude and distance (km), as the bits of these numbers.
     Cell([u64; 2]),
 }
 
 impl Cluster {
-    /// Returns the cluster of a motion by its earthquake, else by its magnitude and distance (km). `None` for
-    /// a motion that shares nothing.
+    /// By the earthquake, else by magnitude and distance (km); none for a motion that shares neither.
     pub fn new(earthquake: Option<&str>, mw: Option<f64>, re_km: Option<f64>) -> Option<Cluster> {
         match earthquake {
             Some(name) => Some(Cluster::Earthquake(name.to_string())),
@@ -72,20 +68,16 @@ impl Cluster {
 /// The response of a structure to a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Case {
-    /// Whether it rocked, and how far, or overturned.
     pub outcome: Outcome,
-    /// Measures of the motion (Eq. 13).
     pub measures: IntensityMeasures,
-    /// Peaks of the motion.
     pub peaks: Peaks,
-    /// Magnitude, where it is known.
     pub mw: Option<f64>,
     /// Number of the cluster, from 0: cases of one cluster may depend on each other.
     pub cluster: u32,
 }
 
 impl Case {
-    /// Returns ln of the demand, where the structure rocked safely and it has a logarithm.
+    /// None unless the structure rocked safely.
     pub fn ln_demand(&self) -> Option<f64> {
         self.outcome.demand().filter(|demand| *demand > 0.0).map(f64::ln)
     }
@@ -94,21 +86,16 @@ impl Case {
 /// The responses of one structure to one suite of motions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cases {
-    /// Suite of the motions, if they have one.
     pub suite: Option<String>,
-    /// The structure.
     pub structure: Structure,
-    /// Its responses.
     pub all: Vec<Case>,
     /// Further measures by the names of their columns, a value for each case; NaN where one is missing.
     pub columns: BTreeMap<String, Vec<f64>>,
-    /// The numbers of the known clusters, and the next number.
     clusters: BTreeMap<Cluster, u32>,
     next_cluster: u32,
 }
 
 impl Cases {
-    /// Begins without a case.
     pub fn new(suite: Option<&str>, structure: Structure) -> Cases {
         Cases {
             suite: suite.map(str::to_string),
@@ -120,7 +107,7 @@ impl Cases {
         }
     }
 
-    /// Adds a case. Its cluster gets the number of a known one, or the next.
+    /// The cluster gets the number of a known one, or the next.
     pub fn push(&mut self, case: Case, cluster: Option<Cluster>) {
         let next = self.next_cluster;
         let number = cluster.map_or(next, |cluster| *self.clusters.entry(cluster).or_insert(next));
@@ -128,8 +115,7 @@ impl Cases {
         self.all.push(Case { cluster: number, ..case });
     }
 
-    /// Numbers the clusters in an order that does not depend on that of the cases, and those of one motion
-    /// after them.
+    /// Renumbers the clusters independently of the order of the cases; motions without a cluster come last.
     pub fn sort_clusters(&mut self) {
         let mut numbers = vec![None; self.next_cluster as usize];
         for (number, known) in (0..).zip(self.clusters.values_mut()) {
@@ -142,12 +128,10 @@ impl Cases {
         }
     }
 
-    /// Returns the suite and the structure.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure.name }
     }
 
-    /// Returns the number of cases with an outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.all.iter().filter(|case| case.outcome == outcome).count()
     }
@@ -161,7 +145,7 @@ impl Cases {
         }
     }
 
-    /// Returns the cases that have all measures and a `y`.
+    /// The cases that have all measures and a `y`.
     pub fn sample<Y>(&self, measures: &[Measure], y: impl Fn(&Case) -> Option<Y>) -> Sample<Y> {
         let mut sample = Sample {
             ln_im: vec![Vec::new(); measures.len()],
@@ -188,27 +172,23 @@ impl Cases {
     }
 }
 
-/// Logarithms of measures, and what was observed, of the cases of a fit.
+/// Regressors and observations of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample<Y> {
     /// ln IM, a column for each measure.
     pub ln_im: Vec<Vec<f64>>,
-    /// What was observed.
     pub y: Vec<Y>,
-    /// Number of the cluster of each case.
     pub clusters: Vec<u32>,
     /// Least and largest value of each measure.
     pub ranges: Vec<Range>,
 }
 
 impl<Y> Sample<Y> {
-    /// Returns the least and largest value of the first measure or the second; none without cases or such a
-    /// measure.
+    /// None without cases or such a measure.
     pub(super) fn range(&self, measure: usize) -> Option<Range> {
         self.ranges.get(measure).copied().filter(|range| range.low.is_finite())
     }
 
-    /// Returns the columns of ln IM.
     pub fn x(&self) -> Vec<&[f64]> {
         self.ln_im.iter().map(Vec::as_slice).collect()
     }

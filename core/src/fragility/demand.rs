@@ -17,20 +17,17 @@ use crate::spelling::unknown_word;
 use crate::statistics::{FitStatus, Interval, LinearFit, held_out_log_score, least_squares};
 use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
 
-/// Computes the probability that the demand exceeds `limit_state` in safe rocking, of the logarithm of its
-/// median Dm and its dispersion beta: Phi((ln Dm - ln c) / beta) (Eq. 14, which prints the argument with the
-/// other sign, by which it would fall with demand).
+/// P_ex from the logarithm of the median demand Dm and the dispersion beta: Phi((ln Dm - ln c) / beta)
+/// (Eq. 14, which prints the argument with the other sign, by which P_ex would fall with demand).
 pub fn p_exceeding(ln_median: f64, limit_state: f64, beta: f64) -> f64 {
     normal::cdf((ln_median - limit_state.ln()) / beta)
 }
 
-/// Computes ln Dm = ln a + b1 ln IMx + b2 ln IMy (Eqs. 17 and 18), or of one measure ln a + b ln IM (Eqs. 15
-/// and 16).
+/// ln Dm = ln a + b1 ln IMx + b2 ln IMy (Eqs. 17 and 18), or ln a + b ln IM (Eqs. 15 and 16).
 pub fn ln_median_demand(coefficients: &[f64], ims: &[f64]) -> f64 {
     coefficients[0] + coefficients[1..].iter().zip(ims).map(|(b, im)| b * im.ln()).sum::<f64>()
 }
 
-/// The measures of a plane.
 pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
@@ -44,15 +41,14 @@ pub fn fit_plane(cases: &Cases) -> DemandFit {
     fit_law(cases, Predictors::two(PLANE))
 }
 
-/// Fits the power law of one measure or the plane of two over all cases.
 fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
     let model = if predictors.im_y.is_some() { DemandModel::Plane } else { DemandModel::Univariate };
     let measures: Vec<Measure> = predictors.measures().cloned().collect();
     DemandFit::new(cases, model, &measures, EVERYWHERE)
 }
 
-/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases
-/// above uplift, beside those of the paper's two: demand falls to 0 at IM4 = 1, which no power of IM4 does.
+/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases above
+/// uplift, to compare with the paper's two planes: demand falls to 0 at IM4 = 1, which no power of IM4 does.
 pub fn sd_of_one_plane(cases: &Cases) -> Option<f64> {
     let Sample { ln_im, y, .. } = demands(cases, &PLANE, &(1.0 + f64::EPSILON..f64::INFINITY));
     let ln_ln_im4: Vec<f64> = ln_im[0].iter().map(|ln_im4| ln_im4.ln()).collect();
@@ -93,17 +89,14 @@ const LEAST_CASES: usize = 20;
 /// The pooled residual of two planes that meet at an IM4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransitionPoint {
-    /// Where they meet.
     pub im4: f64,
-    /// Residual sum of squares of both planes.
     pub pooled_rss: f64,
-    /// Number of cases below it.
+    /// Cases below im4, and from it on.
     pub n_low: i64,
-    /// Number of cases from it on.
     pub n_high: i64,
 }
 
-/// Tries all places where two planes may meet; none of them has too few cases on a side.
+/// Tries all places where two planes may meet with enough cases on each side.
 pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
     let Sample { ln_im, y, .. } = demands(cases, &PLANE, &EVERYWHERE);
     let [x_mean, y_mean, edp_mean] =
@@ -136,16 +129,15 @@ fn moments(rows: &[Vector4<f64>]) -> Matrix4<f64> {
     rows.iter().map(|row| row * row.transpose()).sum()
 }
 
-/// Computes the residual sum of squares of the last of four variables on the others, an element of the
-/// inverse of their moments; none where that is singular.
+/// The residual sum of squares of the last of four variables on the others, an element of the inverse of
+/// their moments; none where these are singular.
 fn residual(moments: Matrix4<f64>) -> Option<f64> {
     Some(1.0 / moments.try_inverse()?[(3, 3)])
 }
 
-/// Finds the place of the least pooled residual in a scan, and the first and last place whose residual is no
-/// more than chance above it: limits that hold a break with this confidence, its jump being large against the
-/// scatter (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603; for the same
-/// scatter on both sides). None without a scan.
+/// The place of the least pooled residual in a scan, and the first and last place whose residual is no more
+/// than chance above it: confidence limits of a break whose jump is large against the scatter, which is the
+/// same on both sides (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603).
 pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Interval> {
     let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
     let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
@@ -158,10 +150,9 @@ pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Interval>
     Some(Interval { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
 }
 
-/// Fits the demand of a structure under a suite: two planes that meet at this IM4 (`None`: where their pooled
-/// residual is least or, of too few cases, where the paper's meet), if `all`, each measure alone and one plane
-/// over all cases, then what is `asked` for over all cases. `confidence` is that of the limits of the
-/// transition of least residual.
+/// Fits two planes that meet at this IM4 (`None`: where their pooled residual is least or, with too few
+/// cases, where the paper's meet); if `all`, each measure alone and one plane over all cases; then what is
+/// `asked` for over all cases. `confidence` is that of the limits of the transition of least residual.
 pub fn fit_demand(
     cases: &Cases,
     im4: Option<f64>,
@@ -183,17 +174,14 @@ pub fn fit_demand(
     fits
 }
 
-/// The form of a regression of demand.
+/// A regression of demand on one measure, on two, or on two on one side of the transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<DemandModel>)]
 pub enum DemandModel {
-    /// On one measure.
     Univariate,
-    /// On two measures.
     Plane,
-    /// On two measures, on one side of the transition.
     Biplanar,
 }
 
@@ -208,9 +196,8 @@ pub struct DemandFit {
     pub model: DemandModel,
     pub im_x: Measure,
     pub im_y: Option<Measure>,
-    /// IM4 from which the fit holds; `None` for one that holds everywhere.
+    /// IM4 from which and below which the fit holds; `None` without such a bound.
     pub range_low: Option<f64>,
-    /// IM4 below which the fit holds.
     pub range_high: Option<f64>,
     /// ln a, b1 and, on two measures, b2; empty without a fit.
     pub coefficients: Vec<f64>,
@@ -224,11 +211,11 @@ pub struct DemandFit {
     /// Dispersion: the residual standard deviation of ln EDP.
     pub beta: Option<f64>,
     pub r2: Option<f64>,
-    /// R2 of both planes, each about the mean on its own side: that of the paper.
+    /// R2 of both planes, each about the mean on its own side, as in the paper.
     pub r2_pooled: Option<f64>,
     /// R2 of both planes about the mean of all cases.
     pub r2_overall: Option<f64>,
-    /// Mean log-likelihood of cases by a fit without their cluster; of two planes, of the cases of both.
+    /// Mean log-likelihood of the cases of a cluster by a fit to the others; of two planes, over both.
     pub held_out_log_score: Option<f64>,
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
@@ -240,25 +227,23 @@ pub struct DemandFit {
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// Probability of what squares and products of ln IM add by chance.
+    /// p-value of the misfit: squares and products of ln IM as further regressors.
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
 
 impl DemandFit {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
 }
 
 impl DemandFit {
-    /// Returns its measures.
     pub fn predictors(&self) -> Predictors {
         Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
     }
 
-    /// Fits these measures to the cases whose IM4 lies in `range`.
+    /// `range` is that of IM4.
     fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
         let sample = demands(cases, measures, &range);
         let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
@@ -308,26 +293,24 @@ impl DemandFit {
         }
     }
 
-    /// Returns the residual sum of squares, and that about the mean.
+    /// The residual sum of squares, and that about the mean.
     fn squares(&self) -> Option<(f64, f64)> {
         let rss = self.beta?.powi(2) * self.residual_degrees();
         Some((rss, rss / (1.0 - self.r2?)))
     }
 
-    /// Returns the residual standard deviation of two fits together.
+    /// The pooled residual standard deviation of two fits.
     pub fn sd_with(&self, other: &DemandFit) -> Option<f64> {
         let degrees = self.residual_degrees() + other.residual_degrees();
         Some(((self.squares()?.0 + other.squares()?.0) / degrees).sqrt())
     }
 
-    /// Returns whether the fit holds at an IM4.
     pub fn holds_at(&self, im4: f64) -> bool {
         self.range_low.is_none_or(|low| im4 >= low) && self.range_high.is_none_or(|high| im4 < high)
     }
 
-    /// Computes the probability that the demand exceeds a limit state in safe rocking (Eq. 14), with limits
-    /// by the delta method on the scale of ln Dm, into which the error of beta is turned. None without a fit,
-    /// or where a measure is missing.
+    /// P_ex (Eq. 14) with limits by the delta method on the scale of ln Dm, to which the error of beta is
+    /// converted. None without a fit, or where a measure is missing.
     pub fn p_exceeding(
         &self,
         measures: &IntensityMeasures,
@@ -343,8 +326,7 @@ impl DemandFit {
         Some(Interval::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
     }
 
-    /// Returns it with each independent error of its coefficients, and that of beta, at the limits of
-    /// confidence.
+    /// The fit with each independent error of its coefficients, and of beta, at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> Vec<[DemandFit; 2]> {
         let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
@@ -360,7 +342,7 @@ impl DemandFit {
         (self.n - self.coefficients.len() as i64) as f64
     }
 
-    /// Returns ln a, b1, b2, beta and zeta = beta / b1 with their errors and limits; none without a fit.
+    /// ln a, b1, b2, beta and zeta = beta / b1; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         let Some(beta) = self.beta else { return Vec::new() };
         let b = &self.coefficients;

@@ -11,34 +11,32 @@ use crate::motion::Peaks;
 use crate::statistics::numerics::{Panel, first, panels};
 use crate::statistics::{Interval, Range, normal};
 
-/// Standard deviations from the median within which all ratios lie that count.
+/// Ratios further from the median than this many standard deviations do not count.
 const FARTHEST: f64 = 6.0;
-/// Above the median of a PGA; below it, since probabilities fall with PGV / PGA, those further away than this
-/// count less than a millionth.
+/// Nor do those this far below the median at one PGA: probabilities fall with PGV / PGA, and the rest adds
+/// less than a millionth.
 const FARTHEST_BELOW: f64 = 5.0;
-/// Step of the trapezoidal rule on floors, in standard deviations: nothing is sharp there.
+/// Step of the trapezoidal rule on floors, in standard deviations: probabilities have no jumps there.
 const STEP_ON_FLOORS: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
 /// which reach down to uplift.
 const PANEL_OF_PGA: f64 = 3.0;
 const PANEL_OF_PGV: f64 = 1.0;
-/// Times the PGA of uplift, up to which probabilities rise steeply.
+/// Probabilities rise steeply from the PGA of uplift to this multiple of it.
 const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
 const SOUGHT_M_S: Range = Range { low: 1e-6, high: 1e3 };
 
 /// An object under motions of which one peak is given.
 pub struct GivenPeak<'a> {
-    /// The directions in which the object falls.
     pub directions: &'a [Direction],
     ready: ReadyObject<'a>,
-    /// The peak that is given.
     pub peak: Peak,
     ratio: RatioGiven,
     bends: Vec<Bend>,
 }
 
-/// Where the model of a direction bends.
+/// Where the prediction for a direction bends.
 struct Bend {
     /// ln(PGV / PGA), s.
     ln_seconds: f64,
@@ -47,8 +45,7 @@ struct Bend {
 }
 
 impl<'a> GivenPeak<'a> {
-    /// Makes an object, in the directions in which it falls, ready for motions of which this peak is given
-    /// and PGV / PGA has this distribution. `mw` is their magnitude; `None`: inferred from PGV / PGA.
+    /// `ratio` is the distribution of PGV / PGA; an unknown magnitude is inferred from PGV / PGA.
     pub fn new(directions: &'a [Direction], peak: Peak, ratio: RatioGiven, mw: Option<f64>) -> GivenPeak<'a> {
         let mut bends = Vec::new();
         for Direction { structure, model } in directions {
@@ -58,8 +55,7 @@ impl<'a> GivenPeak<'a> {
         GivenPeak { directions, ready: ReadyObject::new(directions, mw), peak, ratio, bends }
     }
 
-    /// Returns the peaks of the motions of an intensity whose PGV / PGA is this many standard deviations
-    /// above its median.
+    /// The peaks of motions whose PGV / PGA is this many standard deviations above its median.
     pub fn peaks(&self, intensity: f64, deviations: f64) -> Peaks {
         let ratio = self.ratio.ratio(intensity, deviations);
         match self.peak {
@@ -68,17 +64,14 @@ impl<'a> GivenPeak<'a> {
         }
     }
 
-    /// Computes the probabilities of the limit states at an intensity; none where the model has none.
     pub fn limit_states(&self, intensity: f64) -> LimitStates<Option<f64>> {
         self.at_levels(intensity, &[Level::Interval])[0]
     }
 
-    /// Computes them with limits.
     pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
         LimitStates::from_levels(&self.at_levels(intensity, &Level::with_limits(scenarios)))
     }
 
-    /// Computes them at each level.
     pub(crate) fn at_levels(&self, intensity: f64, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
         let mut means = vec![LimitStates::all(Some(0.0)); levels.len()];
         if self.peak == Peak::Pga && intensity < self.least_uplift_m_s2() {
@@ -101,13 +94,11 @@ impl<'a> GivenPeak<'a> {
         means
     }
 
-    /// Returns the least PGA that uplifts the object.
     fn least_uplift_m_s2(&self) -> f64 {
         let uplifts = self.directions.iter().map(|direction| direction.uplift_m_s2().least);
         uplifts.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the least intensity that uplifts the object, and that which does so with the median PGV / PGA.
     pub fn uplift(&self) -> Uplift {
         let usual = self.directions.iter().map(|direction| direction.uplift_m_s2().usual);
         Uplift {
@@ -116,8 +107,8 @@ impl<'a> GivenPeak<'a> {
         }
     }
 
-    /// Intensities at which a probability jumps: that of uplift, and that of the planes' transition. Over a
-    /// distribution of PGA none does.
+    /// Intensities at which a probability jumps: uplift, and the transition of the planes. At one PGV,
+    /// averaging over PGA leaves no jump.
     pub fn jumps(&self) -> Vec<f64> {
         match (self.peak, self.ratio.is_exact()) {
             (Peak::Pgv, false) => Vec::new(),
@@ -145,7 +136,7 @@ impl<'a> GivenPeak<'a> {
         if models.any(|model| matches!(model, Model::Paper { .. })) { 0.02 } else { 0.6 }
     }
 
-    /// Returns the PGA at which a probability jumps, m/s2, rising.
+    /// In m/s2, rising.
     fn jumps_of_pga(&self) -> Vec<f64> {
         let mut all = Vec::new();
         for direction in self.directions {
@@ -160,8 +151,8 @@ impl<'a> GivenPeak<'a> {
         all
     }
 
-    /// Returns the intensity at which motions this many standard deviations from the median have a PGA
-    /// (m/s2): by bisection, since the median bends.
+    /// The intensity at which motions this many standard deviations from the median have this PGA (m/s2): by
+    /// bisection, since the median bends.
     fn intensity_of(&self, pga_m_s2: f64, deviations: f64) -> f64 {
         if self.peak == Peak::Pga {
             return pga_m_s2;
@@ -171,8 +162,8 @@ impl<'a> GivenPeak<'a> {
             .exp()
     }
 
-    /// Visits motions that stand for those of an intensity: ln(PGV / PGA), s, and weight. The weights sum to
-    /// 1, but for motions of too little PGA.
+    /// Visits the nodes of the quadrature over the motions of an intensity: ln(PGV / PGA), s, and weight. The
+    /// weights sum to 1, less those of motions of too little PGA.
     fn for_each_node(&self, intensity: f64, mut visit: impl FnMut(f64, f64)) {
         let ln_intensity = intensity.ln();
         let mut visit = |(deviations, width): (f64, f64)| {
@@ -195,7 +186,7 @@ impl<'a> GivenPeak<'a> {
         self.directions.iter().all(|direction| direction.model.floor().is_some())
     }
 
-    /// Returns the standard deviations between which the motions of an intensity have smooth probabilities.
+    /// Edges, in standard deviations, between which probabilities are smooth in PGV / PGA.
     fn edges(&self, ln_intensity: f64) -> Vec<f64> {
         let median = self.ratio.ln_ratio(ln_intensity, 0.0);
         let deviations = |ln_seconds: f64| {
@@ -213,7 +204,7 @@ impl<'a> GivenPeak<'a> {
         }
         let mut last = FARTHEST;
         if self.peak == Peak::Pgv {
-            // Those with less PGA than uplifts the structure, behind the last jump, do not count.
+            // Motions beyond the last jump do not uplift the structure, and so do not count.
             let jumps = self.jumps_of_pga();
             edges.extend(self.bends.iter().map(|bend| deviations(ln_intensity - bend.ln_held_pga)));
             let steep = jumps.iter().flat_map(|pga| [*pga, STEEP * pga]);

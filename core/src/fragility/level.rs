@@ -1,19 +1,18 @@
-//! At which values of its parameters a model is taken.
+//! The values of its parameters at which a model is evaluated.
 
 use super::tree::LimitStates;
 use crate::statistics::Interval;
 
-/// Whether the limits of a probability include the standard deviation between earthquakes, tau; its value is
-/// the same.
+/// Whether the limits of a probability include the standard deviation between earthquakes, tau.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scenarios {
-    /// One earthquake: they include it.
+    /// One earthquake: the limits include it.
     One,
-    /// An average over many, as over a hazard: they do not.
+    /// An average over many, as over a hazard: the limits do not.
     Many,
 }
 
-/// A probability is taken at its estimate, at one of its 95 % limits, or with one of the independent errors of
+/// The estimate of a probability, one of its 95 % limits, or its value with one of the independent errors of
 /// the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
@@ -24,14 +23,13 @@ pub(crate) enum Level {
 }
 
 impl Level {
-    /// Returns the levels of an estimate with its limits.
     pub fn with_limits(scenarios: Scenarios) -> [Level; 3] {
         [Level::Interval, Level::Low(scenarios), Level::High(scenarios)]
     }
 }
 
 impl LimitStates<Option<Interval>> {
-    /// Joins probabilities at the [levels of an estimate with its limits](Level::with_limits).
+    /// From the probabilities at [`Level::with_limits`].
     pub(super) fn from_levels(states: &[LimitStates<Option<f64>>]) -> LimitStates<Option<Interval>> {
         let limits = states[1].zip(states[2], Option::zip);
         states[0].zip(limits, |value, limits| {

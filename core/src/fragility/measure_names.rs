@@ -34,7 +34,7 @@ impl Measure {
     pub const SCALAR: [Measure; 6] =
         [Measure::Im1, Measure::Im2, Measure::Im3, Measure::Im4, Measure::Im5, Measure::Im6];
 
-    /// Returns its name in options and files.
+    /// The name in options and files.
     pub fn as_str(&self) -> &str {
         match self {
             Measure::Im1 => "im1",
@@ -48,7 +48,7 @@ impl Measure {
         }
     }
 
-    /// Returns its value for a motion; none where it is missing, as a further measure is.
+    /// None where the measure is missing, as a further measure is.
     pub fn raw_value_of(&self, measures: &IntensityMeasures) -> Option<f64> {
         match self {
             Measure::Im1 => measures.im1,
@@ -62,7 +62,7 @@ impl Measure {
         }
     }
 
-    /// Returns its value for a motion; none where it is missing or has no logarithm.
+    /// None where the measure is missing or has no logarithm.
     pub fn value_of(&self, measures: &IntensityMeasures) -> Option<f64> {
         self.raw_value_of(measures).filter(has_logarithm)
     }
@@ -91,12 +91,12 @@ pub(super) fn has_logarithm(value: &f64) -> bool {
     value.is_finite() && *value > 0.0
 }
 
-/// Returns IMx and, of two measures, IMy; none where one is missing.
+/// IMx and, of two measures, IMy; none where one is missing.
 pub fn values(im_x: &Measure, im_y: Option<&Measure>, measures: &IntensityMeasures) -> Option<Vec<f64>> {
     std::iter::once(im_x).chain(im_y).map(|measure| measure.value_of(measures)).collect()
 }
 
-/// Returns 1, ln IMx and, of two measures, ln IMy: what the coefficients of a fit multiply.
+/// 1, ln IMx and, of two measures, ln IMy: the factors of the coefficients of a fit.
 pub fn design_row(ims: &[f64]) -> Vec<f64> {
     std::iter::once(1.0).chain(ims.iter().map(|im| im.ln())).collect()
 }
@@ -109,17 +109,15 @@ pub struct Predictors {
 }
 
 impl Predictors {
-    /// One measure.
     pub fn one(im_x: Measure) -> Predictors {
         Predictors { im_x, im_y: None }
     }
 
-    /// Two measures.
     pub fn two([im_x, im_y]: [Measure; 2]) -> Predictors {
         Predictors { im_x, im_y: Some(im_y) }
     }
 
-    /// Joins those that are asked for to others, each once.
+    /// Appends what is asked for, each once.
     pub(super) fn without_repeats(mut all: Vec<Predictors>, asked: &[Predictors]) -> Vec<Predictors> {
         for predictors in asked {
             if !all.contains(predictors) {
@@ -129,7 +127,6 @@ impl Predictors {
         all
     }
 
-    /// Returns the measures.
     pub fn measures(&self) -> impl Iterator<Item = &Measure> {
         std::iter::once(&self.im_x).chain(&self.im_y)
     }

@@ -16,7 +16,7 @@ use crate::warning::Warning;
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Model {
-    /// The universal surface, calibrated.
+    /// The universal surface.
     Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
@@ -25,14 +25,11 @@ pub enum Model {
 /// A direction in which an object falls.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
-    /// The structure that it rocks like.
     pub structure: Structure,
-    /// The model that predicts for it.
     pub model: Model,
 }
 
 impl Direction {
-    /// Returns the ground accelerations that uplift it, m/s2.
     pub fn uplift_m_s2(&self) -> Uplift {
         let uplift = self.structure.uplift_acceleration_m_s2();
         match self.model.floor() {
@@ -42,12 +39,11 @@ impl Direction {
     }
 }
 
-/// Probability with which the limits hold the truth.
+/// The confidence of limits by the paper's model.
 pub(super) const CONFIDENCE: f64 = 0.95;
 
 impl Model {
-    /// Makes the model of a structure without fits: the surface for this kind of motion. `limit_state` is the
-    /// demand |theta|max / alpha of failure, such as 0.10.
+    /// The uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure, such as 0.10.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
         Model::Calibrated {
             overturning: Calibration::shipped(kind, structure, None),
@@ -56,7 +52,7 @@ impl Model {
         }
     }
 
-    /// Returns it on a floor; `None` for the paper's model, which is fitted to the ground.
+    /// `None` for the paper's model, which is fitted to the ground.
     pub fn on(mut self, on: Option<Floor>) -> Option<Model> {
         match &mut self {
             Model::Calibrated { floor, .. } => *floor = on,
@@ -66,8 +62,8 @@ impl Model {
         Some(self)
     }
 
-    /// Returns it with each independent error of its parameters at its 2.5 and 97.5 % quantiles. Those of
-    /// both calibrations of the surface have the same causes.
+    /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. An error of
+    /// one calibration of the surface has the same cause as that of the other.
     pub fn ends(&self) -> Vec<[Model; 2]> {
         match *self {
             Model::Calibrated { ref overturning, ref exceeding, floor } => {
@@ -100,7 +96,6 @@ impl Model {
         }
     }
 
-    /// Returns the kind of motion that it is for.
     pub fn kind(&self) -> Kind {
         match self {
             Model::Calibrated { overturning, .. } => overturning.kind,
@@ -108,7 +103,7 @@ impl Model {
         }
     }
 
-    /// Returns the floor that it is for; `None` for the ground.
+    /// `None` on the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {
             Model::Calibrated { floor, .. } => *floor,
@@ -116,7 +111,6 @@ impl Model {
         }
     }
 
-    /// Returns what predicts, in words.
     pub fn words(&self) -> String {
         match self {
             Model::Calibrated { overturning, .. } => {
@@ -136,18 +130,18 @@ impl Model {
                 let (responses, motions) = (counted(*n as usize, "response"), self.kind().words());
                 let structure = name(structure);
                 format!(
-                    "rockfrag's fit of the paper's curve and planes to {responses} of {structure} to {motions}"
+                    "rockfrag's fit of the paper's curve and planes to {responses} of {structure} \
+                     to {motions}"
                 )
             }
         }
     }
 
-    /// Returns whether probabilities depend on magnitude: those of the paper do not.
     pub fn depends_on_magnitude(&self) -> bool {
         matches!(self, Model::Calibrated { .. })
     }
 
-    /// Returns the values of ln(PGV / PGA), s, at which probabilities bend, of motions of this magnitude.
+    /// The values of ln(PGV / PGA), s, at which probabilities bend.
     pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
         match self {
             Model::Calibrated { overturning, .. } => surface::bends(overturning.kind, mw),
@@ -155,7 +149,6 @@ impl Model {
         }
     }
 
-    /// Returns how PGA and PGV go together in the motions that it stands for.
     pub fn peaks(&self) -> JointPeaks {
         match self {
             Model::Calibrated { overturning, .. } => overturning.peaks(),
@@ -163,7 +156,6 @@ impl Model {
         }
     }
 
-    /// Returns the warnings about its prediction at an intensity.
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
         let on_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
         let measures = on_floor.as_ref().unwrap_or(measures);
@@ -198,8 +190,8 @@ impl Model {
     }
 }
 
-/// Computes the probabilities of the tree (Eq. 12) by the paper: P_ex of the demand fit that holds at the
-/// IM4, P_ro of a curve. `demand` are the two planes, or one regression that holds everywhere.
+/// The tree (Eq. 12) by the paper's fits: P_ex of the demand fit that holds at the IM4, P_ro of a curve.
+/// `demand` are the two planes, or one regression that holds everywhere.
 pub fn paper_probabilities(
     demand: &[DemandFit],
     overturning: &CurveFit,

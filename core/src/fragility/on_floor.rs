@@ -1,17 +1,17 @@
-//! The motions of a floor, given that of the ground: its own peaks, averaged over what they may be, and how
-//! narrow its band is, which moves the probabilities.
+//! The motions of a floor given that of the ground: the distribution of its peaks, and the narrowness of its
+//! frequency band, which changes the probabilities.
 
 use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
 use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::normal;
 
-/// What a floor adds to the logits of P_ro and of P_ex: f (a + b ln(p T1)), f the resonant share of its
-/// velocity; of P_ex a falls with ln of the limit state over 0.1. By scripts/floors/surface.py.
+/// a, b and, of P_ex, c of f (a + b ln(p T1) + c ln(limit state / 0.1)), by which a floor whose velocity has
+/// the resonant share f raises a logit (scripts/floors/surface.py).
 const OVERTURNING: [f64; 2] = [-1.69, 1.94];
 const EXCEEDING: [f64; 3] = [-0.09, 1.74, -1.22];
-/// No floor has a larger peak acceleration than this times that of the ground; the median one that it has at
-/// most.
+/// Amplification of PGA by the strongest floor, 3 standard deviations above the largest median, and by a
+/// usual resonant floor.
 const MOST_AMPLIFIED: f64 = 7.0;
 const MEDIAN_AMPLIFIED: f64 = 2.5;
 /// Seven nodes of the standard normal in a plane with their weights, exact to degree 5: the middle, and six
@@ -27,22 +27,20 @@ const NODES: [[f64; 3]; 7] = [
 ];
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
-/// Intensities that uplift an object.
+/// Intensities that uplift an object, m/s2 or m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Uplift {
-    /// The least that may: by the strongest floor, or with the smallest PGV / PGA.
+    /// By the strongest floor, or with the smallest PGV / PGA.
     pub least: f64,
-    /// What usually does: by a usual floor, with the median PGV / PGA.
+    /// By a usual floor, with the median PGV / PGA.
     pub usual: f64,
 }
 
-/// Returns the ground accelerations that uplift a structure on a floor, m/s2.
 pub(super) fn uplift_m_s2(structure: &Structure) -> Uplift {
     let uplift = structure.uplift_acceleration_m_s2();
     Uplift { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
 }
 
-/// Returns the measures of a floor with median peaks, from those of the ground.
 pub(super) fn median_measures(
     floor: Floor,
     structure: &Structure,
@@ -51,11 +49,10 @@ pub(super) fn median_measures(
     IntensityMeasures::new(structure, floor.peaks(ground.peaks(structure)), None, None)
 }
 
-/// A structure on a floor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OnFloor {
     amplifier: Amplifier,
-    /// What the logits of P_ro and P_ex gain from a motion that is all resonance.
+    /// Added to the logits of P_ro and P_ex by a motion that is all resonance.
     narrow: [f64; 2],
 }
 
@@ -70,7 +67,7 @@ impl OnFloor {
         OnFloor { amplifier: floor.amplifier(), narrow }
     }
 
-    /// Returns the motions of the floor for those of the ground with this ln(PGV / PGA), s.
+    /// For motions of the ground with this ln(PGV / PGA), s.
     pub fn motions(&self, ln_seconds: f64) -> FloorMotions {
         let amplified = self.amplifier.at(ln_seconds);
         let nodes = NODES.map(|[x, y, weight]| {
@@ -82,20 +79,19 @@ impl OnFloor {
         FloorMotions { nodes, amplified }
     }
 
-    /// Returns what the logits of P_ro and P_ex gain.
+    /// Added to the logits of P_ro and P_ex.
     pub fn added(&self, motions: &FloorMotions) -> [f64; 2] {
         self.narrow.map(|narrow| motions.amplified.resonant_share * narrow)
     }
 }
 
-/// The motions of a floor for one of the ground: all have the same chance to rock whatever the structure.
+/// The motions of a floor for one motion of the ground.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FloorMotions {
     pub nodes: [FloorMotion; NODES.len()],
     amplified: Amplified,
 }
 
-/// A motion of a floor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FloorMotion {
     /// PFA / PGA and its logarithm.
@@ -108,7 +104,7 @@ pub(super) struct FloorMotion {
 }
 
 impl FloorMotions {
-    /// Computes the probability that the floor uplifts a structure, from ln IM4 by the PGA of the ground.
+    /// The probability that the floor uplifts a structure whose IM4 is by the PGA of the ground.
     pub fn p_rocking(&self, ln_im4: f64) -> f64 {
         let Amplified { ln_pfa, sd_ln_pfa, .. } = self.amplified;
         let ln_median = ln_im4 + ln_pfa;

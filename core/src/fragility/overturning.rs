@@ -12,13 +12,12 @@ use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{FitStatus, Interval, held_out_log_score, independent_errors, normal};
 use crate::statistics::{predict, probit, tested_probit, variance};
 
-/// Computes the probability of overturning given rocking at the intensity `im`: Phi((ln IM - mu) / beta)
-/// (Eq. 20; Eq. 24 with the hybrid measure).
+/// P_ro at the intensity `im`: Phi((ln IM - mu) / beta) (Eq. 20; Eq. 24 with the hybrid measure).
 pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
     normal::cdf((im.ln() - mu) / beta)
 }
 
-/// Computes the hybrid measure IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23).
+/// The hybrid measure IMx^(lambda/(1 + lambda)) IMy^(1/(1 + lambda)) (Eq. 23).
 pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
     im_x.powf(lambda / (1.0 + lambda)) * im_y.powf(1.0 / (1.0 + lambda))
 }
@@ -80,31 +79,31 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     }
 }
 
-/// Computes the slope of z on ln IM, b1 of one measure and b1 + b2 of a hybrid.
+/// The slope of z on ln IM, b1 of one measure and b1 + b2 of a hybrid.
 fn slope(b: &[f64]) -> f64 {
     b[1..].iter().sum()
 }
 
-/// Computes the exponent of the first measure of a hybrid, b1/b2 (Eq. 23), and its gradient.
+/// The exponent of the first measure of a hybrid, b1/b2 (Eq. 23), and its gradient.
 pub fn lambda(b: &[f64]) -> (f64, Vec<f64>) {
     (b[1] / b[2], vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])])
 }
 
-/// Computes the logarithm of the median, -b0/slope, and its gradient.
+/// The logarithm of the median, -b0/slope, and its gradient.
 pub fn mu(b: &[f64]) -> (f64, Vec<f64>) {
     let slope = slope(b);
     let by_slopes = vec![b[0] / (slope * slope); b.len() - 1];
     (-b[0] / slope, [vec![-1.0 / slope], by_slopes].concat())
 }
 
-/// Computes the dispersion, 1/slope, and its gradient.
+/// The dispersion, 1/slope, and its gradient.
 pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
     let slope = slope(b);
     (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
 }
 
-/// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`] of a structure under a suite: of IM4 and
-/// IM5 or, if `all`, of all six measures of Eq. 13, then of those that are `asked` for.
+/// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`]: of IM4 and IM5 or, if `all`, of all six
+/// measures of Eq. 13, then of what is `asked` for.
 pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) -> Vec<CurveFit> {
     let single = if all { Measure::SCALAR.to_vec() } else { vec![Measure::Im4, Measure::Im5] };
     let single = single.into_iter().map(Predictors::one).collect();
@@ -133,42 +132,38 @@ pub struct CurveFit {
     /// Degrees of freedom of limits, clusters - 1; `None` for normal ones.
     pub degrees: Option<f64>,
     pub n: i64,
-    /// Cases in which the event happened.
     pub n_events: i64,
     pub log_likelihood: Option<f64>,
     pub aic: Option<f64>,
     pub bic: Option<f64>,
-    /// Area under the receiver operating characteristic, on the fitted cases.
+    /// Area under the receiver operating characteristic, on the fitted cases like the Brier score.
     pub auc: Option<f64>,
-    /// Brier score on the fitted cases.
     pub brier: Option<f64>,
-    /// Mean log-likelihood of cases by a fit without their cluster.
+    /// Mean log-likelihood of the cases of a cluster by a fit to the others.
     pub held_out_log_score: Option<f64>,
     /// Least and largest value of each measure among the cases.
     pub im_x_low: Option<f64>,
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// Probability of what squares and products of ln IM add by chance.
+    /// p-value of the misfit: squares and products of ln IM as further regressors.
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
 
 impl CurveFit {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
 }
 
 impl CurveFit {
-    /// Returns its measures.
     pub fn predictors(&self) -> Predictors {
         Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
     }
 
-    /// Computes the probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale
-    /// of ln IM - mu. None without a fit, or where a measure is missing.
+    /// The probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale of ln IM -
+    /// mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Interval> {
         let ims =
             values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
@@ -183,14 +178,13 @@ impl CurveFit {
         Some(Interval::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
     }
 
-    /// Returns it with each independent error of its coefficients at the limits of confidence.
+    /// The curve with each independent error of its coefficients at the limits of confidence.
     pub(super) fn ends(&self, confidence: f64) -> Vec<[CurveFit; 2]> {
         let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
         errors.map(|ends| ends.map(|coefficients| CurveFit { coefficients, ..self.clone() })).collect()
     }
 
-    /// Returns whether the measures are within those of the cases.
     pub fn covers(&self, measures: &IntensityMeasures) -> bool {
         let ranges = [
             (Some(&self.im_x), self.im_x_low, self.im_x_high),
@@ -203,8 +197,7 @@ impl CurveFit {
         })
     }
 
-    /// Returns lambda (of a hybrid), mu, beta and theta with their errors by the delta method and limits;
-    /// none without a fit.
+    /// lambda (of a hybrid), mu, beta and theta, with errors by the delta method; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         if self.coefficients.is_empty() {
             return Vec::new();

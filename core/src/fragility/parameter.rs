@@ -7,12 +7,11 @@ use crate::spelling::unknown_word;
 use crate::statistics::Interval;
 use crate::statistics::distributions::t_quantile;
 
-/// How many standard errors the limits of a confidence are away; normal ones without degrees of freedom.
+/// Standard errors between a value and its limits; of the normal distribution without degrees of freedom.
 pub(super) fn quantile(confidence: f64, degrees: Option<f64>) -> f64 {
     t_quantile(0.5 * (1.0 + confidence), degrees.unwrap_or(f64::INFINITY))
 }
 
-/// A parameter of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -45,24 +44,22 @@ pub struct ParameterRow {
     pub model: String,
     pub im_x: Measure,
     pub im_y: Option<Measure>,
-    /// Where the values of `im_x` begin within which the fit holds.
+    /// IM4 from which the fit holds.
     pub range_low: Option<f64>,
     pub parameter: Parameter,
     pub value: f64,
     pub standard_error: f64,
     pub low: f64,
     pub high: f64,
-    /// Probability with which the limits hold the truth.
     pub confidence: f64,
 }
 
 impl ParameterRow {
-    /// Returns the value with its limits.
     pub fn estimate(&self) -> Interval {
         Interval { value: self.value, low: self.low, high: self.high }
     }
 
-    /// Returns theta, from mu.
+    /// theta = exp(mu).
     pub(super) fn exp(&self) -> ParameterRow {
         let [value, low, high] = [self.value, self.low, self.high].map(f64::exp);
         let standard_error = value * self.standard_error;

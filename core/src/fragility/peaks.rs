@@ -1,11 +1,10 @@
-//! How PGA and PGV of motions go together: what one of them predicts of the other.
+//! The joint distribution of PGA and PGV of motions.
 
 use crate::motion::Peaks;
 use crate::spelling::unknown_word;
 use crate::statistics::least_squares;
 use crate::units::G_M_S2;
 
-/// A peak of the ground motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -18,7 +17,7 @@ pub enum Peak {
 }
 
 impl Peak {
-    /// Returns the short name, the unit in which it is written, in SI units, and its symbol.
+    /// The short name, the unit in SI units, and its symbol.
     pub fn words(self) -> (&'static str, f64, &'static str) {
         match self {
             Peak::Pga => ("PGA", G_M_S2, "g"),
@@ -30,15 +29,12 @@ impl Peak {
 /// The ratio PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPeaks {
-    /// The ratio of motions of one PGA.
     pub given_pga: RatioGiven,
-    /// The ratio of motions of one PGV.
     pub given_pgv: RatioGiven,
 }
 
-/// ln(PGV / PGA), s, about intercept + slope u + bend max(u - knot, 0), u = ln(peak) of m/s2 or m/s: the
-/// strongest PGA are of small, near earthquakes, with less PGV than a line has. Normal about that, on each
-/// side with its sd.
+/// ln(PGV / PGA), s, is intercept + slope u + bend max(u - knot, 0), u = ln(peak) of m/s2 or m/s, with one sd
+/// below and one above: the strongest PGA are of small, near earthquakes, with less PGV than on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RatioGiven {
     pub intercept: f64,
@@ -49,9 +45,9 @@ pub struct RatioGiven {
     pub sd_above: f64,
 }
 
-/// The share of the motions below the knot.
+/// Share of the motions below the knot.
 const KNOT: f64 = 0.9;
-/// With fewer motions there is no bend.
+/// With fewer motions, and so fewer than 30 above the knot, no bend is fitted.
 const LEAST_TO_BEND: usize = 300;
 
 impl RatioGiven {
@@ -74,12 +70,11 @@ impl RatioGiven {
         Some(RatioGiven { sd_below, sd_above, ..line })
     }
 
-    /// Returns the fields in their order.
     pub(super) fn to_numbers(self) -> Vec<f64> {
         vec![self.intercept, self.slope, self.knot, self.bend, self.sd_below, self.sd_above]
     }
 
-    /// Makes it of the fields in their order; none of another number of numbers.
+    /// The fields in their order; none if there are not six.
     pub(super) fn from_numbers(numbers: &[f64]) -> Option<RatioGiven> {
         let &[intercept, slope, knot, bend, sd_below, sd_above] = numbers else { return None };
         Some(RatioGiven { intercept, slope, knot, bend, sd_below, sd_above })
@@ -89,23 +84,20 @@ impl RatioGiven {
         self.intercept + self.slope * ln_peak + self.bend * (ln_peak - self.knot).max(0.0)
     }
 
-    /// Makes a straight line in ln of the peak (m/s2 or m/s), and the standard deviation about it.
+    /// A straight line in ln of the peak (m/s2 or m/s), with a standard deviation about it.
     pub fn line(intercept: f64, slope: f64, sd: f64) -> RatioGiven {
         RatioGiven { intercept, slope, knot: 0.0, bend: 0.0, sd_below: sd, sd_above: sd }
     }
 
-    /// Returns whether all motions of an intensity have the same ratio.
     pub fn is_exact(&self) -> bool {
         self.sd_below == 0.0 && self.sd_above == 0.0
     }
 
-    /// Returns PGV / PGA (s) of motions of an intensity (m/s2 or m/s), this many standard deviations above
-    /// its median.
+    /// PGV / PGA (s) at an intensity (m/s2 or m/s), this many standard deviations above its median.
     pub fn ratio(&self, intensity: f64, deviations: f64) -> f64 {
         self.ln_ratio(intensity.ln(), deviations).exp()
     }
 
-    /// Returns ln(PGV / PGA), from ln of the intensity.
     pub(super) fn ln_ratio(&self, ln_intensity: f64, deviations: f64) -> f64 {
         let sd = if deviations > 0.0 { self.sd_above } else { self.sd_below };
         self.mean(ln_intensity) + deviations * sd
@@ -113,8 +105,7 @@ impl RatioGiven {
 }
 
 impl JointPeaks {
-    /// Fits the peaks of these motions; none with fewer than three, or if a peak is not above 0 or the same
-    /// in all.
+    /// None with fewer than three motions, or if a peak is not above 0 or the same in all.
     pub fn fit(motions: impl Iterator<Item = Peaks>) -> Option<JointPeaks> {
         let (ln_pga, ln_pgv): (Vec<f64>, Vec<f64>) =
             motions.map(|peaks| (peaks.pga_m_s2.ln(), peaks.pgv_m_s.ln())).unzip();
@@ -126,7 +117,6 @@ impl JointPeaks {
         Some(JointPeaks { given_pga, given_pgv: RatioGiven::fit(&ln_pgv, &ln_ratio)? })
     }
 
-    /// Returns the ratio given a peak.
     pub fn given(&self, peak: Peak) -> RatioGiven {
         match peak {
             Peak::Pga => self.given_pga,

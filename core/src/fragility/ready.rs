@@ -12,8 +12,7 @@ use crate::rocking::Structure;
 use crate::statistics::Interval;
 
 impl Model {
-    /// Computes the probabilities of the tree at an intensity (Eq. 12). A magnitude that is not known is
-    /// estimated by PGV / PGA.
+    /// The tree (Eq. 12). A magnitude that is not known is inferred from PGV / PGA.
     pub fn probabilities(
         &self,
         structure: &Structure,
@@ -26,7 +25,7 @@ impl Model {
                 Probabilities::new(measures.im4, || {
                     let p_ro = overturning.probability(structure, measures, mw, scenarios)?;
                     let p_ex = exceeding.probability(structure, measures, mw, scenarios)?;
-                    // What is not known of a structure moves both branches the same way.
+                    // Errors of both have the same causes, so that their limits are joined in pairs.
                     let p_failure = p_ro.zip(p_ex, p_failure_given_rocking);
                     Some(GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) })
                 })
@@ -52,7 +51,7 @@ impl Model {
 }
 
 impl Probabilities {
-    /// Turns probabilities over the whole tree to those given rocking, which a floor may or may not cause.
+    /// From the whole tree to given rocking, which a floor may or may not cause.
     fn on_floor(states: LimitStates<Option<Interval>>) -> Probabilities {
         let rocking = states.rocking.map_or(0.0, |p| p.value);
         let known = states.failure.zip(states.overturning).filter(|_| rocking > 0.0);
@@ -66,15 +65,14 @@ impl Probabilities {
     }
 }
 
-/// A structure and the model that predicts for it, ready for motions of one magnitude.
+/// First stage: a structure under motions of one magnitude.
 struct ReadyDirection<'a> {
     structure: &'a Structure,
     uplift_m_s2: f64,
     by: By<'a>,
 }
 
-/// What predicts: P_ro and P_ex of the calibrated surface, or the paper's fits, with each error of these at
-/// its quantiles.
+/// P_ro and P_ex of the calibrated surface, or the paper's fits with each of their errors at its quantiles.
 #[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
 enum By<'a> {
     Ground([Branch<'a>; 2]),
@@ -99,7 +97,6 @@ impl<'a> ReadyDirection<'a> {
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }
 
-    /// Returns it under motions of the ground with this PGA, m/s2.
     fn at(&self, pga_m_s2: f64) -> DirectionAtPga<'_> {
         let im4 = pga_m_s2 / self.uplift_m_s2;
         let ln_im4 = im4.ln();
@@ -118,7 +115,7 @@ impl<'a> ReadyDirection<'a> {
     }
 }
 
-/// A direction under motions of one PGA of the ground.
+/// Second stage: a direction under motions of one PGA of the ground.
 enum DirectionAtPga<'a> {
     Still,
     Ground(&'a [Branch<'a>; 2], [Cut; 2]),
@@ -127,9 +124,9 @@ enum DirectionAtPga<'a> {
 }
 
 impl DirectionAtPga<'_> {
-    /// Joins the probabilities at each level under motions with this ln(PGV / PGA), s, to those of other
-    /// directions: an object falls in either, independently under one motion. `motions` are those of the
-    /// floor, which are the same for all directions: the first that needs them computes them.
+    /// Third stage: joins the probabilities at each level under motions with this ln(PGV / PGA), s, to those
+    /// of other directions: an object falls in either, independently under one motion. `motions` are those of
+    /// the floor, the same for all directions: the first that needs them computes them.
     fn join(
         &self,
         ln_seconds: f64,
@@ -200,8 +197,7 @@ impl DirectionAtPga<'_> {
 }
 
 impl Level {
-    /// Returns the level of the estimate, then those of each error of the models, at the lower and at the upper
-    /// quantile: the same error moves all directions.
+    /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
     pub fn with_errors(directions: &[Direction]) -> Vec<Level> {
         let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
         let errors =
@@ -210,7 +206,7 @@ impl Level {
     }
 }
 
-/// An object in its directions, ready for motions of one magnitude.
+/// The first two stages for all directions of an object.
 pub(crate) struct ReadyObject<'a> {
     directions: Vec<ReadyDirection<'a>>,
     pub mw: Option<f64>,
@@ -223,12 +219,10 @@ impl<'a> ReadyObject<'a> {
         ReadyObject { directions: directions.iter().map(ready).collect(), mw }
     }
 
-    /// Returns it under motions of the ground with this PGA, m/s2.
     pub fn at(&self, pga_m_s2: f64) -> ObjectAtPga<'_> {
         ObjectAtPga(self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect())
     }
 
-    /// Returns the probabilities of the limit states under motions with these peaks, at each level.
     pub fn limit_states(&self, peaks: Peaks, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
         let mut states = vec![LimitStates::all(Some(0.0)); levels.len()];
         let ln_seconds = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
@@ -236,18 +230,15 @@ impl<'a> ReadyObject<'a> {
         states
     }
 
-    /// Returns them with limits.
     pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
         LimitStates::from_levels(&self.limit_states(peaks, &Level::with_limits(scenarios)))
     }
 }
 
-/// An object under motions of one PGA of the ground.
 pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
 
 impl ObjectAtPga<'_> {
-    /// Computes the probabilities of the limit states at each level under motions with this ln(PGV / PGA), s;
-    /// none where a model has none.
+    /// The limit states at this ln(PGV / PGA), s, and each level; none where a model has none.
     pub fn limit_states(&self, ln_seconds: f64, levels: &[Level], states: &mut [LimitStates<Option<f64>>]) {
         let mut motions = None;
         states.fill(LimitStates::all(Some(0.0)));
@@ -258,7 +249,7 @@ impl ObjectAtPga<'_> {
 }
 
 impl LimitStates<f64> {
-    /// Leaves what is known of motions without a PGV: whether it rocks.
+    /// Without a PGV, only rocking is known.
     fn known(self, ln_seconds: f64) -> LimitStates<Option<f64>> {
         let states = self.map(Some);
         if ln_seconds.is_finite() {
@@ -270,7 +261,7 @@ impl LimitStates<f64> {
 }
 
 impl LimitStates<Option<f64>> {
-    /// Joins the probabilities of independent events to those of either.
+    /// The probability of either of two independent events.
     fn or(self, other: LimitStates<Option<f64>>) -> LimitStates<Option<f64>> {
         self.zip(other, |a, b| a.zip(b).map(|(a, b)| a + b - a * b))
     }

@@ -9,14 +9,13 @@ use crate::rocking::Structure;
 use crate::spelling::unknown_word;
 use crate::statistics::Range;
 
-/// Kinds of motion that the surface knows.
+/// Kinds of motion that the surface was fitted to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[derive(Default)]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Kind>)]
 pub enum Kind {
-    /// Recorded motions.
     #[default]
     Recorded,
     /// Combined synthetic motions on rock: pulse and high frequencies.
@@ -28,8 +27,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Returns the kind of a suite by its word in tables, on the ground or a floor; recorded of an unknown
-    /// word, or of none.
+    /// By the word of a suite in tables, on the ground or a floor; recorded without a known word.
     pub fn from_suite(suite: Option<&str>) -> Kind {
         match suite.and_then(|word| word.trim_end_matches(Suite::ON_FLOOR).parse().ok()) {
             Some(Suite::Pulse) => Kind::Pulse,
@@ -39,7 +37,6 @@ impl Kind {
         }
     }
 
-    /// Returns the motions, in words.
     pub fn words(self) -> &'static str {
         match self {
             Kind::Recorded => "recorded motions",
@@ -50,8 +47,7 @@ impl Kind {
     }
 }
 
-/// The surface for one structure, limit state and magnitude: a function of IM4 and of
-/// PGV / PGA.
+/// The surface for one structure, limit state and magnitude: a function of IM4 and PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Section {
     /// Coefficients of x^i w^j r^k: at `[i][j][k]`.
@@ -71,8 +67,7 @@ pub(super) struct Section {
 }
 
 impl Section {
-    /// Makes the section of P_ex at a limit state, of P_ro at none. A magnitude that is not known is that which
-    /// PGV / PGA tells.
+    /// P_ex at a limit state, P_ro without one. An unknown magnitude is inferred from PGV / PGA.
     pub fn new(kind: Kind, structure: &Structure, limit_state: Option<f64>, mw: Option<f64>) -> Section {
         let (domain, curve) = (&SURFACE.domain, SURFACE.curve(kind, limit_state));
         let [limit, end] = limits(limit_state);
@@ -98,18 +93,17 @@ impl Section {
         }
     }
 
-    /// Returns M - 6.9 of motions with this ln(PGV / PGA), s.
+    /// M - 6.9 of motions with this ln(PGV / PGA), s.
     pub fn magnitude(&self, ln_seconds: f64) -> f64 {
         self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
-    /// Returns M - 6.9 in the middle of the magnitudes of the data.
+    /// M - 6.9 in the middle of the magnitudes of the data.
     pub fn middle_magnitude(&self) -> f64 {
         0.5 * (self.magnitudes.low + self.magnitudes.high) - REFERENCE_MAGNITUDE
     }
 
-    /// Returns the section at an IM4: L is a cubic in r = ln(PGA / (p PGV)), by Horner's rule in
-    /// w = ln IM4 - r - 0.4 l.
+    /// L at an IM4, a cubic in r = ln(PGA / (p PGV)), by Horner's rule in w = ln IM4 - r - 0.4 l.
     pub fn at(&self, at: &AtIm4) -> Cut {
         let AtIm4 { ln_im4, held, x, ln_above } = *at;
         let ([a, b, c], w_at_r_0) = (&self.coefficients, held - self.lower);
@@ -137,10 +131,10 @@ impl Section {
 /// An IM4, with what all sections need of it.
 pub(super) struct AtIm4 {
     ln_im4: f64,
-    /// ln IM4 where IM4 ends in the domain: beyond, a polynomial means nothing, and PGV alone counts, so that P
-    /// does not fall as PGV / PGA falls.
+    /// ln IM4, held at the end of its domain: beyond, the polynomial means nothing, and PGV alone counts, so
+    /// that P does not fall as PGV / PGA falls.
     held: f64,
-    /// ln(ln IM4 + 0.2), so held.
+    /// ln(held + 0.2).
     x: f64,
     /// ln(IM4 - 1).
     ln_above: f64,
@@ -158,7 +152,7 @@ impl AtIm4 {
 pub(super) struct Cut {
     /// L by powers of r.
     cubic: [f64; POWERS],
-    /// ln of PGA over that at which it is held.
+    /// ln of PGA over the PGA at which it is held.
     pub excess: f64,
     /// ln p, and the range of ln(PGA / PGV), within the domain.
     ln_p: f64,
@@ -169,25 +163,25 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// Computes L. PGA / PGV is held within the domain.
+    /// L, with PGA / PGV held within the domain.
     pub fn logit(&self, ln_seconds: f64) -> f64 {
         let r = self.ln_ratio.held(-ln_seconds - self.excess) - self.ln_p;
         self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)
     }
 
-    /// Computes g = -(d / ((IM4 - 1) IM5^k))^n.
+    /// g = -(d / ((IM4 - 1) IM5^k))^n.
     pub fn gain(&self, ln_seconds: f64) -> f64 {
         -(self.ln_gain + self.slope * ln_seconds).exp()
     }
 }
 
-/// Returns the PGA (m/s2) from which on it is held, where IM4 ends in the domain.
+/// The PGA (m/s2) at which IM4 is held, the end of its domain.
 pub(super) fn held_pga_m_s2(structure: &Structure) -> f64 {
     structure.uplift_acceleration_m_s2() * SURFACE.domain.im4.high
 }
 
-/// Returns the values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the
-/// magnitude is not known, of the magnitudes of the data.
+/// The values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the
+/// magnitude is inferred, of the magnitudes of the data.
 pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
     let by_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
@@ -195,14 +189,11 @@ pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
     by_domain.into_iter().chain(by_magnitude.into_iter().filter(|_| mw.is_none())).collect()
 }
 
-/// Returns whether a structure is within those that the surface was fitted to.
 pub fn covers_structure(structure: &Structure) -> bool {
     let Domain { p, alpha, eta, .. } = &SURFACE.domain;
     p.has(structure.p_rad_s) && alpha.has(structure.alpha_rad) && eta.has(structure.eta)
 }
 
-/// Returns whether the measures of a motion, and a limit state, are within those that the surface was fitted
-/// to.
 pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_state: f64) -> bool {
     let Domain { im4, im5, ratio, limit, .. } = &SURFACE.domain;
     im4.has(measures.im4)
@@ -211,30 +202,28 @@ pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_
         && limit.has(limit_state)
 }
 
-/// How the calibrations of structures under a kind of motion are distributed: c, ln s and m are normal.
+/// Normal distributions of c, ln s and m over structures under a kind of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prior {
     pub mean: [f64; 3],
     pub sd: [f64; 3],
     /// Standard deviation of the logit between cells or earthquakes.
     pub tau: f64,
-    /// By how much c rises with [`limits`]' second.
+    /// Rise of c with ln(1.1 - limit state).
     by_limit: f64,
 }
 
-/// Returns the prior of a kind of motion, of P_ex at a limit state.
 pub(super) fn prior(kind: Kind, limit_state: Option<f64>) -> Prior {
     let mut prior = SURFACE.curve(kind, limit_state).prior;
     prior.mean[0] += prior.by_limit * limits(limit_state)[1];
     prior
 }
 
-/// Returns how PGA and PGV go together in the motions of a kind.
 pub(super) fn peaks(kind: Kind) -> JointPeaks {
     SURFACE.kinds[kind as usize].peaks
 }
 
-/// At this magnitude m does not count.
+/// The magnitude at which m has no effect.
 const REFERENCE_MAGNITUDE: f64 = 6.9;
 
 /// L is a polynomial in x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l and r = ln(PGA / (p PGV)), whose
@@ -254,18 +243,15 @@ fn limits(limit_state: Option<f64>) -> [f64; 2] {
     })
 }
 
-/// The file, read.
+/// data/universal.csv, read.
 struct Surface {
     domain: Domain,
-    /// The last two of the domain in logarithms.
     ln_ratio: Range,
     ln_im4: Range,
-    /// What it says of each kind of motion.
     kinds: [KindOfMotion; 4],
 }
 
-/// What the surface was fitted to: p, eta and alpha of structures, limit states, PGA / PGV (1/s) and measures
-/// of motions.
+/// Ranges of the data: p (rad/s), eta and alpha (rad), limit states, PGA / PGV (1/s), IM4 and IM5.
 struct Domain {
     p: Range,
     eta: Range,
@@ -276,7 +262,6 @@ struct Domain {
     im5: Range,
 }
 
-/// What the file says of a kind of motion.
 struct KindOfMotion {
     magnitude: ExpectedMagnitude,
     /// P_ro and P_ex.
@@ -284,7 +269,7 @@ struct KindOfMotion {
     peaks: JointPeaks,
 }
 
-/// A probability under a kind of motion.
+/// P_ro or P_ex under a kind of motion.
 struct Curve {
     terms: Vec<Term>,
     rise: Rise,
@@ -300,7 +285,7 @@ struct ExpectedMagnitude {
     range: Range,
 }
 
-/// How fast a probability rises from uplift on.
+/// The parameters of g = -(d / ((IM4 - 1) IM5^k))^n.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rise {
     n: f64,
@@ -315,7 +300,7 @@ struct Term {
 }
 
 impl Term {
-    /// Reads a product such as `x*w^2`; 1 is the empty one.
+    /// Reads a product such as `x*w^2`, or 1.
     fn parse(product: &str, coefficient: f64) -> Term {
         let mut powers = [0; FEATURES.len()];
         for factor in product.split('*').filter(|name| *name != "1") {
@@ -338,8 +323,7 @@ impl Surface {
         &self.kinds[kind as usize].curves[usize::from(limit_state.is_some())]
     }
 
-    /// Reads the file that is compiled in: a line that is none of its kind is a fault of the build, which
-    /// tests find.
+    /// Reads the file that is compiled in. An invalid line is a fault of the build, which tests find.
     fn parse(text: &'static str) -> Surface {
         let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
@@ -389,7 +373,7 @@ impl Curve {
     }
 }
 
-/// Returns the numbers of the row that begins with these words.
+/// The numbers of the row that begins with these words.
 fn numbers<const N: usize>(rows: &[Vec<&str>], words: &[&str]) -> [f64; N] {
     let row = rows.iter().find(|row| row.starts_with(words)).expect("the file has it");
     std::array::from_fn(|k| row[words.len() + k].parse().expect("a number"))

@@ -25,19 +25,17 @@ pub enum LimitState {
     Overturning,
 }
 
-/// Computes the probability of no rocking, P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0
-/// from there on; NaN of NaN.
+/// P_nr: 1 below uplift at IM4 = PGA/(g tan alpha) = 1 (Eq. 5), 0 from there on; NaN of NaN.
 pub fn p_no_rocking(im4: f64) -> f64 {
     if im4.is_nan() { f64::NAN } else { f64::from(im4 < 1.0) }
 }
 
-/// Computes the probability of failure given rocking: P_ro + (1 - P_ro) P_ex (Eq. 12).
+/// P_f|r = P_ro + (1 - P_ro) P_ex (Eq. 12).
 pub fn p_failure_given_rocking(p_ro: f64, p_ex: f64) -> f64 {
     p_ro + (1.0 - p_ro) * p_ex
 }
 
-/// Computes the probability of failure, or of another event, over the whole tree from that given rocking:
-/// P_f = (1 - P_nr) P_f|r (Eq. 12), exactly 0 without rocking.
+/// From given rocking to the whole tree: P_f = (1 - P_nr) P_f|r (Eq. 12), exactly 0 without rocking.
 pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
     (1.0 - p_nr) * given_rocking
 }
@@ -59,12 +57,10 @@ pub struct LimitStates<T> {
 }
 
 impl<T> LimitStates<T> {
-    /// Applies a function to each.
     pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> LimitStates<U> {
         LimitStates { rocking: f(self.rocking), failure: f(self.failure), overturning: f(self.overturning) }
     }
 
-    /// Joins each with that of other limit states.
     pub fn zip<U, V>(self, other: LimitStates<U>, join: impl Fn(T, U) -> V) -> LimitStates<V> {
         LimitStates {
             rocking: join(self.rocking, other.rocking),
@@ -73,19 +69,17 @@ impl<T> LimitStates<T> {
         }
     }
 
-    /// Returns them in the order of [`LimitState`].
+    /// In the order of [`LimitState`].
     pub fn into_array(self) -> [T; 3] {
         [self.rocking, self.failure, self.overturning]
     }
 }
 
 impl<T: Copy> LimitStates<T> {
-    /// Makes all alike.
     pub const fn all(value: T) -> LimitStates<T> {
         LimitStates { rocking: value, failure: value, overturning: value }
     }
 
-    /// Returns what there is of a limit state.
     pub fn get(&self, state: LimitState) -> T {
         match state {
             LimitState::Rocking => self.rocking,
@@ -95,7 +89,7 @@ impl<T: Copy> LimitStates<T> {
     }
 }
 
-/// Computes failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
+/// Failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
 /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
 /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
 /// Stat. Med. 27, 1693-1702). No limit of failure is below that of either.
@@ -107,7 +101,7 @@ pub fn independent_failure(p_ro: Interval, p_ex: Interval) -> Interval {
     let high = -(ro.value + ex.value - (ro.high - ro.value).hypot(ex.high - ex.value)).exp_m1();
     Interval {
         value,
-        // What rounding loses of limits near 0.
+        // Rounding can move limits near 0 beyond these bounds.
         low: low.max(p_ro.low).max(p_ex.low).min(value),
         high: high.max(p_ro.high).max(p_ex.high).max(value),
     }
@@ -116,32 +110,28 @@ pub fn independent_failure(p_ro: Interval, p_ex: Interval) -> Interval {
 /// The probabilities of the tree at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Probabilities {
-    /// No rocking.
     pub p_nr: f64,
-    /// Given rocking; none without rocking, or where a measure is missing.
+    /// None without rocking, or where a measure is missing.
     pub given_rocking: Option<GivenRocking>,
 }
 
-/// Probabilities given that the structure rocks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenRocking {
-    /// A demand above the limit state, in safe rocking; none where no plane is fitted.
+    /// In safe rocking; none where no plane is fitted.
     pub p_ex: Option<Interval>,
-    /// Overturning.
     pub p_ro: Interval,
-    /// Failure, the one or the other (Eq. 12).
+    /// Overturning, or a demand above the limit state (Eq. 12).
     pub p_failure: Option<Interval>,
 }
 
 impl Probabilities {
-    /// Makes the probabilities at an IM4; `given_rocking` computes those that matter if it uplifts.
+    /// `given_rocking` is evaluated only if the IM4 uplifts.
     pub(super) fn new(im4: f64, given_rocking: impl FnOnce() -> Option<GivenRocking>) -> Probabilities {
         let p_nr = p_no_rocking(im4);
         Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
     }
 
-    /// Returns the probabilities of reaching LS1, LS2 and LS3 over the whole tree: exactly 0 without rocking.
-    /// None where a measure is missing, or no plane is fitted.
+    /// Over the whole tree, exactly 0 without rocking. None where a measure or a plane is missing.
     pub fn limit_states(&self) -> LimitStates<Option<Interval>> {
         let rocking = Some(Interval::exact(1.0 - self.p_nr));
         if self.p_nr == 1.0 {

@@ -5,21 +5,20 @@ use crate::object::{Part, Unknown};
 use crate::statistics::Interval;
 use strum::VariantArray;
 
-/// Standard deviations of a result, of ln of an annual rate or of the logit of a probability, by part:
-/// downwards and upwards, since a rate saturates.
+/// Standard deviations, by part, of ln of an annual rate or of the logit of a probability: downwards and
+/// upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
     variances: [[f64; 2]; Part::VARIANTS.len()],
 }
 
 impl Budget {
-    /// Gathers how far a result falls and rises between the quantiles of each unknown; nothing where there is
-    /// none.
+    /// How far a result falls and rises between the quantiles of each unknown; 0 without a result.
     pub fn new<T>(middle: &T, unknowns: &[Unknown<T>], result: impl Fn(&T) -> Option<f64>) -> Budget {
         let mut budget = Budget::default();
         let Some(middle) = result(middle) else { return budget };
         for unknown in unknowns {
-            // How many standard deviations the quantiles are from the median.
+            // Standard deviations from the median to the quantiles: fractiles of hazards are 16 and 84 %.
             let deviations = if unknown.part == Part::Hazard { 1.0 } else { Z_95 };
             let Some((low, high)) = result(&unknown.low).zip(result(&unknown.high)) else { continue };
             let off = [low, high].map(|end| (end - middle) / deviations);
@@ -28,39 +27,36 @@ impl Budget {
         budget
     }
 
-    /// Adds an error that is independent of the others.
+    /// The error is independent of those added before.
     pub fn add(&mut self, part: Part, sds: [f64; 2]) {
         for (sum, sd) in self.variances[part as usize].iter_mut().zip(sds) {
             *sum += if sd.is_finite() { sd * sd } else { 0.0 };
         }
     }
 
-    /// Returns the standard deviation that a part causes, the mean of both; none where nothing of it is
-    /// unknown.
+    /// The mean of the standard deviations downwards and upwards; none where it is 0.
     pub fn part_sd(&self, part: Part) -> Option<f64> {
         let [down, up] = self.variances[part as usize].map(f64::sqrt);
         Some(0.5 * (down + up)).filter(|sd| *sd > 0.0)
     }
 
-    /// Returns the standard deviations of all parts combined.
     pub fn sds(&self) -> [f64; 2] {
         [0, 1].map(|side| self.variances.iter().map(|part| part[side]).sum::<f64>().sqrt())
     }
 
-    /// Returns the part that causes most.
     pub fn largest(&self) -> Option<Part> {
         let known = Part::VARIANTS.iter().filter_map(|&part| Some((part, self.part_sd(part)?)));
         known.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(part, _)| part)
     }
 
-    /// Gives an annual rate its 95 % limits, which are never above the rate of rocking.
+    /// 95 % limits of an annual rate, which are never above the rate of rocking.
     pub fn limit_rate(&self, rate: f64, rocking: f64) -> Interval {
         let [down, up] = self.sds().map(|sd| (Z_95 * sd).exp());
         Interval { value: rate, low: rate / down, high: (rate * up).min(rocking.max(rate)) }
     }
 
-    /// Gives a probability its 95 % limits, which are never above the probability of rocking; `tau` is the
-    /// standard deviation of the logit between earthquakes.
+    /// 95 % limits of a probability, which are never above that of rocking; `tau` is the standard deviation
+    /// of the logit between earthquakes.
     pub fn limit_probability(&self, p: f64, rocking: f64, tau: f64) -> Interval {
         if !(p > 0.0 && p < 1.0) {
             return Interval::exact(p);

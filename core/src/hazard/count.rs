@@ -13,28 +13,24 @@ use crate::statistics::distributions::chi_squared_quantile;
 /// Most bins of equal numbers of motions, and least motions in each.
 const MOST_BINS: usize = 320;
 const LEAST_IN_BIN: usize = 20;
-/// How often the clusters are drawn anew.
 const RESAMPLES: u64 = 500;
-/// The probability that the rate lies below the limits, and that it lies above.
+/// Probability below the lower limit, and above the upper one.
 const TAIL: f64 = 0.025;
 
-/// A motion that is counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedMotion {
     /// In the measure of the hazard.
     pub intensity: f64,
-    /// Whether the event happened.
     pub event: bool,
-    /// Its cluster: motions of one cluster may depend on each other.
+    /// Motions of one cluster may depend on each other.
     pub cluster: u32,
 }
 
 /// An annual rate counted among motions, with 95 % limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountedRate {
-    /// The rate, a year.
     pub annual_rate: Interval,
-    /// How many motions were counted.
+    /// Number of motions that were counted.
     pub motions: usize,
 }
 
@@ -45,10 +41,9 @@ struct Bin {
     events: f64,
 }
 
-/// Counts the annual rate of an event among motions that are weighted so that their intensities have the
-/// rates of the hazard: in bins of equal numbers of motions, the rate of a bin times the share in which the
-/// event happened. Motions weaker than `least` cause none; those stronger than the strongest bin count as
-/// in it. None without motions.
+/// Counts the annual rate of an event among motions, weighted so that their intensities have the rates of the
+/// hazard: in bins of equal numbers of motions, the rate of a bin times the share with the event. Motions
+/// weaker than `least` cause no event; those beyond the strongest bin count as in it. None without motions.
 ///
 /// The limits are the wider ones of two: percentiles of resamples of clusters, and those of a weighted sum of
 /// Poisson counts, which also hold where no resample has an event more (Fay & Feuer 1997, Confidence
@@ -67,7 +62,7 @@ pub fn counted_rate(
     motions.iter_mut().for_each(|motion| motion.cluster = numbers[&motion.cluster]);
     let in_all = bins(curve, least, &motions, |_| 1.0);
     let drawn = (0..RESAMPLES).into_par_iter().map(|resample| {
-        // As many clusters as there are, with replacement: how often each comes.
+        // Draws with replacement as many clusters as there are, and counts how often each is drawn.
         let (mut times, mut random) = (vec![0.0; numbers.len()], stream(seed, Purpose::Bootstrap, resample));
         (0..times.len()).for_each(|_| times[random.random_range(0..numbers.len())] += 1.0);
         rate(&bins(curve, least, &motions, |cluster| times[cluster as usize]))
@@ -81,8 +76,7 @@ pub fn counted_rate(
     Some(CountedRate { annual_rate: Interval { low, high, ..poisson }, motions: motions.len() })
 }
 
-/// The bins of motions in order; `times` says how often a motion counts. A motion is in the bin of the middle
-/// of its share.
+/// In order of intensity; `times` is how often a cluster was drawn. A motion's bin is by its middle weight.
 fn bins(curve: &HazardCurve, least: f64, motions: &[CountedMotion], times: impl Fn(u32) -> f64) -> Vec<Bin> {
     let number = (motions.len() / LEAST_IN_BIN).clamp(1, MOST_BINS);
     let all: f64 = motions.iter().map(|motion| times(motion.cluster)).sum();
@@ -114,7 +108,7 @@ fn rate(bins: &[Bin]) -> f64 {
     bins.iter().map(|bin| bin.annual_rate * bin.events / bin.motions).sum()
 }
 
-/// Returns the rate with the limits of a weighted sum of Poisson counts.
+/// With the limits of a weighted sum of Poisson counts.
 fn poisson_limits(bins: &[Bin]) -> Interval {
     let (mut variance, mut largest) = (0.0, 0.0_f64);
     for Bin { annual_rate, motions, events } in bins {
@@ -128,7 +122,7 @@ fn poisson_limits(bins: &[Bin]) -> Interval {
     Interval { value, low, high }
 }
 
-/// Computes a quantile of a gamma distribution of this mean and variance, by chi squared.
+/// A quantile of the gamma distribution of this mean and variance, by chi squared.
 fn poisson_quantile(mean: f64, variance: f64, p: f64) -> f64 {
     if variance == 0.0 {
         return 0.0;

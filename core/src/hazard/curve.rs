@@ -2,32 +2,34 @@
 
 use crate::statistics::numerics::{Panel, panels};
 
-/// Annual rate that the largest intensity of a hazard curve hardly has; a column of intensities, taken for
-/// rates, has.
+/// No largest intensity of a curve is exceeded this often a year: one that seems to be is itself a rate.
 const FREQUENT: f64 = 0.02;
 
-/// Annual rates at which intensities are exceeded; between its points ln rate is linear in ln IM.
+/// Annual rates of exceedance of an intensity; between points ln rate is linear in ln IM.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardCurve {
     /// Intensity and annual rate of exceedance.
     points: Vec<(f64, f64)>,
 }
 
-/// An intensity that stands for others, and how often a year one of them comes.
+/// A node of a quadrature, with the annual rate of the motions that it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {
     pub intensity: f64,
     pub annual_rate: f64,
 }
 
-/// Why points make no hazard curve. `point` counts from 0, in messages from 1.
+/// `point` counts from 0, in messages from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HazardError {
     #[error("{0} point(s); expected 2 or more")]
     TooFewPoints(usize),
     #[error("point {}: intensity {im}, rate {rate}; expected both above 0", .point + 1)]
     NotPositive { point: usize, im: f64, rate: f64 },
-    #[error("point {}, by intensity: expected a larger intensity than before, and no larger rate", .point + 1)]
+    #[error(
+        "point {}, by intensity: expected a larger intensity than before, and no larger rate",
+        .point + 1
+    )]
     Unordered { point: usize },
     #[error(
         "rows go from rare to frequent, and the largest intensity is exceeded {rate} times a year, more \
@@ -37,12 +39,10 @@ pub enum HazardError {
 }
 
 impl HazardCurve {
-    /// Checks intensities (m/s2 or m/s) and their annual rates of exceedance, from frequent to rare or the
-    /// other way.
+    /// Intensities (m/s2 or m/s) and their annual rates of exceedance, in rising or falling order.
     ///
     /// # Errors
-    /// If there are fewer than two points, or one is not positive or not in order: as intensities rise, rates
-    /// do not.
+    /// If there are fewer than two points, or one is not positive, or a rate rises with intensity.
     pub fn new(mut points: Vec<(f64, f64)>) -> Result<HazardCurve, HazardError> {
         if points.len() < 2 {
             return Err(HazardError::TooFewPoints(points.len()));
@@ -65,17 +65,16 @@ impl HazardCurve {
         }
     }
 
-    /// Returns all intensities, each with its rate.
     pub fn points(&self) -> &[(f64, f64)] {
         &self.points
     }
 
-    /// Returns the first intensity and the last, each with its rate.
+    /// The first and the last intensity, each with its rate.
     pub fn ends(&self) -> [(f64, f64); 2] {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    /// Returns it continued to ten times its last intensity with the slope of its last two points.
+    /// Continued to ten times the last intensity with the slope of the last two points.
     pub fn extrapolated(&self) -> HazardCurve {
         const FURTHER: f64 = 10.0;
         let mut points = self.points.clone();
@@ -85,13 +84,12 @@ impl HazardCurve {
         HazardCurve { points }
     }
 
-    /// Returns the rates at other intensities, which rise with the intensity and fall with the rate.
+    /// The rates at other intensities, which must rise with the intensity and fall with the rate.
     pub fn map(&self, other: impl Fn(f64, f64) -> f64) -> HazardCurve {
         HazardCurve { points: self.points.iter().map(|&(im, rate)| (other(im, rate), rate)).collect() }
     }
 
-    /// Returns the intensity that is exceeded at an annual rate; beyond the ends of the curve that of the
-    /// end.
+    /// Beyond the ends of the curve, the intensity of the end.
     pub fn intensity(&self, rate: f64) -> f64 {
         let below = self.points.partition_point(|&(_, point)| point >= rate);
         if below == 0 || below == self.points.len() {
@@ -101,8 +99,7 @@ impl HazardCurve {
         low * (high / low).powf((at_low / rate).ln() / (at_low / at_high).ln())
     }
 
-    /// Returns the annual rate at which an intensity is exceeded; beyond the ends of the curve that of the
-    /// end.
+    /// Beyond the ends of the curve, the rate of the end.
     pub fn exceedance(&self, im: f64) -> f64 {
         let above = self.points.partition_point(|&(point, _)| point <= im);
         if above == 0 || above == self.points.len() {
@@ -112,9 +109,8 @@ impl HazardCurve {
         rate * ((rate_at_high / rate).ln() * (im / low).ln() / (high / low).ln()).exp()
     }
 
-    /// Integrates the mean annual rates of events that have these probabilities at an intensity: P(im)
-    /// |dH(im)|. Motions above the last intensity count with the probability at it; those below the first are
-    /// not counted.
+    /// Mean annual rates of events with these probabilities at an intensity: the integral of P(im) |dH(im)|.
+    /// Motions above the last intensity count with the probability at it, those below the first do not count.
     pub fn mean_annual_rates<const N: usize>(
         &self,
         breaks: &[f64],
@@ -132,9 +128,9 @@ impl HazardCurve {
         rates
     }
 
-    /// Returns intensities that stand for all from the first to the last, rising. A probability is taken as
-    /// the polynomial through its values at the nodes of each panel of ln IM, at most `widest` and none
-    /// across one of `breaks`, where it jumps or bends: the points of the curve need no panels of their own.
+    /// Nodes of the quadrature, rising. A probability is taken as the polynomial through its values at the
+    /// nodes of each panel of ln IM, at most `widest` and none across one of `breaks`, where it jumps or
+    /// bends: the points of the curve need no panels of their own.
     pub(super) fn nodes(&self, breaks: &[f64], widest: f64) -> Vec<Node> {
         let [(first, _), (last, _)] = self.ends();
         let mut edges = vec![first.ln(), last.ln()];
@@ -147,7 +143,7 @@ impl HazardCurve {
         nodes.map(|(ln_im, annual_rate)| Node { intensity: ln_im.exp(), annual_rate }).collect()
     }
 
-    /// Returns ln IM within a panel, and how often a year it comes.
+    /// ln IM within a panel, with its annual rate.
     fn masses(&self, panel: Panel) -> impl Iterator<Item = (f64, f64)> {
         let before = self.points.partition_point(|point| point.0.ln() <= panel.from).max(1) - 1;
         let segments = self.points[before..].windows(2);

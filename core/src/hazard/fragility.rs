@@ -36,64 +36,53 @@ use crate::statistics::{Interval, least_squares, normal};
 pub struct SitesInGeneral {
     /// The peak that is given.
     pub over: Peak,
-    /// Magnitude.
     pub mw: Option<f64>,
-    /// Vs30, m/s.
     pub vs30_m_s: Option<f64>,
     /// PGV / PGA of all motions, s.
     pub ratio_s: Option<f64>,
 }
 
-/// The fragility of an object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fragility {
-    /// The peak that is given.
     pub over: Peak,
-    /// From the least intensity that uplifts the object to the strongest that was ever recorded.
+    /// From the least intensity that uplifts the object to the strongest ever recorded.
     pub points: Vec<FragilityPoint>,
     /// A demand above the limit state, or overturning.
     pub failure: Lognormal,
-    /// Overturning.
     pub overturning: Lognormal,
-    /// Standard deviations of the logit of the probability of overturning, by what is not known, where it is
-    /// nearest to one half.
+    /// Standard deviations of the logit of P(overturning), by source, where P is nearest to one half.
     pub errors: Budget,
     /// The median motion there.
     pub motion: Peaks,
 }
 
-/// The probabilities at an intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FragilityPoint {
     /// PGA (m/s2) or PGV (m/s).
     pub intensity: f64,
-    /// Shares of the motions of this intensity, with limits; nothing of one where the model has none.
+    /// Shares of the motions of this intensity, with limits; empty where the model has none.
     pub p: LimitStates<Interval<Option<f64>>>,
 }
 
-/// What a fragility comes to: intensities (m/s2 or m/s), and the lognormal curve Phi(ln(intensity / theta) /
-/// beta).
+/// Intensities (m/s2 or m/s), and the curve Phi(ln(intensity / theta) / beta), of a fragility.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lognormal {
-    /// Where 16, 50 and 84 % of the motions have the effect; none beyond the last point.
+    /// Intensities at which 16, 50 and 84 % of the motions have the effect; none beyond the last point.
     #[serde(rename = "_16")]
     pub at_16: Interval<Option<f64>>,
-    /// Median.
     #[serde(rename = "_theta")]
     pub theta: Interval<Option<f64>>,
-    /// See `at_16`.
     #[serde(rename = "_84")]
     pub at_84: Interval<Option<f64>>,
-    /// Least-squares slope of the probit over ln intensity, inverted, where P is .05 to .95 as far as that
-    /// is reached.
+    /// Inverse least-squares slope of the probit over ln intensity, for P from .05 to .95 or the last point.
     #[serde(rename = "_beta")]
     pub beta: Option<f64>,
-    /// Largest error of a probability by theta and beta there.
+    /// Largest error of the lognormal curve over the same P.
     #[serde(rename = "_error")]
     pub largest_error: Option<f64>,
 }
 
-/// Steps of a curve.
+/// Steps of a fragility.
 const STEPS: usize = 119;
 /// The least intensity over the strongest.
 const LEAST: f64 = 1e-3;
@@ -103,12 +92,10 @@ const MOST_FITTED: f64 = 0.95;
 const STEPS_FITTED: usize = 39;
 
 impl SitesInGeneral {
-    /// Computes the fragility of an object.
     pub fn fragility(&self, subject: &Subject) -> Fragility {
         Fragility::new(&self.motions(&subject.directions), subject)
     }
 
-    /// Makes an object, in the directions in which it falls, ready for these motions.
     pub fn given_peak<'a>(&self, directions: &'a [Direction]) -> GivenPeak<'a> {
         self.motions(directions).given(directions, 0.0)
     }
@@ -120,8 +107,8 @@ impl SitesInGeneral {
 }
 
 impl Site {
-    /// Computes the fragility of an object over the peak of the hazard curve, averaged over the motions of
-    /// the site: its integral over the curve is the rate. None for a joint hazard.
+    /// Over the peak of the hazard curve, averaged over the motions of the site: the integral over the curve
+    /// is the rate. None for a joint hazard.
     pub fn fragility(&self, subject: &Subject) -> Option<Fragility> {
         match &self.hazard {
             Hazard::Curve(hazard) => Some(Fragility::new(&self.motions(hazard, subject), subject)),
@@ -131,8 +118,7 @@ impl Site {
 }
 
 impl Fragility {
-    /// Takes a fragility by its points alone, such as those of a file: nothing is known between them, nor why
-    /// the limits are where they are, nor the motion.
+    /// From points alone, such as those of a file: without error budget and motion.
     pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
         let [failure, overturning] =
             [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
@@ -177,7 +163,7 @@ impl Fragility {
 }
 
 impl Lognormal {
-    /// Finds the intensities between points, without a dispersion.
+    /// By interpolation, without a dispersion.
     fn between(points: &[FragilityPoint], state: LimitState) -> Lognormal {
         let [at_16, theta, at_84] = [0.16, 0.5, 0.84].map(|level| Interval {
             value: crossing(points, level, |point| point.p.get(state).value),
@@ -210,7 +196,7 @@ impl Lognormal {
     }
 }
 
-/// Writes an intensity (m/s2 or m/s) with its unit; that which is beyond all that was recorded by that.
+/// With the unit; none is beyond all that was recorded.
 pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
     let (_, unit, symbol) = over.words();
     match intensity {
@@ -219,7 +205,6 @@ pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
     }
 }
 
-/// Computes the probabilities at each level and intensity.
 fn probabilities(
     given: &GivenPeak,
     intensities: &[f64],
@@ -229,8 +214,7 @@ fn probabilities(
     (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()
 }
 
-/// Finds the intensity from which on a probability is at least `level`, sought beside the first point that
-/// has it.
+/// The intensity from which on a probability is at least `level`, sought beside the first such point.
 fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, level: f64) -> Option<f64> {
     let reaches = |p: Option<f64>| p.is_some_and(|p| p >= level);
     let after = points.iter().position(|point| reaches(point.p.get(state).value))?;
@@ -238,7 +222,7 @@ fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, lev
     Some(first(low, high, |ln| reaches(given.limit_states(ln.exp()).get(state))).exp())
 }
 
-/// Finds the intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
+/// The intensity at which a limit passes `level`: between points its probit is linear in ln intensity.
 fn crossing(
     points: &[FragilityPoint],
     level: f64,

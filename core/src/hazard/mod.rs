@@ -1,10 +1,10 @@
-//! Seismic hazard at a site, and the annual rates that follow from it and a fragility.
+//! Seismic hazard at a site, and the annual rates by it and a fragility.
 //!
 //! ```text
 //! curve     annual rate of exceedance of one intensity; the convolution integral
 //! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
 //! rates     annual rates of the limit states of a structure, over a curve or over pairs of PGA and PGV
-//! budget    the sources of uncertainty, and the limits that follow
+//! budget    the sources of uncertainty, and the limits by them
 //! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
 //! motions   the motions of which one peak is given, and their uncertainty
@@ -40,8 +40,7 @@ pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 pub use target::{Base, Bases, SLENDERNESSES, SearchEnd};
 
-/// Computes the probability of one or more events in `years`, of events that come at this annual rate
-/// independently of each other (Poisson): 1 - exp(-rate years).
+/// The probability of one or more events of a Poisson process in `years`: 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {
     -(-annual_rate * years).exp_m1()
 }

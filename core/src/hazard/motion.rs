@@ -28,26 +28,22 @@ use crate::statistics::Interval;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion {
-    /// PGA, m/s2.
     pub pga_m_s2: Option<f64>,
-    /// PGV, m/s.
     pub pgv_m_s: Option<f64>,
-    /// Moment magnitude.
     pub mw: Option<f64>,
-    /// Vs30 of the site, m/s.
     pub vs30_m_s: Option<f64>,
 }
 
-/// Probabilities of the limit states, with limits; nothing of one where the model has none.
+/// With limits; empty where the model has no probability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionProbabilities {
     pub states: LimitStates<Interval<Option<f64>>>,
-    /// Standard deviations of the logit of the probability of overturning, by source of uncertainty.
+    /// Standard deviations of the logit of the probability of overturning, by source.
     pub errors: Budget,
 }
 
 impl Motion {
-    /// Returns the peaks; one that is not known is the median.
+    /// A peak that is not known is the median.
     pub fn peaks(&self, model: &Model) -> Peaks {
         match self.given_peak(model) {
             Some((motions, intensity)) if !self.is_still() => motions.given(&[], 0.0).peaks(intensity, 0.0),
@@ -59,12 +55,12 @@ impl Motion {
         }
     }
 
-    /// Returns whether the ground stands still: a peak of 0.
+    /// Whether a peak is 0.
     pub fn is_still(&self) -> bool {
         self.pga_m_s2 == Some(0.0) || self.pgv_m_s == Some(0.0)
     }
 
-    /// Computes the probabilities for an object, averaged over the peak that is not known.
+    /// Averaged over the peak that is not known.
     pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
         if self.is_still() {
             let states = LimitStates::all(Interval::exact(0.0).into());
@@ -73,7 +69,7 @@ impl Motion {
         let directions = &subject.directions[..];
         let model = &directions[0].model;
         let known = match self.given_peak(model) {
-            // What magnitude adds is beside tau in the limits of one motion.
+            // The limits of one motion include the uncertainty of its magnitude, with tau.
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
                 let ends = subject.ends(|directions| {
@@ -96,7 +92,7 @@ impl Motion {
         }
     }
 
-    /// Returns the motions of the peak that is given alone, and its value; none where both are given.
+    /// The motions of the only peak that is given, and its value; none where both are given.
     fn given_peak(&self, model: &Model) -> Option<(Motions, f64)> {
         let (peak, intensity) = match (self.pga_m_s2, self.pgv_m_s) {
             (Some(_), Some(_)) => return None,
@@ -108,11 +104,11 @@ impl Motion {
     }
 }
 
-/// Probabilities for an object, and how well they are known.
+/// Probabilities with limits, and their other uncertainty.
 struct Known {
-    /// With limits by the parameters of the model.
+    /// Limits by the parameters of the model.
     many: LimitStates<Option<Interval>>,
-    /// With limits by these and by the standard deviation between earthquakes, tau.
+    /// Limits by these and by the standard deviation between earthquakes, tau.
     one: LimitStates<Option<Interval>>,
     /// With each other unknown at its quantiles.
     ends: Vec<Unknown<LimitStates<Option<f64>>>>,
@@ -126,7 +122,7 @@ impl Known {
         Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
     }
 
-    /// Returns the errors of the logit of a probability, without tau, and the probability with limits by all.
+    /// The error budget of the logit, without tau; the probability with limits by all errors and tau.
     fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
         let (values, [many, one]) =
             (self.many.map(|p| p.map(|p| p.value)), [self.many, self.one].map(|p| p.get(state)));
@@ -144,12 +140,11 @@ impl Known {
     }
 }
 
-/// Computes the logit of a probability.
 pub(super) fn logit(p: f64) -> f64 {
     (p / (1.0 - p)).ln()
 }
 
-/// The standard deviation of a logit by its 95 % limits.
+/// The standard deviation of a logit from its 95 % limits.
 fn sd_of_limits(p: Interval) -> f64 {
     let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
     if sd.is_finite() { sd } else { 0.0 }

@@ -4,18 +4,18 @@ use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use crate::fragility::{Direction, GivenPeak, Peak, Z_95};
 use crate::object::{Part, Subject, Unknown};
 
-/// Mean and standard deviation of the magnitude of the motions that matter, at generic sites.
+/// Mean and standard deviation of the magnitude of the motions that overturn, at generic sites.
 const USUAL_MAGNITUDE: f64 = 6.35;
 const SD_OF_USUAL: f64 = 0.6;
 /// Standard deviation of their magnitude about a mean of the disaggregation of SA(1.0 s).
 const SD_OF_MEAN: f64 = 0.2;
-/// What is added to the mean magnitude of the disaggregation of PGA at 2475 years for that of the motions that
-/// overturn, and its standard deviation between sites (scripts/reference/site_rates.py). That of SA(1.0 s)
-/// needs no correction; nor does a site of PGA alone, whose PGV / PGA by the mean errs to the other side.
+/// Mean magnitude of the motions that overturn less that of the disaggregation of PGA at 2475 years, and its
+/// standard deviation between sites (scripts/reference/site_rates.py). The mean of SA(1.0 s) needs no
+/// correction, nor does a site of PGA alone, where PGV / PGA by the mean errs to the other side.
 const ABOVE_MEAN_OF_PGA: f64 = 0.25;
 const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
 
-/// The motions of one peak.
+/// Motions of which one peak is given.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Motions {
     pub peak: Peak,
@@ -23,22 +23,22 @@ pub(super) struct Motions {
     /// Median of the mean magnitude by which PGV / PGA is estimated, and its uncertainty.
     mean: f64,
     unknown: Unknown<f64>,
-    /// How far the magnitude of the motions is above that mean; none where PGV / PGA tells their magnitude.
+    /// The magnitude of the motions less that mean; none where it is inferred from PGV / PGA.
     above: Option<f64>,
 }
 
 impl Motions {
-    /// Makes the motions of earthquakes of a magnitude, or of those that matter at generic sites.
+    /// Motions of earthquakes of a magnitude or, without one, of those that matter at generic sites.
     pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> Motions {
         let (mean, sd) = mw.map_or((USUAL_MAGNITUDE, SD_OF_USUAL), |mw| (mw, 0.0));
         let unknown = Unknown { part: Part::Magnitude, low: mean - Z_95 * sd, high: mean + Z_95 * sd };
-        // PGV / PGA that is known by two curves, or is that of the model's motions, tells it.
+        // PGV / PGA by two curves, or of the model's motions, determines the magnitude.
         let is_told = !matches!(velocity.source, VelocitySource::Sites | VelocitySource::Given);
         Motions { peak, velocity, mean, unknown, above: (mw.is_some() || !is_told).then_some(0.0) }
     }
 
-    /// Makes the motions of a site with this mean magnitude of its disaggregation: of SA(1.0 s) where PGV /
-    /// PGA is by this curve, else of PGA; of PGV there is none.
+    /// `mean` is the mean magnitude of the disaggregation: of SA(1.0 s) where PGV / PGA is by this curve,
+    /// else of PGA; of PGV there is none.
     pub fn at_site(peak: Peak, velocity: PgvPgaRatio, mean: Option<f64>) -> Motions {
         let mean = mean.filter(|_| peak == Peak::Pga);
         let motions = Motions::new(peak, velocity, mean);
@@ -52,7 +52,7 @@ impl Motions {
         Motions { unknown, above: Some(above), ..motions }
     }
 
-    /// Makes an object ready for these motions, with `ln` added to ln(PGV / PGA).
+    /// `ln` is added to ln(PGV / PGA).
     pub fn given<'a>(&self, directions: &'a [Direction], ln: f64) -> GivenPeak<'a> {
         self.with_mean(directions, self.mean, ln)
     }
@@ -62,7 +62,7 @@ impl Motions {
         GivenPeak::new(directions, self.peak, self.velocity.at(mean, ln), mw)
     }
 
-    /// Finds what follows with each unknown of the motions and of the object at its quantiles.
+    /// Results with each unknown of the motions and of the object at its quantiles.
     pub fn ends<T>(&self, subject: &Subject, result: impl Fn(&GivenPeak) -> T) -> Vec<Unknown<T>> {
         let directions = &subject.directions[..];
         let mut ends = Vec::new();

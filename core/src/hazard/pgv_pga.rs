@@ -1,5 +1,5 @@
-//! PGV / PGA of the motions of a site, and how well it is known: by the curves of both peaks, or by one and
-//! ground-motion models.
+//! PGV / PGA of the motions of a site, and its uncertainty: by the hazard curves of both peaks, or by one of
+//! them and ground-motion models.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -12,7 +12,6 @@ use crate::statistics::normal;
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
-/// Source of PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -41,29 +40,27 @@ pub enum VelocitySource {
 pub struct PgvPgaRatio {
     /// Given the peak of the hazard, at the magnitude [`MIDDLE`].
     ratio: RatioGiven,
-    /// By how much ln(PGV / PGA) rises with magnitude.
+    /// Rise of ln(PGV / PGA) with magnitude.
     per_magnitude: f64,
     /// Standard deviation of the level of ln(PGV / PGA).
     sd: f64,
-    /// Where it comes from.
     pub source: VelocitySource,
 }
 
-/// The magnitude that lines of generic sites are for.
+/// The magnitude at which the lines of generic sites hold.
 const MIDDLE: f64 = 6.3;
-/// The line of generic sites given a peak, ln(PGV / PGA) in s.
+/// ln(PGV / PGA), s, at generic sites: linear in ln of the given peak.
 struct LineOfSites {
-    /// Where it has its level: m/s2 or m/s.
+    /// The peak at which the line has this level, m/s2 or m/s.
     at: f64,
     level: f64,
-    /// Over ln of the peak.
     slope: f64,
-    /// Standard deviation about it.
+    /// Standard deviation about the line.
     sd: f64,
     per_magnitude: f64,
     /// Standard deviation of the level between sites of one magnitude.
     sd_of_level: f64,
-    /// Rise of the level with ln(Vs30 / 440 m/s), and its standard deviation where that is known.
+    /// Rise of the level with ln(Vs30 / 440 m/s), and standard deviation of the level where Vs30 is known.
     per_ln_vs30: f64,
     sd_at_vs30: f64,
 }
@@ -93,16 +90,15 @@ const BY_SPECTRUM: f64 = 0.090;
 const EXPONENT_OF_PGA: f64 = 0.36;
 const PER_MAGNITUDE_BY_SPECTRUM: f64 = 0.13;
 
-/// Rates a year between which two curves are matched, and at how many.
+/// Annual rates between which two curves are matched, and at how many.
 const LEAST_MATCHED: f64 = 1e-6;
 const MOST_MATCHED: f64 = 2e-2;
 const LEVELS: usize = 16;
 /// Widest panel of the quadrature, in ln PGA.
 const PANEL: f64 = 0.25;
-/// Root mean square of ln rate above which two curves do not belong together.
+/// Root mean square of ln rate above which two curves are not of one site.
 const LARGEST_REMAINDER: f64 = 0.4;
 
-/// Why two curves do not belong together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MatchError {
     #[error("the curves have no rates in common: {0:.1e} to {1:.1e} a year; expected three times as far")]
@@ -120,8 +116,7 @@ pub enum MatchError {
     Unlike(f64),
 }
 
-/// Returns the curve of PGV (m/s) at magnitude 6.3 for those of PGA and of the spectral acceleration at 1 s
-/// (m/s2).
+/// PGV (m/s) at magnitude 6.3 from accelerations in m/s2.
 pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCurve {
     sa_1s.map(|sa, rate| {
         BY_SPECTRUM * sa.powf(1.0 - EXPONENT_OF_PGA) * pga.intensity(rate).powf(EXPONENT_OF_PGA)
@@ -129,7 +124,7 @@ pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCur
 }
 
 impl PgvPgaRatio {
-    /// Makes a ratio (s) that is the same in all motions.
+    /// The same ratio (s) in all motions.
     pub fn given(ratio_s: f64) -> PgvPgaRatio {
         PgvPgaRatio {
             ratio: RatioGiven::line(ratio_s.ln(), 0.0, 0.0),
@@ -139,8 +134,7 @@ impl PgvPgaRatio {
         }
     }
 
-    /// Makes the ratio of the motions that a model stands for: those that it was fitted to, or sites in
-    /// general, of this Vs30 (m/s) if it is known.
+    /// The ratio of the motions that a model was fitted to, else of generic sites, of this Vs30 (m/s).
     pub fn by_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
         let line = match given {
             Peak::Pga => GIVEN_PGA,
@@ -161,8 +155,8 @@ impl PgvPgaRatio {
         }
     }
 
-    /// Finds PGV / PGA given PGA by which the curve of PGA (m/s2) has the rates of that of PGV (m/s): its
-    /// level and slope by least squares in ln rate.
+    /// PGV / PGA given PGA that reconciles the curves of PGA (m/s2) and PGV (m/s): its level and slope by
+    /// least squares in ln rate.
     ///
     /// # Errors
     /// If the curves cannot belong together.
@@ -203,24 +197,24 @@ impl PgvPgaRatio {
         Ok(PgvPgaRatio { ratio: line, per_magnitude, sd, source })
     }
 
-    /// Returns how well it is known, as ln of a factor.
+    /// The uncertainty of the level, as ln of a factor.
     pub fn unknown(&self) -> Unknown<f64> {
         Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
-    /// Returns PGV / PGA given the peak in earthquakes of a magnitude, times exp(`ln`).
+    /// PGV / PGA in earthquakes of a magnitude, times exp(`ln`).
     pub fn at(&self, mw: f64, ln: f64) -> RatioGiven {
         let intercept = self.ratio.intercept + (self.per_magnitude * (mw - MIDDLE) + ln);
         RatioGiven { intercept, ..self.ratio }
     }
 }
 
-/// Makes the line through a level at 0.4 g.
+/// The line through a level at 0.4 g.
 fn line_at_pga(level: f64, slope: f64) -> RatioGiven {
     RatioGiven::line(level - slope * GIVEN_PGA.at.ln(), slope, SCATTER)
 }
 
-/// Computes the annual rate at which a PGV (m/s) is exceeded, by a curve of PGA and PGV / PGA given PGA.
+/// The annual rate of exceedance of a PGV (m/s), by a curve of PGA and PGV / PGA given PGA.
 fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) -> f64 {
     let [rate] = pga.mean_annual_rates(&[], PANEL, |a| {
         [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)]
@@ -228,8 +222,7 @@ fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) ->
     rate
 }
 
-/// Minimises a sum of squares over two parameters by Gauss and Newton, and returns the root mean square at
-/// the minimum.
+/// Minimises by Gauss-Newton steps; with the root mean square of `off` at the minimum.
 fn least_squares_of_two(
     start: Vector2<f64>,
     off: impl Fn(&Vector2<f64>) -> DVector<f64>,
@@ -242,7 +235,7 @@ fn least_squares_of_two(
         let slopes = DMatrix::from_columns(&slopes);
         let Some(inverse) = slopes.tr_mul(&slopes).try_inverse() else { break };
         let step = inverse * slopes.tr_mul(&current);
-        // Far from the minimum, steps are held to what keeps PGV rising with PGA.
+        // Far from the minimum, steps are limited so that PGV rises with PGA.
         let held = step.map(|step| step.clamp(-0.5, 0.5));
         at = Vector2::new(at.x - held[0], (at.y - held[1]).max(-0.95));
         current = off(&at);

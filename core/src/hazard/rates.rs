@@ -1,5 +1,4 @@
-//! Annual rates of the limit states of a structure at a site: the hazard, of one peak or of pairs of peaks,
-//! times the probabilities of a model.
+//! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
 use super::curve::{HazardCurve, Node};
 use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
@@ -8,15 +7,13 @@ use crate::motion::Peaks;
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairOfPeaks {
-    /// Peaks that stand for the bin.
     pub peaks: Peaks,
-    /// Mean number of motions of the bin in a year: a rate of occurrence, not of exceedance.
+    /// A rate of occurrence of motions of the bin, not of exceedance.
     pub annual_rate: f64,
-    /// Moment magnitude of the earthquakes, if it is known.
     pub mw: Option<f64>,
 }
 
-/// Finds the annual rates at which the values of one peak are reached, from the smallest on.
+/// Annual rates of exceedance of the values of one peak, from the smallest on.
 pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> Vec<(f64, f64)> {
     let mut values: Vec<(f64, f64)> = bins.iter().map(|bin| (peak(bin), bin.annual_rate)).collect();
     values.sort_by(|(a, _), (b, _)| b.total_cmp(a));
@@ -26,7 +23,7 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
         *rate = sum;
     }
     values.reverse();
-    // Of equal values the first holds the rates of all.
+    // The first of equal values has the sum of their rates.
     values.dedup_by_key(|(value, _)| *value);
     values
 }
@@ -35,39 +32,39 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rate {
     pub value: f64,
-    /// The part of it above the last intensity of the curve, with the probability at that intensity.
+    /// The part above the last intensity of the curve, with the probability at that intensity.
     pub at_last: f64,
-    /// What would come on top if each stronger motion caused the event.
+    /// What is added if each stronger motion causes the event.
     pub beyond: f64,
 }
 
-/// Fraction of a rate that stronger motions than the last may add before it is no value.
+/// Fraction of a rate that motions beyond the last intensity may add while its value still counts.
 const NEGLIGIBLE: f64 = 0.1;
 
 impl Rate {
-    /// Returns whether stronger motions than the last may add too much.
+    /// Whether motions beyond the last intensity may add too much.
     pub(super) fn is_open(&self) -> bool {
         self.beyond > NEGLIGIBLE * self.value
     }
 
-    /// Returns it if no motion above the last intensity causes the event.
+    /// The rate if no motion above the last intensity causes the event.
     pub fn least(&self) -> f64 {
         self.value - self.at_last
     }
 
-    /// Returns it if each motion above the last intensity causes the event.
+    /// The rate if each motion above the last intensity causes the event.
     pub fn most(&self) -> f64 {
         self.value + self.beyond
     }
 }
 
-/// Integrates the probabilities given one peak over its hazard curve; none where the model has none.
+/// None where the model has no probability.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
     OverCurve::new(given_peak, curve, &[Level::Interval]).rates(0)
 }
 
-/// The probabilities of an object, at each level, at intensities that stand for all of a curve, and at its last
-/// one, which stands for those beyond.
+/// The probabilities of an object, at each level, at the nodes of a hazard curve and at its last intensity,
+/// which stands for all beyond.
 pub(super) struct OverCurve {
     within: Vec<(Node, Vec<LimitStates<Option<f64>>>)>,
     beyond: (Node, Vec<LimitStates<Option<f64>>>),
@@ -81,7 +78,6 @@ impl OverCurve {
         OverCurve { within: nodes.map(at).collect(), beyond: at(Node { intensity, annual_rate }) }
     }
 
-    /// Returns the annual rates at a level, by its number.
     pub fn rates(&self, level: usize) -> LimitStates<Option<Rate>> {
         let mut sums = LimitStates::all(Some(0.0));
         for (node, states) in self.within.iter().chain([&self.beyond]) {
@@ -95,11 +91,10 @@ impl OverCurve {
         })
     }
 
-    /// Finds the intensity above which half of the annual rate of overturning comes from; the last where there
-    /// is no rate.
+    /// The intensity above which half of the annual rate of overturning comes from; the last without a rate.
     pub fn median_intensity(&self) -> f64 {
         let half = self.rates(0).overturning.map_or(f64::INFINITY, |rate| 0.5 * rate.value);
-        // A part lies half below its node, half above.
+        // Half of the rate at a node lies below it, half above.
         let (mut before, mut below, mut last) = (0.0, 0.0, None);
         for (node, states) in &self.within {
             let part = states[0].overturning.unwrap_or(0.0) * node.annual_rate;
@@ -114,8 +109,7 @@ impl OverCurve {
     }
 }
 
-/// Sums the probabilities of an object in its directions at each level, times the rates, over bins of PGA and
-/// PGV.
+/// At each level, over bins of PGA and PGV.
 pub(super) fn rates_over_pairs(
     directions: &[Direction],
     mw: Option<f64>,

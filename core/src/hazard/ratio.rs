@@ -1,5 +1,4 @@
-//! How many times as often an object overturns after a change, with limits in which what is not known of both
-//! cancels.
+//! The rate of overturning after a change over that before, with limits in which shared errors cancel.
 
 use crate::fragility::Z_95;
 use crate::object::Part;
@@ -9,9 +8,7 @@ use strum::VariantArray;
 /// An annual rate, and the standard deviations of its logarithm by part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateByParts {
-    /// The rate, a year.
     pub rate: f64,
-    /// What is not known of it.
     pub sds: Vec<(Part, f64)>,
 }
 
@@ -21,9 +18,9 @@ impl RateByParts {
     }
 }
 
-/// Returns the rate after a change over the rate before, with 95 % limits. A part that is shared moves both
-/// rates alike: only the difference of what it does to either counts, sd^2 = (sd_after - sd_before)^2;
-/// another counts twice, sd_after^2 + sd_before^2.
+/// The rate after a change over the rate before, with 95 % limits. A shared part moves both rates alike, so
+/// that only the difference of its effects counts, sd^2 = (sd_after - sd_before)^2; another counts twice,
+/// sd_after^2 + sd_before^2.
 pub fn ratio_of_rates(
     before: &RateByParts,
     after: &RateByParts,

@@ -1,4 +1,4 @@
-//! Where a rate comes from: its shares by intensity.
+//! The shares of a rate by intensity.
 
 use super::site::{Hazard, Site};
 use crate::fragility::{Level, ReadyObject};
@@ -8,20 +8,19 @@ use crate::statistics::numerics::equal_ratios;
 /// Widest panel within a bin, in ln of the intensity.
 const PANEL: f64 = 0.1;
 
-/// Parts of the annual rate of overturning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateByIntensity {
     /// Edges of the bins, m/s2 or m/s.
     pub edges: Vec<f64>,
-    /// The annual rate within each bin.
+    /// Annual rate of overturning within each bin.
     pub rates: Vec<f64>,
-    /// The annual rate of motions above the last edge.
+    /// Annual rate of overturning by motions above the last edge.
     pub beyond: f64,
 }
 
 impl Site {
-    /// Parts the annual rate of overturning by the intensity of the hazard, of pairs of peaks by PGA, into
-    /// bins of equal ratio; 0 where the model has no probability.
+    /// Splits the annual rate of overturning by the intensity of the hazard, of pairs by PGA, into bins of
+    /// equal ratio; 0 where the model has no probability.
     pub fn rate_by_intensity(&self, subject: &Subject, bins: usize) -> RateByIntensity {
         match &self.hazard {
             Hazard::Curve(hazard) => {
@@ -53,13 +52,11 @@ impl Site {
 }
 
 impl RateByIntensity {
-    /// Begins with bins of equal ratio in which nothing happens.
     fn new(low: f64, high: f64, bins: usize) -> RateByIntensity {
         let edges = equal_ratios(low, high, bins).collect();
         RateByIntensity { edges, rates: vec![0.0; bins], beyond: 0.0 }
     }
 
-    /// Adds a rate at an intensity.
     fn add(&mut self, intensity: f64, rate: f64) {
         let above = self.edges.partition_point(|edge| *edge <= intensity).clamp(1, self.rates.len());
         self.rates[above - 1] += rate;

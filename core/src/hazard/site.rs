@@ -1,5 +1,4 @@
-//! Annual rates of a structure at a site: the hazard as it is given, what is not known of it, and what the
-//! ends of its curve leave open.
+//! Annual rates of an object at a site, with the uncertainty of the hazard and of the rate beyond its curve.
 
 use super::budget::Budget;
 use super::curve::HazardCurve;
@@ -14,32 +13,29 @@ use crate::statistics::Interval;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
-/// The hazard of a site.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hazard {
-    /// Annual rates at which one peak is exceeded.
+    /// Annual rates of exceedance of one peak.
     Curve(PeakHazard),
-    /// Annual rates at which pairs of peaks occur: bins in any order; those without motions may be left out.
+    /// Annual rates of occurrence of pairs of peaks: bins in any order; empty ones may be left out.
     Joint(Vec<PairOfPeaks>),
 }
 
-/// Annual rates at which a peak is exceeded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeakHazard {
-    /// The peak.
     pub peak: Peak,
-    /// Annual rates of exceedance, over m/s2 or m/s.
+    /// Over m/s2 or m/s.
     pub curve: HazardCurve,
     /// Whether a curve is the median of several, not their mean.
     pub is_median: bool,
-    /// The 16 and 84 % fractiles, if they are given.
+    /// The 16 and 84 % fractiles.
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it.
     pub velocity: Option<PgvPgaRatio>,
 }
 
 impl Hazard {
-    /// Makes the hazard of the curves of PGA and of the spectral acceleration at 1 s (m/s2), which tells PGV.
+    /// By curves of PGA and of the spectral acceleration at 1 s (m/s2), from which PGV is inferred.
     ///
     /// # Errors
     /// If they cannot be of one site.
@@ -50,7 +46,7 @@ impl Hazard {
         Ok(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
     }
 
-    /// Makes the hazard of a curve of one peak; PGV / PGA is that of generic sites.
+    /// PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
         Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None })
     }
@@ -68,52 +64,48 @@ pub fn strongest(peak: Peak) -> f64 {
     }
 }
 
-/// The hazard of a site, and how rates over it are computed.
+/// The hazard of a site, and what else is known of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
-    /// The hazard.
     pub hazard: Hazard,
     /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used
     /// with PGV alone. Where it is not known, the median is 6.35 and its standard deviation 0.6.
     pub mw: Option<f64>,
-    /// Vs30, m/s.
     pub vs30_m_s: Option<f64>,
     /// Whether to extrapolate a curve that ends too early.
     pub extrapolate: bool,
 }
 
-/// Annual rates of an object, with 95 % limits; nothing of one where the model has no probability. Where the
-/// hazard ends too early for a value there are limits alone: the lower one of what it is if no stronger motion
-/// than the last has the effect, and the upper one of what it is if each has.
+/// Annual rates of an object, with 95 % limits; empty where the model has no probability. Where the hazard
+/// ends too early for a value there are limits alone: the lower one if no motion beyond the curve has the
+/// effect, the upper one if each has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteRates {
     pub rocking: Interval<Option<f64>>,
     pub failure: Interval<Option<f64>>,
     pub overturning: Interval<Option<f64>>,
-    /// Standard deviations of ln of the rate of overturning, by source of uncertainty.
+    /// Standard deviations of ln of the rate of overturning, by source.
     pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub velocity: Option<VelocitySource>,
-    /// The share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    /// Share of the rate of overturning beyond the last point of an extrapolated curve.
     pub beyond: Option<f64>,
     /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
     pub motion: Peaks,
     pub warnings: Vec<Warning>,
 }
 
-/// Rates with all at its median, and with each unknown at its quantiles.
+/// Rates with all unknowns at their medians, and with each at its quantiles.
 struct Varied {
     rates: LimitStates<Option<Rate>>,
     ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
 }
 
 impl Site {
-    /// Makes a site of which only the hazard is known.
     pub fn new(hazard: Hazard) -> Site {
         Site { hazard, mw: None, vs30_m_s: None, extrapolate: false }
     }
 
-    /// Computes the annual rates of an object, with limits.
     pub fn rates(&self, subject: &Subject) -> SiteRates {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
@@ -133,7 +125,7 @@ impl Site {
         }
     }
 
-    /// Computes the annual rate of overturning alone; none where the hazard ends too early for it.
+    /// The value of [`Site::rates`] alone; none where the hazard ends too early for it.
     pub fn overturning(&self, subject: &Subject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
@@ -148,8 +140,7 @@ impl Site {
         Some(rates.overturning?.value)
     }
 
-    /// Integrates the probabilities at these levels, the estimate first, over a curve, which is extrapolated if
-    /// it ends too early and is to be.
+    /// At these levels, the estimate first. A curve that ends too early is extrapolated if `extrapolate`.
     pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak, levels: &[Level]) -> Integrated {
         let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, levels));
         let [_, (last, _)] = curve.ends();
@@ -164,7 +155,7 @@ impl Site {
         Integrated { curve, over, ends_early: false, beyond }
     }
 
-    /// Returns the motions of a curve of one peak, with all that is not given of them at its median.
+    /// What is not given of the motions is at its median.
     pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
         let by_model = || PgvPgaRatio::by_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(by_model);
@@ -201,19 +192,17 @@ impl Site {
     }
 }
 
-/// An object over a curve, as it is or extrapolated.
 pub(super) struct Integrated {
     pub curve: HazardCurve,
     pub over: OverCurve,
-    /// Whether it ends too early for the rate of overturning.
+    /// Whether the curve ends too early for the rate of overturning.
     pub ends_early: bool,
-    /// The share of that rate beyond the last point of a curve that is extrapolated.
+    /// Share of that rate beyond the last point of an extrapolated curve.
     pub beyond: Option<f64>,
 }
 
 impl Varied {
-    /// Joins rates at the [levels of all errors of the models](Level::with_errors) with those at the other
-    /// unknowns' quantiles.
+    /// `by_level` are the rates at [`Level::with_errors`], `ends` those at the quantiles of other unknowns.
     fn new(
         by_level: Vec<LimitStates<Option<Rate>>>,
         mut ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
@@ -222,7 +211,7 @@ impl Varied {
         Varied { rates: by_level[0], ends }
     }
 
-    /// Gives the rates their limits; `ends_early` where the hazard does so for values.
+    /// `ends_early`: where the hazard ends too early for values.
     fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
         let is_rocking_early = ends_early && self.rates.rocking.is_some_and(|rate| rate.is_open());
         SiteRates {
@@ -237,7 +226,6 @@ impl Varied {
         }
     }
 
-    /// Gives one rate its limits.
     fn limited(&self, state: LimitState, ends_early: bool) -> Interval<Option<f64>> {
         let Some((rate, rocking)) = self.rates.get(state).zip(self.rates.rocking) else {
             return Interval::default();
@@ -253,7 +241,7 @@ impl Varied {
         }
     }
 
-    /// Returns the standard deviations of ln of a rate.
+    /// Standard deviations of ln of a rate.
     fn budget(&self, state: LimitState, at: fn(&Rate) -> f64) -> Budget {
         Budget::new(&self.rates, &self.ends, |rates| rates.get(state).map(|rate| at(&rate).max(LEAST).ln()))
     }

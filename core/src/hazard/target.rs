@@ -1,4 +1,4 @@
-//! The base with which the rate of overturning of an object is a target: all else of the object the same.
+//! The base with which the rate of overturning of an object is a target, all other properties unchanged.
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
@@ -11,9 +11,9 @@ use crate::statistics::Interval;
 /// The base of an object, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Base {
-    /// Has this width.
+    /// Of this width.
     Width(f64),
-    /// Has no side below this.
+    /// With no side below this.
     Sides(f64),
 }
 
@@ -38,40 +38,40 @@ pub enum Base {
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Bases {
-    /// The rate is the target.
+    /// At which the rate is the target.
     pub by_estimate: Option<Base>,
-    /// The upper limit of the rate is.
+    /// At which the upper limit of the rate is the target.
     pub by_limit: Option<Base>,
     /// What ended the search where it found no base.
     pub end: Option<SearchEnd>,
 }
 
-/// What has no rate for wider bases.
+/// Where wider bases have no rate: outside the domain of the model, or beyond the end of the hazard curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<SearchEnd>)]
 pub enum SearchEnd {
-    /// The domain of the model.
     Model,
-    /// The hazard curve.
     Hazard,
 }
 
-/// Slendernesses of the structures that the surface knows, rad: eta of a wider solid block is below 0.7.
+/// Least and largest slenderness, rad: the domain of the surface begins at 0.04, and at eta 0.7, which is
+/// Housner's of a solid block at 0.46.
 pub const SLENDERNESSES: [f64; 2] = [0.04, 0.46];
-/// Accuracy of ln of a side, and of ln of a rate.
+/// Accuracy of ln of a side, and of ln of a rate: far within the limits of a rate.
 const ACCURACY: f64 = 1e-4;
 const RATE_ACCURACY: f64 = 5e-4;
-/// ln of a rate falls with ln of a side by more than this, by 5 or so: steps by it go a little too far.
+/// ln of a rate falls by about 5 per ln of a side. Steps by this smaller slope go a little too far, and so
+/// bracket the root.
 const FALL: f64 = 3.0;
-/// Annual rates count as no less.
+/// Smaller annual rates count as this one: their logarithm must be finite.
 const LEAST: f64 = 1e-12;
 
 impl Site {
-    /// Finds the bases with which the annual rate of overturning is a target, at the same height, rule of eta
-    /// and relative offset: of another width, else with both sides changed. `rate` is that of the object as
-    /// it is, `subject` joins an object with its models.
+    /// The bases with which the annual rate of overturning is a target, at the same height, rule of eta and
+    /// relative offset: of another width, else with both sides changed. `rate` is that of the present object,
+    /// `subject` joins an object with its models.
     pub fn bases(
         &self,
         object: &Object,
@@ -88,7 +88,7 @@ impl Site {
                 let search = Search { site: self, object, subject, base, target, least, most };
                 let estimate = search.ln_side(search.last_known(least, start), Site::overturning);
                 let limit = estimate.and_then(|ln_side| {
-                    // The limit is as far above the rate as it is now, or so.
+                    // The limit is about as far above the rate as for the present object.
                     let near = (ln_side + ln_margin / FALL).min(most);
                     search.ln_side(search.last_known(ln_side, near), upper_limit)
                 });
@@ -101,17 +101,15 @@ impl Site {
 }
 
 impl Base {
-    /// Returns the width, if that alone is meant.
     pub fn width(self) -> Option<f64> {
         if let Base::Width(width) = self { Some(width) } else { None }
     }
 
-    /// Returns the least of both sides, if both are meant.
     pub fn sides(self) -> Option<f64> {
         if let Base::Sides(side) = self { Some(side) } else { None }
     }
 
-    /// Puts it under an object.
+    /// The object on this base.
     fn under(self, object: &Object) -> Object {
         let shape = &object.shape;
         match self {
@@ -122,8 +120,8 @@ impl Base {
     }
 }
 
-/// Returns ln of the least side, of the side as it is, or nearest to that, and of the most; none of both
-/// sides without a depth.
+/// ln of the least side, of the present side or the nearest possible, and of the largest; none of both sides
+/// without a depth.
 fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
     let shape = &object.shape;
     let (width, height) = shape.width.zip(shape.height)?;
@@ -137,7 +135,7 @@ fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
     Some([least, side.ln().clamp(least, most), most])
 }
 
-/// A search over the width, or over the smaller side, in its logarithm: ln rate is almost straight in it.
+/// A search in ln of the width, or of the smaller side: ln rate is almost linear in it.
 struct Search<'a> {
     site: &'a Site,
     object: &'a Object,
@@ -148,7 +146,7 @@ struct Search<'a> {
     most: f64,
 }
 
-/// A rate at a site; none where the hazard ends too early for it.
+/// None where the hazard ends too early for a rate.
 type Rate = fn(&Site, &Subject) -> Option<f64>;
 
 fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
@@ -157,7 +155,7 @@ fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
 }
 
 impl Search<'_> {
-    /// Computes ln of a rate over the target.
+    /// ln of a rate over the target.
     fn excess(&self, ln_side: f64, rate: Rate) -> Result<f64, SearchEnd> {
         let resized = (self.base)(ln_side.exp()).under(self.object);
         let subject = (self.subject)(&resized).ok_or(SearchEnd::Model)?;
@@ -165,8 +163,8 @@ impl Search<'_> {
         Ok((rate.max(LEAST) / self.target).ln())
     }
 
-    /// Finds ln of the first side, outwards from one, at which the rate is the target, by steps, and between
-    /// the last two by Brent's method; the least side if the rate is below the target even there.
+    /// ln of the first side, outwards from `start`, at which the rate is the target: by steps, and between
+    /// the last two by Brent's method. The least side if the rate is below the target even there.
     fn ln_side(&self, start: f64, rate: Rate) -> Result<f64, SearchEnd> {
         let (mut side, mut off) = (start, self.excess(start, rate)?);
         let (mut edge, mut end) = (if off > 0.0 { self.most } else { self.least }, SearchEnd::Model);
@@ -189,8 +187,8 @@ impl Search<'_> {
         Ok(side)
     }
 
-    /// Finds the last side with a rate on the way from one that has a rate: a wide base may rock only where
-    /// the hazard curve has ended.
+    /// The last side with a rate on the way from `side`, which has one, to `beyond`: a wide base may rock
+    /// only beyond the end of the hazard curve.
     fn last_known(&self, mut side: f64, mut beyond: f64) -> f64 {
         if self.excess(beyond, Site::overturning).is_ok() {
             return beyond;

@@ -1,4 +1,4 @@
-//! What would change how likely an object is to overturn, one thing at a time.
+//! Changes of an object that change its probability of overturning, one at a time.
 
 use super::given::{Object, Restitution};
 use super::subject::{Part, Unknown};
@@ -6,12 +6,9 @@ use crate::fragility::Z_95;
 use crate::motion::Floor;
 use crate::number;
 
-/// An object with one thing changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Changed {
-    /// What is changed, in a few words.
     pub words: String,
-    /// The object then.
     pub object: Object,
 }
 
@@ -23,9 +20,8 @@ const LOWER: f64 = 0.25;
 const UPSTAIRS: Floor = Floor { period_s: 0.5, level: 0.6 };
 
 impl Object {
-    /// Lists what would change an answer: a base that is wider on all sides, a lower centre of mass, the
-    /// ground floor or another one, a coefficient of restitution that is measured, at its 16 and 84 %
-    /// quantiles.
+    /// Changes one at a time: a base wider on all sides, a lower centre of mass, the ground floor or another
+    /// one, a measured coefficient of restitution at its 16 and 84 % quantiles.
     pub fn changes(&self) -> Vec<Changed> {
         let mut all = Vec::new();
         if let (Some(width), Some(height), None) =
@@ -64,7 +60,7 @@ impl Object {
         Changed { words: words.to_string(), object }
     }
 
-    /// With eta known: a standard deviation below and above its median, where it is not.
+    /// With eta known: one standard deviation below and above its median.
     fn measured(&self) -> Vec<Changed> {
         let Ok(sides) = self.sides() else { return Vec::new() };
         let Some(Unknown { low, high, .. }) =

@@ -15,9 +15,7 @@ use crate::units::Quantity;
 pub enum Field {
     /// Width of the base of a block, body or column.
     Width,
-    /// Depth of the base.
     Depth,
-    /// Height of the block, body or column.
     Height,
     /// Height of the centre of mass above the base.
     CentreHeight,
@@ -31,7 +29,6 @@ pub enum Field {
     P,
     /// Slenderness, rad.
     Alpha,
-    /// Coefficient of restitution.
     Eta,
     /// First period of the building, s.
     Period,
@@ -39,13 +36,9 @@ pub enum Field {
     Level,
     /// Standard deviation of ln(period).
     PeriodSd,
-    /// Coefficient of friction.
     Friction,
-    /// Standard deviation of eta.
     EtaSd,
-    /// Standard deviation of the height of the centre of mass.
     CentreHeightSd,
-    /// Standard deviation of the offset of the centre of mass.
     CentreOffsetSd,
 }
 
@@ -54,7 +47,7 @@ const HEIGHT: &str = "a height above 0 m, up to 100 m: is it in cm or mm?";
 const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
 
 impl Field {
-    /// Returns the least and the largest value that an object can have, and what is expected. No rocking
+    /// The least and the largest value that an object can have, and what is expected. No rocking
     /// structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
     /// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
@@ -81,7 +74,7 @@ impl Field {
         }
     }
 
-    /// Returns the quantity that it has a unit of; none where it has no unit, or none that a list may change.
+    /// None where it has no unit, or none that a list may change.
     pub fn quantity(self) -> Option<Quantity> {
         match self {
             Field::P => Some(Quantity::AngularFrequency),
@@ -95,10 +88,8 @@ impl Field {
         }
     }
 
-    /// Reads a number that an object can have.
-    ///
     /// # Errors
-    /// With what is expected.
+    /// With what is expected, if no object can have this value.
     pub fn parse_value(self, text: &str) -> Result<f64, String> {
         let (range, expected) = self.range();
         match text.parse::<f64>() {

@@ -1,4 +1,4 @@
-//! An object as it is given: its shape, the place where it stands, and how well both are known.
+//! An object as given: its shape, its place, and the uncertainty of both.
 
 use std::collections::{BTreeMap, HashSet};
 use std::str::FromStr;
@@ -11,8 +11,7 @@ use crate::motion::Floor;
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
-/// Dimensions of a block, body or frame, or p, alpha and eta; what is not given is none. The fields are
-/// those of [`Field`].
+/// Dimensions of a block, body or frame, or p, alpha and eta: see [`Field`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Shape {
@@ -28,7 +27,7 @@ pub struct Shape {
     pub eta: Option<Restitution>,
 }
 
-/// Where an object stands, and how well it is known.
+/// Where an object stands, and the uncertainty of its properties: see [`Field`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Place {
@@ -41,16 +40,14 @@ pub struct Place {
     pub centre_offset_sd: Option<f64>,
 }
 
-/// A coefficient of restitution as it is given.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Restitution {
     /// Housner's, 1 - 1.5 sin^2(alpha).
     Housner,
-    /// A number.
     #[serde(untagged)]
     Number(f64),
-    /// The number of a fitted structure: its fits do not say how it was found.
+    /// Of a fitted structure, whose fits do not say how it was found.
     #[serde(untagged)]
     Fitted(f64),
 }
@@ -70,10 +67,10 @@ impl FromStr for Restitution {
 /// Why there is no answer for an object.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Reason {
-    /// What is given cannot be right.
+    /// Values that cannot be right.
     #[error("{0}")]
     Implausible(String),
-    /// What is given does not rock: it slides, rolls or is held.
+    /// An object that slides, rolls or is held.
     #[error("{0}")]
     NotRocking(String),
 }
@@ -87,17 +84,14 @@ impl From<StructureError> for Reason {
 /// An object: what is known of it, or why there is no answer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Object {
-    /// Name in tables.
     pub name: String,
     /// Number of such objects.
     pub count: Option<u32>,
-    /// Its shape.
     #[serde(flatten)]
     pub shape: Shape,
-    /// Where it stands.
     #[serde(flatten)]
     pub place: Place,
-    /// Its floor as its list has it: `floor 3 of 5`.
+    /// As the list of the object has it: `floor 3 of 5`.
     #[serde(skip)]
     pub floor: Option<String>,
     /// Why there is no answer, whatever its shape.
@@ -132,17 +126,15 @@ impl FromStr for Object {
     }
 }
 
-/// The largest number of objects of one kind.
 pub const MOST_OBJECTS: u32 = 1_000_000;
 
 impl Object {
-    /// Makes a solid block of this width and height (m), on the ground.
+    /// A solid block on the ground.
     pub fn block(name: &str, width_m: f64, height_m: f64) -> Object {
         let shape = Shape { width: Some(width_m), height: Some(height_m), ..Shape::default() };
         Object { name: name.to_string(), shape, ..Object::default() }
     }
 
-    /// Makes an object of which the parameters are known.
     pub fn with_parameters(structure: Structure, eta: fn(f64) -> Restitution) -> Object {
         let Structure { name, p_rad_s, alpha_rad, eta: value } = structure;
         let shape =
@@ -150,7 +142,7 @@ impl Object {
         Object { name, shape, ..Object::default() }
     }
 
-    /// Reads one of the [fields](Field), the number of such objects (`count`) or their `name`.
+    /// Sets a [`Field`], the `count` of such objects or their `name`.
     ///
     /// # Errors
     /// If there is no such field, or an object cannot have this value.
@@ -175,7 +167,7 @@ impl Object {
         Ok(())
     }
 
-    /// Returns the number of a field, to change it; none of eta, which may be a word.
+    /// None of eta, which may be a word.
     fn number_mut(&mut self, field: Field) -> Option<&mut Option<f64>> {
         let (shape, place) = (&mut self.shape, &mut self.place);
         Some(match field {
@@ -199,13 +191,12 @@ impl Object {
         })
     }
 
-    /// Puts it in a place, where it does not say itself where it stands.
+    /// Fills in what the object does not say of where it stands.
     pub fn at(self, place: &Place) -> Object {
         Object { place: self.place.or(place), ..self }
     }
 
-    /// Gives it a base of another width and depth (m): the offset goes with the width, and the inertia as
-    /// that of a solid block.
+    /// On another base (m): the offset scales with the width, the inertia changes as that of a solid block.
     pub fn resized(&self, width_m: f64, depth_m: Option<f64>) -> Object {
         let shape = &self.shape;
         let width = shape.width.unwrap_or(width_m);
@@ -222,7 +213,6 @@ impl Object {
 }
 
 impl Shape {
-    /// Returns what it is, in words.
     pub fn kind(&self) -> &'static str {
         let is_solid = self.centre_height.is_none_or(|centre| Some(2.0 * centre) == self.height)
             && self.centre_offset.is_none_or(|offset| offset == 0.0)
@@ -235,7 +225,7 @@ impl Shape {
         }
     }
 
-    /// Returns the coefficient of restitution if it is given as a number.
+    /// None of Housner's, and of that of a fitted structure.
     pub(super) fn given_eta(&self) -> Option<f64> {
         match self.eta {
             Some(Restitution::Number(eta)) => Some(eta),
@@ -257,7 +247,7 @@ impl Place {
         }
     }
 
-    /// Returns the floor; none on the ground.
+    /// None on the ground.
     ///
     /// # Errors
     /// If only one of level and period is given.

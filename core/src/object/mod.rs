@@ -2,11 +2,11 @@
 //! each.
 //!
 //! ```text
-//! changes    what would change how likely an object is to overturn
+//! changes    changes of an object that change its probability of overturning
 //! field      the numbers that may be known, with the ranges in which they are possible
-//! given      an object as it is given: dimensions, or p, alpha and eta; ground or floor
-//! sides      the structures that it rocks like, and how well these are known
-//! subject    its directions with the models that predict for them, and its unknowns
+//! given      an object as given: dimensions, or p, alpha and eta; ground or floor
+//! sides      its rocking structures, and their uncertainty
+//! subject    its directions with their models, and its unknowns
 //! ```
 
 mod changes;

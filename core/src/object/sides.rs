@@ -1,4 +1,4 @@
-//! The structures that an object rocks like: its parameters, a frame, or the sides of a body.
+//! The rocking structures of an object: by its parameters, as a frame, or for the sides of a body.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -11,9 +11,8 @@ use crate::statistics::{Interval, normal, numerics};
 /// A direction in which an object rocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Side {
-    /// The structure that it rocks like.
     pub structure: Structure,
-    /// What is not known of that: other structures.
+    /// Structures at the quantiles of each property that is not known.
     pub unknowns: Vec<Unknown<Structure>>,
 }
 
@@ -26,13 +25,13 @@ const LEAST_ETA: f64 = 0.01;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
 const FARTHEST: f64 = 0.98;
-/// Depth of an object over its height that no object has.
+/// No object is deeper than this times its height.
 const LONGEST: f64 = 20.0;
-/// Height of a centre of mass over that of the object that no object falls below.
+/// No object has its centre of mass below this share of its height.
 const LOWEST: f64 = 0.05;
 
 impl Object {
-    /// Finds the directions in which it rocks, the weaker first, without those in which it would slide.
+    /// The directions in which the object rocks, the weaker first, without those in which it would slide.
     ///
     /// # Errors
     /// Why there is none.
@@ -53,7 +52,6 @@ impl Object {
         }
     }
 
-    /// Returns whether it cannot be right as it is given.
     pub fn is_implausible(&self) -> bool {
         matches!(self.sides(), Err(Reason::Implausible(_)))
     }
@@ -87,7 +85,7 @@ impl Object {
         }
     }
 
-    /// Checks that dimensions can be right beside each other.
+    /// Refuses dimensions that contradict each other.
     fn check_dimensions(&self, width: f64, height: f64) -> Result<(), Reason> {
         let (shape, place) = (&self.shape, &self.place);
         let side = shape.depth.map_or(width, |depth| depth.min(width));
@@ -121,8 +119,7 @@ impl Object {
         Ok(())
     }
 
-    /// Makes the side of a structure of which nothing but eta is unknown: by its standard deviation if that
-    /// is given, of a computed one by tests.
+    /// Only eta is uncertain: by its standard deviation if that is given, by tests if eta is computed.
     fn side_like(&self, structure: Structure) -> Side {
         let off = Unknown { part: Part::Eta, low: -Z_95, high: Z_95 };
         let etas = match (self.place.eta_sd, self.shape.given_eta()) {
@@ -135,19 +132,18 @@ impl Object {
         Side { structure, unknowns: unknown.into_iter().collect() }
     }
 
-    /// Finds both directions of a body, or that of its width.
+    /// Both directions of a body, or that of its width.
     fn sides_of_body(&self, width: f64, height: f64) -> Result<Vec<Side>, Reason> {
         let mut sides = vec![self.side_of_body(width, height, self.shape.centre_offset.unwrap_or(0.0))];
         sides.extend(self.shape.depth.map(|depth| self.side_of_body(depth, height, 0.0)));
         if sides.iter().any(Result::is_ok) {
-            // A direction that is squat is no danger beside one that is not.
+            // A squat direction slides, and so is no danger beside one that rocks.
             sides.retain(Result::is_ok);
         }
         sides.into_iter().collect()
     }
 
-    /// Finds the direction of a side of the base; the inertia about the other axis differs by that of a
-    /// solid block.
+    /// The inertia about the other axis differs by that of a solid block.
     fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, Reason> {
         let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
         let solid = Body::solid(side, height);
@@ -173,7 +169,7 @@ impl Object {
             centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, offset.value)));
         let by_offset = centre_offset_sd.map(|_| [offset.low, offset.high].map(|offset| at(centre, offset)));
         for bodies in [by_height, by_offset].into_iter().flatten() {
-            // A body that is squat is no danger.
+            // A squat body slides, and so is no danger.
             let [low, high] = bodies
                 .map(|body| self.structure_of_body(body, height).unwrap_or_else(|_| found.structure.clone()));
             found.unknowns.push(Unknown { part: Part::Object, low, high });
@@ -181,7 +177,7 @@ impl Object {
         Ok(found)
     }
 
-    /// Makes the structure of a body; of a solid one by the formulas of a block.
+    /// A solid body by the formulas of a block.
     fn structure_of_body(&self, body: Body, height: f64) -> Result<Structure, StructureError> {
         let eta = self.shape.given_eta();
         match body == Body::solid(body.width_m, height) {
@@ -192,14 +188,13 @@ impl Object {
 }
 
 impl Side {
-    /// Returns the friction below which it slides, tan(alpha).
+    /// The structure slides below this friction.
     fn friction(&self) -> f64 {
         self.structure.alpha_rad.tan()
     }
 }
 
-/// Finds the median and the 2.5 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as
-/// bad.
+/// Median and 2.5 and 97.5 % quantiles of |x| of a normal x: an offset to either side is as bad.
 fn folded_quantiles(mean: f64, sd: f64) -> Interval {
     if sd == 0.0 {
         return Interval::exact(mean.abs());

@@ -1,5 +1,4 @@
-//! An object with the models that predict for it, and its uncertainty: changes that are made when
-//! they are asked for.
+//! An object with its models and its uncertainty, as changes that are applied on demand.
 
 use super::given::{Object, Reason};
 use crate::fragility::{Direction, Kind, Model, Z_95};
@@ -9,7 +8,7 @@ use crate::rocking::Structure;
 use crate::spelling::unknown_word;
 use crate::warning::Warning;
 
-/// What an error comes from.
+/// A source of uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -17,22 +16,19 @@ use crate::warning::Warning;
 pub enum Part {
     /// Parameters of the fragility model.
     Fit,
-    /// Magnitude of the earthquakes.
     Magnitude,
     /// Level of PGV / PGA.
     Velocity,
-    /// Coefficient of restitution.
     Eta,
     /// Centre of mass and inertia.
     Object,
     /// Building under the object.
     Floor,
-    /// The hazard itself, where its fractiles are given.
+    /// Fractiles of the hazard, where they are given.
     Hazard,
 }
 
 impl Part {
-    /// What is unknown, in words.
     pub fn words(self) -> &'static str {
         match self {
             Part::Fit => "the fragility",
@@ -64,16 +60,14 @@ impl Part {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Subject {
-    /// The directions in which it falls, the weaker first; one or more.
+    /// The weaker first; one or more.
     pub directions: Vec<Direction>,
-    /// What is not known of them.
     pub unknowns: Vec<Unknown>,
 }
 
-/// Something that is not known exactly: a number, a change of a subject, or what follows from either.
+/// A quantity that is uncertain, a change of a subject, or a result of either.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unknown<T = Change> {
-    /// What it is a part of.
     pub part: Part,
     /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
     pub low: T,
@@ -82,26 +76,23 @@ pub struct Unknown<T = Change> {
 }
 
 impl<T> Unknown<T> {
-    /// Finds what follows from either end.
     pub fn map<U>(&self, result: impl Fn(&T) -> U) -> Unknown<U> {
         Unknown { part: self.part, low: result(&self.low), high: result(&self.high) }
     }
 }
 
 impl<T: Clone> Unknown<T> {
-    /// Takes the results with the errors of models, which follow the first, each at both quantiles.
+    /// `results` are the estimate, then that with each error of the models at both quantiles.
     pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = Unknown<T>> {
         let ends = results[1..].chunks_exact(2);
         ends.map(|ends| Unknown { part: Part::Fit, low: ends[0].clone(), high: ends[1].clone() })
     }
 }
 
-/// A change of a subject.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Change {
     /// Other structures, one for each direction.
     Structures(Vec<Structure>),
-    /// Another floor.
     Floor(Floor),
 }
 
@@ -111,15 +102,14 @@ pub const SD_OF_PERIOD: f64 = 0.25;
 const LOW_ETA: f64 = 0.5;
 
 impl Subject {
-    /// Joins the [sides](Object::sides) of an object with the model of each on the ground, and puts it on
-    /// its floor.
+    /// Joins the [sides](Object::sides) of an object with the model of each, and puts these on its floor.
     ///
     /// # Errors
     /// Why there is no answer.
     pub fn new(object: &Object, models: Vec<Model>) -> Result<Subject, Reason> {
         let (sides, floor) = (object.sides()?, object.place.floor()?);
         let mut unknowns = Vec::new();
-        // The sides of an object have the same parts unknown.
+        // All sides of an object have the same unknown parts.
         for (number, Unknown { part, .. }) in sides[0].unknowns.iter().enumerate() {
             let all = sides.iter().map(|side| &side.unknowns[number]);
             let (low, high) = all.map(|unknown| (unknown.low.clone(), unknown.high.clone())).unzip();
@@ -146,8 +136,7 @@ impl Subject {
         Ok(Subject { directions, unknowns })
     }
 
-    /// Joins an object with the universal surface for a kind of motion, without fits of its own. Failure is
-    /// a demand |theta|max / alpha above `limit_state`, or overturning.
+    /// With the uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure.
     ///
     /// # Errors
     /// Why there is no answer.
@@ -157,7 +146,6 @@ impl Subject {
         Subject::new(object, models.collect())
     }
 
-    /// Makes the directions with a change.
     pub fn changed(&self, change: &Change) -> Vec<Direction> {
         let mut directions = self.directions.clone();
         match change {
@@ -177,18 +165,17 @@ impl Subject {
         directions
     }
 
-    /// Finds what follows with each unknown at its quantiles.
+    /// Results with each unknown at its quantiles.
     pub fn ends<T>(&self, result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
         let all = self.unknowns.iter();
         all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
     }
 
-    /// Warns of structures that are hardly possible.
     pub fn structure_warnings(&self) -> Vec<Warning> {
         self.directions.iter().flat_map(|direction| structure_warnings(&direction.structure)).collect()
     }
 
-    /// Warns of structures that are hardly possible, and of predictions under a motion.
+    /// Warnings about hardly possible structures, and about predictions under a motion.
     pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
         let mut warnings = self.structure_warnings();
         for Direction { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0) {
@@ -201,7 +188,6 @@ impl Subject {
     }
 }
 
-/// Warns of a structure that is hardly possible.
 pub fn structure_warnings(structure: &Structure) -> Vec<Warning> {
     let is_unlike = structure.p_rad_s < LEAST_P_RAD_S || structure.alpha_rad < LEAST_ALPHA_RAD;
     let size = is_unlike.then_some(Warning::ImplausibleSize);
