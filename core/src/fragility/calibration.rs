@@ -85,9 +85,7 @@ impl Calibration {
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
-}
 
-impl Calibration {
     /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.
     pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);

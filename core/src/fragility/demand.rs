@@ -236,9 +236,7 @@ impl DemandFit {
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
-}
 
-impl DemandFit {
     pub fn predictors(&self) -> Predictors {
         Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
     }

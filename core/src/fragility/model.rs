@@ -157,7 +157,10 @@ impl Model {
     }
 
     pub fn warnings(&self, structure: &Structure, measures: &IntensityMeasures) -> Vec<Warning> {
-        let on_floor = self.floor().map(|floor| on_floor::median_measures(floor, structure, measures));
+        let on_floor = self.floor().map(|floor| {
+            let median = floor.peaks(measures.peaks(structure));
+            IntensityMeasures::new(structure, median, None, None)
+        });
         let measures = on_floor.as_ref().unwrap_or(measures);
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {

@@ -1,8 +1,8 @@
 //! The motions of a floor given that of the ground: the distribution of its peaks, and the narrowness of its
 //! frequency band, which changes the probabilities.
 
+use crate::motion::Floor;
 use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
-use crate::motion::{Floor, IntensityMeasures};
 use crate::rocking::Structure;
 use crate::statistics::normal;
 
@@ -39,14 +39,6 @@ pub struct Uplift {
 pub(super) fn uplift_m_s2(structure: &Structure) -> Uplift {
     let uplift = structure.uplift_acceleration_m_s2();
     Uplift { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
-}
-
-pub(super) fn median_measures(
-    floor: Floor,
-    structure: &Structure,
-    ground: &IntensityMeasures,
-) -> IntensityMeasures {
-    IntensityMeasures::new(structure, floor.peaks(ground.peaks(structure)), None, None)
 }
 
 #[derive(Debug, Clone, Copy)]

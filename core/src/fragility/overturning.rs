@@ -155,9 +155,7 @@ impl CurveFit {
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
-}
 
-impl CurveFit {
     pub fn predictors(&self) -> Predictors {
         Predictors { im_x: self.im_x.clone(), im_y: self.im_y.clone() }
     }

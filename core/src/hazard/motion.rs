@@ -75,12 +75,15 @@ impl Motion {
                 let ends = subject.ends(|directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Interval])[0]
                 });
-                Known::new(|scenarios| ready.estimates(peaks, scenarios), ends)
+                let [many, one] = [Scenarios::Many, Scenarios::One].map(|over| ready.estimates(peaks, over));
+                Known { many, one, ends }
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
                 let ends = motions.ends(subject, |given| given.limit_states(intensity));
-                Known::new(|scenarios| given.estimates(intensity, scenarios), ends)
+                let [many, one] =
+                    [Scenarios::Many, Scenarios::One].map(|over| given.estimates(intensity, over));
+                Known { many, one, ends }
             }
         };
         let (_, failure) = known.limited(LimitState::Failure);
@@ -115,13 +118,6 @@ struct Known {
 }
 
 impl Known {
-    fn new(
-        estimates: impl Fn(Scenarios) -> LimitStates<Option<Interval>>,
-        ends: Vec<Unknown<LimitStates<Option<f64>>>>,
-    ) -> Known {
-        Known { many: estimates(Scenarios::Many), one: estimates(Scenarios::One), ends }
-    }
-
     /// The error budget of the logit, without tau; the probability with limits by all errors and tau.
     fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
         let (values, [many, one]) =

@@ -52,8 +52,8 @@ impl Hazard {
     }
 }
 
-/// The least annual rate whose logarithm the error budget takes: once in 1e12 years.
-const LEAST: f64 = 1e-12;
+/// The least annual rate whose logarithm is taken: once in 1e12 years.
+pub(super) const LEAST: f64 = 1e-12;
 
 /// PGA (m/s2) or PGV (m/s) beyond which nothing was ever recorded: a curve that reaches it cannot end too
 /// early.

@@ -3,7 +3,7 @@
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
-use super::site::Site;
+use super::site::{LEAST, Site};
 use crate::object::{Object, Subject};
 use crate::spelling::unknown_word;
 use crate::statistics::Interval;
@@ -65,8 +65,6 @@ const RATE_ACCURACY: f64 = 5e-4;
 /// ln of a rate falls by about 5 per ln of a side. Steps by this smaller slope go a little too far, and so
 /// bracket the root.
 const FALL: f64 = 3.0;
-/// Smaller annual rates count as this one: their logarithm must be finite.
-const LEAST: f64 = 1e-12;
 
 impl Site {
     /// The bases with which the annual rate of overturning is a target, at the same height, rule of eta and

@@ -1,6 +1,6 @@
 //! Changes of an object that change its probability of overturning, one at a time.
 
-use super::given::{Object, Restitution};
+use super::given::{Object, Place, Restitution};
 use super::subject::{Part, Unknown};
 use crate::fragility::Z_95;
 use crate::motion::Floor;
@@ -49,14 +49,14 @@ impl Object {
 
     fn moved(&self) -> Changed {
         let mut object = self.clone();
-        let is_upstairs = matches!(self.place.floor(), Ok(Some(_)));
-        let (period, level) =
-            if is_upstairs { (None, None) } else { (Some(UPSTAIRS.period_s), Some(UPSTAIRS.level)) };
-        (object.place.period, object.place.level) = (period, level);
-        if is_upstairs {
-            object.place.period_sd = None;
-        }
-        let words = if is_upstairs { "on the ground floor" } else { "on the third of five floors" };
+        let words = if matches!(self.place.floor(), Ok(Some(_))) {
+            object.place = Place { period: None, level: None, period_sd: None, ..self.place };
+            "on the ground floor"
+        } else {
+            let (period, level) = (Some(UPSTAIRS.period_s), Some(UPSTAIRS.level));
+            object.place = Place { period, level, ..self.place };
+            "on the third of five floors"
+        };
         Changed { words: words.to_string(), object }
     }
 
