@@ -136,7 +136,6 @@ pub fn incompleteness(acceleration: &[f64], dt_s: f64) -> Option<Implausibility>
     cut.map(|(share, part)| Implausibility::CutOff { share, part }).or(is_clipped.then_some(clipped))
 }
 
-/// Returns the index of the largest sample if it is a spike.
 fn spike(acceleration: &[f64], pga: f64) -> Option<usize> {
     let at = acceleration.iter().position(|a| a.abs() == pga)?;
     let mut neighbours =

@@ -9,7 +9,7 @@ use super::fit::{Fit, FitStatus, predict};
 use super::newton::{Maximum, Objective, maximise};
 use super::normal;
 
-/// A fit needs this many events, and this many cases without.
+/// A fit needs this many events, and this many cases without an event.
 const LEAST_EVENTS: usize = 5;
 /// With a larger standard error of z the likelihood has no maximum.
 const ENDLESS: f64 = 1e3;
@@ -95,8 +95,8 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
     Ok(ProbitFit { fit, log_likelihood: log_likelihood(&design.x, events, &at) })
 }
 
-/// Returns whether events and other cases do not overlap in z, or the standard error of some z is so large
-/// that the likelihood has no maximum.
+/// Whether events and other cases do not overlap in z, or the standard error of some z is so large that the
+/// likelihood has no maximum.
 fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance: &DMatrix<f64>) -> bool {
     let z = x * b;
     // Least and largest z of other cases, and of events.

@@ -68,7 +68,7 @@ pub fn maximise(objective: impl Fn(&DVector<f64>) -> Objective, start: DVector<f
             let converged = objective.value.is_finite();
             return Maximum { at, objective, converged };
         }
-        // Of a concave function a shorter step gains, where the whole step goes too far.
+        // Where the whole step goes too far, a shorter one gains, since the function is concave.
         let least = here.objective.value - ROUNDING * (1.0 + here.objective.value.abs());
         let mut next = objective(&(&here.at + &step));
         while (next.value.is_nan() || next.value < least) && step.norm() > 0.0 {

@@ -8,7 +8,7 @@ pub struct Range {
     pub high: f64,
 }
 
-/// A value beyond a bound by this share of it counts as within: bounds are printed with rounding errors.
+/// A value beyond a bound by this share of it counts as within, since bounds are rounded in print.
 const UNSEEN: f64 = 1e-5;
 
 impl Range {

@@ -126,7 +126,6 @@ fn strongest_wavelet(velocities: &[&[f64]], dt_s: f64) -> Option<(f64, i64)> {
     squares.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, strongest)| strongest)
 }
 
-/// Computes the samples per time step of the search.
 fn samples_in_step(dt_s: f64) -> usize {
     ((STEP_S / dt_s) as usize).max(1)
 }
