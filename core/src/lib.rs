@@ -61,7 +61,7 @@
 //!
 //! | module | holds | in the paper |
 //! |---|---|---|
-//! | [`motion`] | scenarios, synthetic motions, their measures | sections 2.1, 2.2.3, Eqs. 1 to 3, 9, 10, 13 |
+//! | [`motion`] | scenarios, motions, measures | sections 2.1 and 2.2.3, Eqs. 1 to 3, 9, 10 and 13 |
 //! | [`rocking`] | structures, records, the rocking response | section 2.2, Eqs. 4 to 7 |
 //! | [`fragility`] | P_ex and P_ro, their fits, the surface | sections 2.3 and 3, Eqs. 12, 14 to 24 |
 //! | [`object`] | what is known of an object, and what is not | |

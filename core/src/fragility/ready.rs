@@ -1,5 +1,10 @@
-//! An object ready for many motions: what does not depend on the motion is computed once, what depends on PGA
-//! alone once for all motions of that PGA.
+//! The probabilities of an object in three stages, since a rate needs them for thousands of pairs of peaks:
+//!
+//! 1. [`ReadyObject`], once: the surface at this structure, limit state and magnitude, a polynomial in x, w
+//!    and r, and the errors of its calibration.
+//! 2. [`ObjectAtPga`], for each PGA: the surface at this IM4, which leaves a cubic in ln(PGA / PGV).
+//! 3. For each PGV / PGA: the cubic and g, and one logistic function for each level. On a floor the second
+//!    stage is repeated here, for each of the seven nodes of its peaks.
 
 use super::calibration::{Branch, Predictor};
 use super::level::{Level, Scenarios};

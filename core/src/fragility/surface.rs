@@ -1,5 +1,5 @@
-//! The universal surface: P_ro and P_ex of any structure. data/universal.csv holds it; scripts/universal
-//! makes it.
+//! The universal surface: L and g of logit P = c + s L + m (M - 6.9) + g, P_ro or P_ex of any structure.
+//! data/universal.csv has its coefficients; scripts/universal fits them.
 
 use std::sync::LazyLock;
 
@@ -52,7 +52,7 @@ impl Kind {
 pub(super) struct Section {
     /// Coefficients of x^i w^j r^k: at `[i][j][k]`.
     coefficients: [[[f64; POWERS]; POWERS]; POWERS_OF_X],
-    /// ln IM4 - r - w.
+    /// 0.4 limit: ln IM4 - r - w.
     lower: f64,
     /// ln p of the structure, and within the domain.
     ln_p: f64,
@@ -202,7 +202,7 @@ pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_
         && limit.has(limit_state)
 }
 
-/// Normal distributions of c, ln s and m over structures under a kind of motion.
+/// Normal distributions of c, ln s and m over structures under a kind of motion: a row `calibration`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prior {
     pub mean: [f64; 3],
@@ -226,16 +226,17 @@ pub(super) fn peaks(kind: Kind) -> JointPeaks {
 /// The magnitude at which m has no effect.
 const REFERENCE_MAGNITUDE: f64 = 6.9;
 
-/// L is a polynomial in x = ln(ln IM4 + 0.2), w = ln IM4 - r - 0.4 l and r = ln(PGA / (p PGV)), whose
-/// coefficients are such in (eta - 0.85)/0.1, ln(p/2), l = ln(c/0.2) and ln(1.1 - c) of a limit state c, of
-/// P_ro 0. p, eta and c are held within the domain.
+/// L is a sum of rows `term,pro|pex,FUNCTION,recorded,csgm,pulse,hfc` of data/universal.csv: FUNCTION, a
+/// product such as `x*w^2`, times the coefficient for the kind of motion. The features are
+/// x = ln(ln IM4 + 0.2), finite at uplift; r = ln(PGA / (p PGV)); w = ln IM4 - r - 0.4 limit, of which
+/// ln IM4 - r is ln IM5; eta = (eta - 0.85)/0.1; p = ln(p/2); and, of a limit state c, limit = ln(c/0.2) and
+/// end = ln(1.1 - c), 0 for P_ro. IM4, PGA / PGV, p, eta and c are held within rows `domain,NAME,LOW,HIGH`.
 const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
 /// Powers of w and of r, from 0 to the third of both together; powers of x.
 const POWERS: usize = 4;
 const POWERS_OF_X: usize = 3;
 
-/// Returns, of a limit state c held within the domain, ln(c/0.2), and ln(1.1 - c), which falls steeply where
-/// nothing is left below overturning; 0 of P_ro.
+/// The features `limit` and `end`, which falls steeply near overturning.
 fn limits(limit_state: Option<f64>) -> [f64; 2] {
     limit_state.map_or([0.0; 2], |limit_state| {
         let held = SURFACE.domain.limit.held(limit_state);
@@ -276,7 +277,7 @@ struct Curve {
     prior: Prior,
 }
 
-/// The magnitude of motions, normal about intercept + slope ln(PGV / PGA), s, and the range of the data.
+/// A row `magnitude`: M is normal about intercept + slope ln(PGV / PGA), s, within the range of the data.
 #[derive(Clone, Copy)]
 struct ExpectedMagnitude {
     intercept: f64,
@@ -285,7 +286,7 @@ struct ExpectedMagnitude {
     range: Range,
 }
 
-/// The parameters of g = -(d / ((IM4 - 1) IM5^k))^n.
+/// The parameters of g = -(d / ((IM4 - 1) IM5^k))^n: a row `uplift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Rise {
     n: f64,
