@@ -76,7 +76,8 @@ pub fn counted_rate(
     Some(CountedRate { annual_rate: Interval { low, high, ..poisson }, motions: motions.len() })
 }
 
-/// In order of intensity; `times` is how often a cluster was drawn. A motion's bin is by its middle weight.
+/// In order of intensity; `times` is how often a cluster was drawn. The middle of its weight decides the bin
+/// of a motion.
 fn bins(curve: &HazardCurve, least: f64, motions: &[CountedMotion], times: impl Fn(u32) -> f64) -> Vec<Bin> {
     let number = (motions.len() / LEAST_IN_BIN).clamp(1, MOST_BINS);
     let all: f64 = motions.iter().map(|motion| times(motion.cluster)).sum();
