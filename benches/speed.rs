@@ -4,12 +4,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use rockfrag_core::motion::{Design, Grid, MeasurePlan, MotionModel, Scenario, Suite, Synthesizer};
+use rockfrag_core::motion::{Design, MeasurePlan, MotionModel, Scenario, ScenarioGrid, Suite, Synthesizer};
 use rockfrag_core::rocking::{Problem, Record, Structure, reference, simulate_all};
 
 /// Combined motions of some samples of each of the 35 cells.
 fn scenarios(samples: usize) -> Vec<Scenario> {
-    let grid = Grid {
+    let grid = ScenarioGrid {
         mw: vec![5.5, 6.0, 6.5, 7.0, 7.5],
         re_km: vec![5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0],
         samples,

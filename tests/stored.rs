@@ -7,7 +7,7 @@ use rockfrag::pipeline::paths::FitsFolder;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
 use rockfrag::table::rows::Row;
 use rockfrag_core::fragility::{
-    Calibration, Cases, Event, Kind, Measure, Model, Predictors, fit_curves, fit_demand,
+    Calibration, Cases, Event, Measure, Model, MotionKind, Predictors, fit_curves, fit_demand,
 };
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
@@ -84,7 +84,7 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     let folder = folder(&["csgm"]);
     let other = Structure::new("other", 1.0, 0.15, 0.92).unwrap();
     let (model, warnings) = args(&folder).read().unwrap().model(&other).unwrap();
-    assert_eq!((model, warnings), (Model::shipped(Kind::Csgm, &other, 0.1), vec![Warning::NotFitted]));
+    assert_eq!((model, warnings), (Model::shipped(MotionKind::Csgm, &other, 0.1), vec![Warning::NotFitted]));
     let named = ModelArgs { name: Some("equipment".to_string()), ..args(&folder) };
     let (Model::Calibrated { overturning, .. }, _) = named.read().unwrap().model(&other).unwrap() else {
         panic!()
@@ -94,20 +94,20 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     assert!(error(&unknown).contains("no structure 'shelf'; expected one of equipment"));
     let without = ModelArgs { fits: None, ..args(&folder) };
     let (model, warnings) = without.read().unwrap().model(&other).unwrap();
-    assert_eq!((model, warnings), (Model::shipped(Kind::Recorded, &other, 0.1), vec![]));
+    assert_eq!((model, warnings), (Model::shipped(MotionKind::Recorded, &other, 0.1), vec![]));
 }
 
 #[test]
 fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     let folder = folder(&["csgm", "pulse"]);
     assert!(error(&args(&folder)).ends_with("fits of csgm, pulse; expected --suite with one of them"));
-    let pulses = ModelArgs { suite: Some(Kind::Pulse), ..args(&folder) };
+    let pulses = ModelArgs { suite: Some(MotionKind::Pulse), ..args(&folder) };
     let (Model::Calibrated { overturning, .. }, _) = pulses.read().unwrap().model(&equipment()).unwrap()
     else {
         panic!()
     };
-    assert_eq!(overturning.kind, Kind::Pulse);
-    let recorded = ModelArgs { suite: Some(Kind::Recorded), ..pulses.clone() };
+    assert_eq!(overturning.kind, MotionKind::Pulse);
+    let recorded = ModelArgs { suite: Some(MotionKind::Recorded), ..pulses.clone() };
     assert!(error(&recorded).ends_with("no fits of recorded, only of csgm, pulse"));
     let limit = ModelArgs { limit_state: 0.3, ..pulses };
     assert!(error(&limit).ends_with("run fit-pex --limit-state 0.1,0.3"), "{}", error(&limit));

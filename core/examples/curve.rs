@@ -2,14 +2,14 @@
 
 use rockfrag_core::fragility::{Case, Cases, Cluster, Event, Measure, fit_curve};
 use rockfrag_core::motion::{
-    Design, Grid, IntensityMeasures, MeasurePlan, MotionModel, Peaks, Suite, Synthesizer,
+    Design, IntensityMeasures, MeasurePlan, MotionModel, Peaks, ScenarioGrid, Suite, Synthesizer,
 };
 use rockfrag_core::rocking::{Record, Structure, simulate};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cabinet = Structure::new("electrical-equipment", 2.5, 0.20, 0.92)?;
     let (mw, re_km) = (vec![5.5, 6.0, 6.5, 7.0, 7.5], vec![5.0, 10.0, 15.0, 20.0]);
-    let grid = Grid { mw, re_km, samples: 20, design: Design::Lhs, seed: 42 };
+    let grid = ScenarioGrid { mw, re_km, samples: 20, design: Design::Lhs, seed: 42 };
     let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
     let mut cases = Cases::new(Some("csgm"), cabinet.clone());
     for scenario in (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)) {

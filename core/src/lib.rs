@@ -16,13 +16,13 @@
 //! Without simulation, by the universal surface: a regression on the responses of many structures.
 //!
 //! ```
-//! use rockfrag_core::fragility::Kind;
+//! use rockfrag_core::fragility::MotionKind;
 //! use rockfrag_core::hazard::{Hazard, HazardCurve, Site, probability_in_years};
 //! use rockfrag_core::object::{Object, Subject};
 //!
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
-//! let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+//! let subject = Subject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
 //! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded.
 //! let pga = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 //! let sa_1s = HazardCurve::new(vec![(0.5, 2e-2), (4.0, 5e-4), (15.0, 8e-6), (32.0, 4e-7)])?;
@@ -36,7 +36,7 @@
 //!
 //! The limits account for the uncertainty of the model, magnitude, PGV, restitution, object and floor. An
 //! [`Object`](object::Object) can carry more detail: depth, floor, what was measured. A
-//! [`Motion`](hazard::Motion) in place of a site gives probabilities.
+//! [`GroundMotion`](hazard::GroundMotion) in place of a site gives probabilities.
 //!
 //! # The response to a record
 //!

@@ -25,7 +25,7 @@ use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
-use crate::table::motions::{self, Motion, Sampled, is_of_motion};
+use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
 use crate::table::responses::ResponseRow;
 use crate::table::{frame, rows};
 
@@ -94,7 +94,7 @@ struct Scanned {
 
 /// A structure under a motion.
 struct Case<'a> {
-    motion: &'a Motion,
+    motion: &'a MotionRow,
     measures: Measures,
     structure: &'a Structure,
     /// The measure of the unscaled motion.
@@ -132,7 +132,7 @@ impl Stage for Ida {
         let mut scanned = Vec::new();
         each(
             &context.bar(motions.rows()),
-            motions::parts(&motions, is_of_motion, (ANALYSES / self.steps).clamp(1, MOTIONS)),
+            motions::parts(&motions, is_motion_column, (ANALYSES / self.steps).clamp(1, MOTIONS)),
             |some| self.analyse(&scan, &structures, some),
             |some| {
                 stripes.append(&some.stripes)?;
@@ -176,7 +176,7 @@ impl Ida {
             let at_levels = responses
                 .iter()
                 .filter(|at| scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok());
-            let Motion { motion_id, suite, earthquake, mw, re_km, .. } = motion;
+            let MotionRow { motion_id, suite, earthquake, mw, re_km, .. } = motion;
             let capacity = CapacityRow {
                 motion_id: motion_id.clone(),
                 suite: suite.clone(),

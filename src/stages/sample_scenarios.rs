@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use rayon::prelude::*;
-use rockfrag_core::motion::{Design, Grid, Scenario};
+use rockfrag_core::motion::{Design, Scenario, ScenarioGrid};
 use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
@@ -65,7 +65,7 @@ impl Stage for SampleScenarios {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let SampleScenarios { samples, design, seed, .. } = *self;
         let (mw, re_km) = (self.mw.0.clone(), self.re.0.clone());
-        let grid = Grid { mw, re_km, samples, design, seed };
+        let grid = ScenarioGrid { mw, re_km, samples, design, seed };
         let all = grid.cells() * samples;
         let summary = format!("{} in {}\n", counted(all, "scenario"), counted(grid.cells(), "cell"));
         let mut unusual = Warnings::default();

@@ -19,7 +19,7 @@ use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
 use crate::table::file::{Partition, Table};
-use crate::table::motions::{self, Motion, Sampled, is_of_motion};
+use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
 use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
 
@@ -98,7 +98,7 @@ impl Stage for Simulate {
         let mut overturning = vec![Overturning::default(); plan.objects.len()];
         each(
             &context.bar(motions.rows()),
-            motions::parts(&motions, is_of_motion, CHUNK),
+            motions::parts(&motions, is_motion_column, CHUNK),
             |some| self.respond(some, &plan),
             |some| {
                 for (structure, motion) in some.overturned {
@@ -152,7 +152,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn structures(&self, motion: &Motion) -> impl Iterator<Item = &Structure> {
+    fn structures(&self, motion: &MotionRow) -> impl Iterator<Item = &Structure> {
         let is_second = self.second.contains(&motion.motion_id);
         self.objects
             .iter()
@@ -180,7 +180,7 @@ impl Simulate {
     /// Runs all structures on some motions, while these are at hand.
     fn respond(&self, some: Sampled, plan: &Plan) -> anyhow::Result<Responded> {
         let motions = some.motions;
-        let records = motions.iter().map(Motion::record).collect::<Result<Vec<_>, _>>()?;
+        let records = motions.iter().map(MotionRow::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);
         let problems = pairs.clone().flat_map(|(motion, &record)| {
             plan.structures(motion).map(move |structure| Problem { structure, record })
@@ -213,7 +213,7 @@ impl Simulate {
 }
 
 /// The response of a structure over time to a motion, and the motion.
-fn trace_rows(motion: &Motion, record: &Record, structure: &Structure) -> anyhow::Result<Vec<TraceRow>> {
+fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> anyhow::Result<Vec<TraceRow>> {
     let points = trace(structure, record, TRACE_TAIL_S).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));
     let diagonal_m = structure.block_diagonal_m();

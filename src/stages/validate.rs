@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use rockfrag_core::fragility::{Case, Cases, Event, Kind, Model, Scenarios};
+use rockfrag_core::fragility::{Case, Cases, Event, Model, MotionKind, Scenarios};
 use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
@@ -53,7 +53,7 @@ impl Stage for Validate {
         let (mut scores, mut bins) = (Vec::new(), Vec::new());
         for cases in &groups {
             // Without --suite the fits to the same kind of motion predict.
-            let kind = Kind::from_suite(cases.suite.as_deref());
+            let kind = MotionKind::from_suite(cases.suite.as_deref());
             models.args.suite = self.fits.suite.or(Some(kind));
             let (model, warnings) = models.model(&cases.structure)?;
             let warnings = warnings.into_iter().map(|warning| (warning, cases.structure.name.clone()));

@@ -1,6 +1,6 @@
 //! The outputs of evaluate: what is predicted for each object, and points of fragility curves.
 
-use rockfrag_core::fragility::{Direction, Kind, Peak};
+use rockfrag_core::fragility::{MotionKind, Peak, RockingDirection};
 use rockfrag_core::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
@@ -41,7 +41,7 @@ pub struct ObjectRow {
     pub friction: Option<f64>,
     pub model: Option<String>,
     /// Kind of motion that the model is for.
-    pub motions: Option<Kind>,
+    pub motions: Option<MotionKind>,
     pub limit_state: Option<f64>,
     /// Block, body or frame; empty if read from a file.
     #[serde(skip)]
@@ -56,7 +56,7 @@ pub struct ObjectRow {
 
 impl ObjectRow {
     /// Makes the row of an object and, if it has an answer, of the structure and model that predict for it.
-    pub fn new(object: &Object, by: Option<&Direction>, limit_state: f64) -> ObjectRow {
+    pub fn new(object: &Object, by: Option<&RockingDirection>, limit_state: f64) -> ObjectRow {
         let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
         let structure = by.map(|direction| &direction.structure);
         ObjectRow {

@@ -27,7 +27,7 @@ const LARGEST_PART: usize = 128;
 
 /// A motion, with the measures that the file has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Motion {
+pub struct MotionRow {
     pub motion_id: String,
     pub suite: Option<String>,
     pub earthquake: Option<String>,
@@ -47,7 +47,7 @@ pub struct Motion {
     pub row: usize,
 }
 
-impl Motion {
+impl MotionRow {
     pub fn record(&self) -> Result<Record<'_>, TableError> {
         Record::new(&self.acceleration_m_s2, self.dt_s).map_err(|problem| {
             let column = if matches!(problem, RecordError::TimeStep(_)) { "dt_s" } else { ACCELERATION };
@@ -65,7 +65,7 @@ impl Motion {
 /// Some motions, and the columns that were wanted but for the samples.
 pub struct Sampled {
     pub columns: Batch,
-    pub motions: Vec<Motion>,
+    pub motions: Vec<MotionRow>,
 }
 
 /// Some motions at a time of a part of a motions table, read when it is called.
@@ -81,9 +81,9 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableErr
     }
 }
 
-/// Returns whether a column is one of [`Motion`].
-pub fn is_of_motion(column: &str) -> bool {
-    rows::schema::<Motion>().index_of(column).is_ok()
+/// Returns whether a column is one of [`MotionRow`].
+pub fn is_motion_column(column: &str) -> bool {
+    rows::schema::<MotionRow>().index_of(column).is_ok()
 }
 
 /// Returns all motions of a table in parts, with the columns that are `wanted`, `at_once` motions at a time:
@@ -114,7 +114,7 @@ fn read(
         let samples = columns.lists(ACCELERATION)?;
         let place = columns.rows.schema().index_of(ACCELERATION);
         place.iter().for_each(|place| drop(columns.rows.remove_column(*place)));
-        let mut motions = rows::from_batch::<Motion>(&columns)?;
+        let mut motions = rows::from_batch::<MotionRow>(&columns)?;
         for ((row, motion), samples) in (columns.first_row..).zip(&mut motions).zip(samples) {
             motion.acceleration_m_s2 = samples;
             (motion.path, motion.row) = (columns.path.to_path_buf(), row);

@@ -10,7 +10,7 @@ use rockfrag::report::response::{self, Trace};
 use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list, object};
 use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
-use rockfrag::table::motions::Motion;
+use rockfrag::table::motions::MotionRow;
 use rockfrag::table::responses::TraceRow;
 use rockfrag_core::fragility::{
     Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
@@ -150,7 +150,7 @@ fn figures(count: usize) -> Vec<Figure> {
     let groups: Vec<&Cases> = all.iter().take(count).collect();
     let suites = [groups.clone()];
     let wave: Vec<f64> = (0..50 * count).map(|k| 2.0 * (0.02 * k.min(157) as f64).sin()).collect();
-    let record = |suite: &str| Motion {
+    let record = |suite: &str| MotionRow {
         motion_id: "1".to_string(),
         suite: Some(suite.to_string()),
         earthquake: None,

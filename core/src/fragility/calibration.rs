@@ -9,7 +9,7 @@ use super::cases::{Case, Cases, Event, Group};
 use super::level::{Level, Scenarios};
 use super::measure_names::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, AtIm4, Cut, Kind, Prior, Section};
+use super::surface::{self, AtIm4, Cut, MotionKind, Prior, Section};
 use super::tree::Z_95;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
@@ -22,7 +22,7 @@ use crate::warning::Warning;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     pub suite: Option<String>,
-    pub kind: Kind,
+    pub kind: MotionKind,
     pub structure: String,
     pub p_rad_s: f64,
     pub alpha_rad: f64,
@@ -87,7 +87,7 @@ impl Calibration {
     }
 
     /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.
-    pub fn shipped(kind: Kind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
+    pub fn shipped(kind: MotionKind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
         let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
         let peaks = surface::peaks(kind);
@@ -112,7 +112,7 @@ impl Calibration {
     /// Fits c, ln s and m to responses: the maximum of their posterior density, with the priors of the kind
     /// of motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
-        let kind = Kind::from_suite(cases.suite.as_deref());
+        let kind = MotionKind::from_suite(cases.suite.as_deref());
         let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
         let peaks = JointPeaks::fit(cases.all.iter().map(|case| case.peaks)).unwrap_or(surface::peaks(kind));
         Calibration {
@@ -126,7 +126,7 @@ impl Calibration {
     /// Fits c, ln s and m of P_ro to observed outcomes. Objects that the motion does not uplift do not count;
     /// p, alpha and eta are those of the first object.
     pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
-        let shipped = Calibration::shipped(Kind::Recorded, &outcomes.first()?.structure, None);
+        let shipped = Calibration::shipped(MotionKind::Recorded, &outcomes.first()?.structure, None);
         let observed = outcomes.iter().filter_map(|outcome| {
             let ObservedOutcome { structure, peaks, mw, earthquake: cluster, fell } = outcome.clone();
             let measures = IntensityMeasures::new(&structure, peaks, None, None);

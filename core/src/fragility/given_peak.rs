@@ -1,7 +1,7 @@
 //! Probabilities given one peak, PGA or PGV: averaged over PGV / PGA of the motions that have it.
 
 use super::level::{Level, Scenarios};
-use super::model::{Direction, Model};
+use super::model::{Model, RockingDirection};
 use super::on_floor::Uplift;
 use super::peaks::{Peak, RatioGiven};
 use super::ready::ReadyObject;
@@ -29,7 +29,7 @@ const SOUGHT_M_S: Range = Range { low: 1e-6, high: 1e3 };
 
 /// An object under motions of which one peak is given.
 pub struct GivenPeak<'a> {
-    pub directions: &'a [Direction],
+    pub directions: &'a [RockingDirection],
     ready: ReadyObject<'a>,
     pub peak: Peak,
     ratio: RatioGiven,
@@ -46,9 +46,14 @@ struct Bend {
 
 impl<'a> GivenPeak<'a> {
     /// `ratio` is the distribution of PGV / PGA; an unknown magnitude is inferred from PGV / PGA.
-    pub fn new(directions: &'a [Direction], peak: Peak, ratio: RatioGiven, mw: Option<f64>) -> GivenPeak<'a> {
+    pub fn new(
+        directions: &'a [RockingDirection],
+        peak: Peak,
+        ratio: RatioGiven,
+        mw: Option<f64>,
+    ) -> GivenPeak<'a> {
         let mut bends = Vec::new();
-        for Direction { structure, model } in directions {
+        for RockingDirection { structure, model } in directions {
             let ln_held_pga = surface::held_pga_m_s2(structure).ln();
             bends.extend(model.bends(mw).into_iter().map(|ln_seconds| Bend { ln_seconds, ln_held_pga }));
         }

@@ -5,7 +5,7 @@ use super::demand::DemandFit;
 use super::on_floor::{self, Uplift};
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
-use super::surface::{self, Kind};
+use super::surface::{self, MotionKind};
 use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures, Suite};
 use crate::number::{counted, name};
@@ -24,12 +24,12 @@ pub enum Model {
 
 /// A direction in which an object falls.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Direction {
+pub struct RockingDirection {
     pub structure: Structure,
     pub model: Model,
 }
 
-impl Direction {
+impl RockingDirection {
     pub fn uplift_m_s2(&self) -> Uplift {
         let uplift = self.structure.uplift_acceleration_m_s2();
         match self.model.floor() {
@@ -44,7 +44,7 @@ pub(super) const CONFIDENCE: f64 = 0.95;
 
 impl Model {
     /// The uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure, such as 0.10.
-    pub fn shipped(kind: Kind, structure: &Structure, limit_state: f64) -> Model {
+    pub fn shipped(kind: MotionKind, structure: &Structure, limit_state: f64) -> Model {
         Model::Calibrated {
             overturning: Calibration::shipped(kind, structure, None),
             exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
@@ -96,10 +96,10 @@ impl Model {
         }
     }
 
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> MotionKind {
         match self {
             Model::Calibrated { overturning, .. } => overturning.kind,
-            Model::Paper { overturning, .. } => Kind::from_suite(overturning.suite.as_deref()),
+            Model::Paper { overturning, .. } => MotionKind::from_suite(overturning.suite.as_deref()),
         }
     }
 

@@ -60,7 +60,7 @@ impl OnFloor {
     }
 
     /// For motions of the ground with this ln(PGV / PGA), s.
-    pub fn motions(&self, ln_seconds: f64) -> FloorMotions {
+    pub fn motions(&self, ln_seconds: f64) -> FloorMotionDistribution {
         let amplified = self.amplifier.at(ln_seconds);
         let nodes = NODES.map(|[x, y, weight]| {
             let along = CORRELATION * x + (1.0 - CORRELATION * CORRELATION).sqrt() * y;
@@ -68,18 +68,18 @@ impl OnFloor {
             let ln_pfv = amplified.ln_pfv + amplified.sd_ln_pfv * along;
             FloorMotion { pfa: ln_pfa.exp(), ln_pfa, ln_seconds: ln_seconds + ln_pfv - ln_pfa, weight }
         });
-        FloorMotions { nodes, amplified }
+        FloorMotionDistribution { nodes, amplified }
     }
 
     /// Added to the logits of P_ro and P_ex.
-    pub fn added(&self, motions: &FloorMotions) -> [f64; 2] {
+    pub fn added(&self, motions: &FloorMotionDistribution) -> [f64; 2] {
         self.narrow.map(|narrow| motions.amplified.resonant_share * narrow)
     }
 }
 
 /// The motions of a floor for one motion of the ground.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FloorMotions {
+pub(super) struct FloorMotionDistribution {
     pub nodes: [FloorMotion; NODES.len()],
     amplified: Amplified,
 }
@@ -95,7 +95,7 @@ pub(super) struct FloorMotion {
     pub weight: f64,
 }
 
-impl FloorMotions {
+impl FloorMotionDistribution {
     /// The probability that the floor uplifts a structure whose IM4 is by the PGA of the ground.
     pub fn p_rocking(&self, ln_im4: f64) -> f64 {
         let Amplified { ln_pfa, sd_ln_pfa, .. } = self.amplified;

@@ -8,8 +8,8 @@
 
 use super::calibration::{Branch, Predictor};
 use super::level::{Level, Scenarios};
-use super::model::{CONFIDENCE, Direction, Model, paper_probabilities};
-use super::on_floor::{FloorMotions, OnFloor};
+use super::model::{CONFIDENCE, Model, RockingDirection, paper_probabilities};
+use super::on_floor::{FloorMotionDistribution, OnFloor};
 use super::surface::{AtIm4, Cut};
 use super::tree::{GivenRocking, LimitStates, Probabilities, p_failure_given_rocking};
 use crate::motion::{IntensityMeasures, Peaks};
@@ -135,7 +135,7 @@ impl DirectionAtPga<'_> {
     fn join(
         &self,
         ln_seconds: f64,
-        motions: &mut Option<FloorMotions>,
+        motions: &mut Option<FloorMotionDistribution>,
         levels: &[Level],
         joined: &mut [LimitStates<Option<f64>>],
     ) {
@@ -203,7 +203,7 @@ impl DirectionAtPga<'_> {
 
 impl Level {
     /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
-    pub fn with_errors(directions: &[Direction]) -> Vec<Level> {
+    pub fn with_errors(directions: &[RockingDirection]) -> Vec<Level> {
         let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
         let errors =
             (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
@@ -218,9 +218,9 @@ pub(crate) struct ReadyObject<'a> {
 }
 
 impl<'a> ReadyObject<'a> {
-    pub fn new(directions: &'a [Direction], mw: Option<f64>) -> ReadyObject<'a> {
+    pub fn new(directions: &'a [RockingDirection], mw: Option<f64>) -> ReadyObject<'a> {
         let ready =
-            |direction: &'a Direction| ReadyDirection::new(&direction.structure, &direction.model, mw);
+            |direction: &'a RockingDirection| ReadyDirection::new(&direction.structure, &direction.model, mw);
         ReadyObject { directions: directions.iter().map(ready).collect(), mw }
     }
 

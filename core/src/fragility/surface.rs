@@ -14,8 +14,8 @@ use crate::statistics::Range;
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[derive(Default)]
 #[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Kind>)]
-pub enum Kind {
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<MotionKind>)]
+pub enum MotionKind {
     #[default]
     Recorded,
     /// Combined synthetic motions on rock: pulse and high frequencies.
@@ -26,23 +26,23 @@ pub enum Kind {
     Hfc,
 }
 
-impl Kind {
+impl MotionKind {
     /// By the word of a suite in tables, on the ground or a floor; recorded without a known word.
-    pub fn from_suite(suite: Option<&str>) -> Kind {
+    pub fn from_suite(suite: Option<&str>) -> MotionKind {
         match suite.and_then(|word| word.trim_end_matches(Suite::ON_FLOOR).parse().ok()) {
-            Some(Suite::Pulse) => Kind::Pulse,
-            Some(Suite::Csgm) => Kind::Csgm,
-            Some(Suite::Hfc) => Kind::Hfc,
-            Some(Suite::Record) | None => Kind::Recorded,
+            Some(Suite::Pulse) => MotionKind::Pulse,
+            Some(Suite::Csgm) => MotionKind::Csgm,
+            Some(Suite::Hfc) => MotionKind::Hfc,
+            Some(Suite::Record) | None => MotionKind::Recorded,
         }
     }
 
     pub fn words(self) -> &'static str {
         match self {
-            Kind::Recorded => "recorded motions",
-            Kind::Csgm => "synthetic near-fault motions on rock",
-            Kind::Pulse => "synthetic pulses alone",
-            Kind::Hfc => "synthetic motions without a pulse",
+            MotionKind::Recorded => "recorded motions",
+            MotionKind::Csgm => "synthetic near-fault motions on rock",
+            MotionKind::Pulse => "synthetic pulses alone",
+            MotionKind::Hfc => "synthetic motions without a pulse",
         }
     }
 }
@@ -68,7 +68,12 @@ pub(super) struct Section {
 
 impl Section {
     /// P_ex at a limit state, P_ro without one. An unknown magnitude is inferred from PGV / PGA.
-    pub fn new(kind: Kind, structure: &Structure, limit_state: Option<f64>, mw: Option<f64>) -> Section {
+    pub fn new(
+        kind: MotionKind,
+        structure: &Structure,
+        limit_state: Option<f64>,
+        mw: Option<f64>,
+    ) -> Section {
         let (domain, curve) = (&SURFACE.domain, SURFACE.curve(kind, limit_state));
         let [limit, end] = limits(limit_state);
         let p = domain.p.held(structure.p_rad_s);
@@ -182,7 +187,7 @@ pub(super) fn held_pga_m_s2(structure: &Structure) -> f64 {
 
 /// The values of ln(PGV / PGA), s, at which the surface bends: the ends of its domain and, where the
 /// magnitude is inferred, of the magnitudes of the data.
-pub(super) fn bends(kind: Kind, mw: Option<f64>) -> Vec<f64> {
+pub(super) fn bends(kind: MotionKind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
     let by_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
     let by_magnitude = [range.low, range.high].map(|mw| (mw - intercept) / slope);
@@ -213,13 +218,13 @@ pub(super) struct Prior {
     by_limit: f64,
 }
 
-pub(super) fn prior(kind: Kind, limit_state: Option<f64>) -> Prior {
+pub(super) fn prior(kind: MotionKind, limit_state: Option<f64>) -> Prior {
     let mut prior = SURFACE.curve(kind, limit_state).prior;
     prior.mean[0] += prior.by_limit * limits(limit_state)[1];
     prior
 }
 
-pub(super) fn peaks(kind: Kind) -> JointPeaks {
+pub(super) fn peaks(kind: MotionKind) -> JointPeaks {
     SURFACE.kinds[kind as usize].peaks
 }
 
@@ -249,7 +254,7 @@ struct Surface {
     domain: Domain,
     ln_ratio: Range,
     ln_im4: Range,
-    kinds: [KindOfMotion; 4],
+    kinds: [KindParameters; 4],
 }
 
 /// Ranges of the data: p (rad/s), eta and alpha (rad), limit states, PGA / PGV (1/s), IM4 and IM5.
@@ -263,7 +268,7 @@ struct Domain {
     im5: Range,
 }
 
-struct KindOfMotion {
+struct KindParameters {
     magnitude: ExpectedMagnitude,
     /// P_ro and P_ex.
     curves: [Curve; 2],
@@ -320,7 +325,7 @@ static SURFACE: LazyLock<Surface> =
 
 impl Surface {
     /// P_ex has a limit state, P_ro has none.
-    fn curve(&self, kind: Kind, limit_state: Option<f64>) -> &Curve {
+    fn curve(&self, kind: MotionKind, limit_state: Option<f64>) -> &Curve {
         &self.kinds[kind as usize].curves[usize::from(limit_state.is_some())]
     }
 
@@ -337,20 +342,20 @@ impl Surface {
             ln_ratio: ratio.ln(),
             ln_im4: im4.ln(),
             domain: Domain { p, eta, alpha, limit, ratio, im4, im5 },
-            kinds: [Kind::Recorded, Kind::Csgm, Kind::Pulse, Kind::Hfc]
-                .map(|kind| KindOfMotion::parse(&rows, kind)),
+            kinds: [MotionKind::Recorded, MotionKind::Csgm, MotionKind::Pulse, MotionKind::Hfc]
+                .map(|kind| KindParameters::parse(&rows, kind)),
         }
     }
 }
 
-impl KindOfMotion {
-    fn parse(rows: &[Vec<&str>], kind: Kind) -> KindOfMotion {
+impl KindParameters {
+    fn parse(rows: &[Vec<&str>], kind: MotionKind) -> KindParameters {
         let word: &str = kind.into();
         let [intercept, slope, sd, low, high] = numbers(rows, &["magnitude", word]);
         let [given_pga, given_pgv] = ["pga", "pgv"].map(|peak| {
             RatioGiven::from_numbers(&numbers::<6>(rows, &["peaks", word, peak])).expect("six numbers")
         });
-        KindOfMotion {
+        KindParameters {
             magnitude: ExpectedMagnitude { intercept, slope, sd, range: Range { low, high } },
             curves: ["pro", "pex"].map(|name| Curve::parse(rows, kind, name)),
             peaks: JointPeaks { given_pga, given_pgv },
@@ -359,7 +364,7 @@ impl KindOfMotion {
 }
 
 impl Curve {
-    fn parse(rows: &[Vec<&str>], kind: Kind, name: &str) -> Curve {
+    fn parse(rows: &[Vec<&str>], kind: MotionKind, name: &str) -> Curve {
         let [n, d, k] = numbers(rows, &["uplift", kind.into(), name]);
         let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
             numbers(rows, &["calibration", kind.into(), name]);

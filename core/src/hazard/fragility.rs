@@ -3,10 +3,10 @@
 
 use super::budget::Budget;
 use super::motion::logit;
-use super::motions::Motions;
+use super::motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
-use crate::fragility::{Direction, GivenPeak, Level, LimitState, LimitStates, Peak};
+use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak, RockingDirection};
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
 use crate::object::{Subject, Unknown};
@@ -16,11 +16,11 @@ use crate::statistics::{Interval, least_squares, normal};
 /// Motions of generic sites, of which one peak is given, and what narrows the other.
 ///
 /// ```
-/// use rockfrag_core::fragility::{Kind, Peak};
+/// use rockfrag_core::fragility::{MotionKind, Peak};
 /// use rockfrag_core::hazard::SitesInGeneral;
 /// use rockfrag_core::object::{Object, Subject};
 ///
-/// let cabinet = Subject::shipped(&Object::block("cabinet", 0.5, 2.0), Kind::Recorded, 0.10)?;
+/// let cabinet = Subject::shipped(&Object::block("cabinet", 0.5, 2.0), MotionKind::Recorded, 0.10)?;
 /// let sites = SitesInGeneral { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
 /// let fragility = sites.fragility(&cabinet);
 /// // The PGA at which half of the motions overturn it, m/s2; and how well a lognormal curve describes it.
@@ -96,13 +96,13 @@ impl SitesInGeneral {
         Fragility::new(&self.motions(&subject.directions), subject)
     }
 
-    pub fn given_peak<'a>(&self, directions: &'a [Direction]) -> GivenPeak<'a> {
+    pub fn given_peak<'a>(&self, directions: &'a [RockingDirection]) -> GivenPeak<'a> {
         self.motions(directions).given(directions, 0.0)
     }
 
-    fn motions(&self, directions: &[Direction]) -> Motions {
+    fn motions(&self, directions: &[RockingDirection]) -> ConditionalMotions {
         let by_model = || PgvPgaRatio::by_model(&directions[0].model, self.over, self.vs30_m_s);
-        Motions::new(self.over, self.ratio_s.map_or_else(by_model, PgvPgaRatio::given), self.mw)
+        ConditionalMotions::new(self.over, self.ratio_s.map_or_else(by_model, PgvPgaRatio::given), self.mw)
     }
 }
 
@@ -125,7 +125,7 @@ impl Fragility {
         Fragility { over, points, failure, overturning, errors: Budget::default(), motion: Peaks::default() }
     }
 
-    fn new(motions: &Motions, subject: &Subject) -> Fragility {
+    fn new(motions: &ConditionalMotions, subject: &Subject) -> Fragility {
         let middle = motions.given(&subject.directions, 0.0);
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);

@@ -32,7 +32,7 @@ pub use budget::Budget;
 pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
-pub use motion::{Motion, MotionProbabilities};
+pub use motion::{GroundMotion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
 pub use ratio::{RateByParts, ratio_of_rates};

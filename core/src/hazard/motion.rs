@@ -1,7 +1,7 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::motions::Motions;
+use super::motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
 use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
@@ -11,23 +11,23 @@ use crate::statistics::Interval;
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 ///
 /// ```
-/// use rockfrag_core::fragility::Kind;
-/// use rockfrag_core::hazard::Motion;
+/// use rockfrag_core::fragility::MotionKind;
+/// use rockfrag_core::hazard::GroundMotion;
 /// use rockfrag_core::object::{Object, Subject};
 ///
 /// // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
 /// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
 /// cabinet.shape.depth = Some(0.8);
 /// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
-/// let subject = Subject::shipped(&cabinet, Kind::Recorded, 0.10)?;
+/// let subject = Subject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
 /// // A motion of the ground of 0.3 g; its PGV is that of such motions.
-/// let motion = Motion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
+/// let motion = GroundMotion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
 /// let p = motion.probabilities(&subject).states.overturning.estimate().expect("it rocks, and has a PGV");
 /// assert!(p.low < p.value && p.value < p.high);
 /// # Ok::<(), rockfrag_core::object::Reason>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct GroundMotion {
     pub pga_m_s2: Option<f64>,
     pub pgv_m_s: Option<f64>,
     pub mw: Option<f64>,
@@ -42,7 +42,7 @@ pub struct MotionProbabilities {
     pub errors: Budget,
 }
 
-impl Motion {
+impl GroundMotion {
     /// A peak that is not known is the median.
     pub fn peaks(&self, model: &Model) -> Peaks {
         match self.given_peak(model) {
@@ -96,14 +96,14 @@ impl Motion {
     }
 
     /// The motions of the only peak that is given, and its value; none where both are given.
-    fn given_peak(&self, model: &Model) -> Option<(Motions, f64)> {
+    fn given_peak(&self, model: &Model) -> Option<(ConditionalMotions, f64)> {
         let (peak, intensity) = match (self.pga_m_s2, self.pgv_m_s) {
             (Some(_), Some(_)) => return None,
             (Some(pga), None) => (Peak::Pga, pga),
             (None, pgv) => (Peak::Pgv, pgv?),
         };
         let velocity = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
-        Some((Motions::new(peak, velocity, self.mw), intensity))
+        Some((ConditionalMotions::new(peak, velocity, self.mw), intensity))
     }
 }
 

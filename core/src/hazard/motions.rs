@@ -1,7 +1,7 @@
 //! Motions of which one peak is given: the other peak, the magnitude, and the uncertainty of both.
 
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
-use crate::fragility::{Direction, GivenPeak, Peak, Z_95};
+use crate::fragility::{GivenPeak, Peak, RockingDirection, Z_95};
 use crate::object::{Part, Subject, Unknown};
 
 /// Mean and standard deviation of the magnitude of the motions that overturn, at generic sites.
@@ -17,7 +17,7 @@ const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
 
 /// Motions of which one peak is given.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Motions {
+pub(super) struct ConditionalMotions {
     pub peak: Peak,
     pub velocity: PgvPgaRatio,
     /// Median of the mean magnitude by which PGV / PGA is estimated, and its uncertainty.
@@ -27,21 +27,21 @@ pub(super) struct Motions {
     above: Option<f64>,
 }
 
-impl Motions {
+impl ConditionalMotions {
     /// Motions of earthquakes of a magnitude or, without one, of those that matter at generic sites.
-    pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> Motions {
+    pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> ConditionalMotions {
         let (mean, sd) = mw.map_or((USUAL_MAGNITUDE, SD_OF_USUAL), |mw| (mw, 0.0));
         let unknown = Unknown { part: Part::Magnitude, low: mean - Z_95 * sd, high: mean + Z_95 * sd };
         // PGV / PGA by two curves, or of the model's motions, determines the magnitude.
         let is_told = !matches!(velocity.source, VelocitySource::Sites | VelocitySource::Given);
-        Motions { peak, velocity, mean, unknown, above: (mw.is_some() || !is_told).then_some(0.0) }
+        ConditionalMotions { peak, velocity, mean, unknown, above: (mw.is_some() || !is_told).then_some(0.0) }
     }
 
     /// `mean` is the mean magnitude of the disaggregation: of SA(1.0 s) where PGV / PGA is by this curve,
     /// else of PGA; of PGV there is none.
-    pub fn at_site(peak: Peak, velocity: PgvPgaRatio, mean: Option<f64>) -> Motions {
+    pub fn at_site(peak: Peak, velocity: PgvPgaRatio, mean: Option<f64>) -> ConditionalMotions {
         let mean = mean.filter(|_| peak == Peak::Pga);
-        let motions = Motions::new(peak, velocity, mean);
+        let motions = ConditionalMotions::new(peak, velocity, mean);
         let Some(mean) = mean else { return motions };
         let (above, sd) = match velocity.source {
             VelocitySource::Spectrum => (0.0, SD_OF_MEAN),
@@ -49,15 +49,15 @@ impl Motions {
             _ => (ABOVE_MEAN_OF_PGA, SD_ABOVE_MEAN_OF_PGA),
         };
         let unknown = Unknown { low: mean - Z_95 * sd, high: mean + Z_95 * sd, ..motions.unknown };
-        Motions { unknown, above: Some(above), ..motions }
+        ConditionalMotions { unknown, above: Some(above), ..motions }
     }
 
     /// `ln` is added to ln(PGV / PGA).
-    pub fn given<'a>(&self, directions: &'a [Direction], ln: f64) -> GivenPeak<'a> {
+    pub fn given<'a>(&self, directions: &'a [RockingDirection], ln: f64) -> GivenPeak<'a> {
         self.with_mean(directions, self.mean, ln)
     }
 
-    fn with_mean<'a>(&self, directions: &'a [Direction], mean: f64, ln: f64) -> GivenPeak<'a> {
+    fn with_mean<'a>(&self, directions: &'a [RockingDirection], mean: f64, ln: f64) -> GivenPeak<'a> {
         let mw = self.above.map(|above| mean + above);
         GivenPeak::new(directions, self.peak, self.velocity.at(mean, ln), mw)
     }

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::curve::HazardCurve;
-use crate::fragility::{Kind, Model, Peak, RatioGiven, Z_95};
+use crate::fragility::{Model, MotionKind, Peak, RatioGiven, Z_95};
 use crate::object::{Part, Unknown};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
@@ -141,7 +141,7 @@ impl PgvPgaRatio {
             Peak::Pgv => GIVEN_PGV,
         };
         let is_of_sites = matches!(model, Model::Calibrated { overturning, .. }
-            if overturning.n == 0 && overturning.kind == Kind::Recorded);
+            if overturning.n == 0 && overturning.kind == MotionKind::Recorded);
         if !is_of_sites {
             let (ratio, sd) = (model.peaks().given(given), line.sd_of_level);
             return PgvPgaRatio { ratio, per_magnitude: 0.0, sd, source: VelocitySource::Motions };

@@ -1,7 +1,7 @@
 //! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
 use super::curve::{HazardCurve, Node};
-use crate::fragility::{Direction, GivenPeak, Level, LimitStates, ReadyObject};
+use crate::fragility::{GivenPeak, Level, LimitStates, ReadyObject, RockingDirection};
 use crate::motion::Peaks;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
@@ -111,7 +111,7 @@ impl OverCurve {
 
 /// At each level, over bins of PGA and PGV.
 pub(super) fn rates_over_pairs(
-    directions: &[Direction],
+    directions: &[RockingDirection],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
     levels: &[Level],

@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::curve::HazardCurve;
-use super::motions::Motions;
+use super::motions::ConditionalMotions;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
 use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak};
@@ -156,10 +156,10 @@ impl Site {
     }
 
     /// What is not given of the motions is at its median.
-    pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> Motions {
+    pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> ConditionalMotions {
         let by_model = || PgvPgaRatio::by_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(by_model);
-        Motions::at_site(hazard.peak, velocity, self.mw)
+        ConditionalMotions::at_site(hazard.peak, velocity, self.mw)
     }
 
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {

@@ -20,13 +20,13 @@ pub enum Base {
 /// Bases that meet a target; none of an object without width and height.
 ///
 /// ```
-/// use rockfrag_core::fragility::{Kind, Peak};
+/// use rockfrag_core::fragility::{MotionKind, Peak};
 /// use rockfrag_core::hazard::{Base, Hazard, HazardCurve, Site};
 /// use rockfrag_core::object::{Object, Subject};
 ///
 /// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 /// let site = Site::new(Hazard::over(Peak::Pga, curve));
-/// let subject = |object: &Object| Subject::shipped(object, Kind::Recorded, 0.10).ok();
+/// let subject = |object: &Object| Subject::shipped(object, MotionKind::Recorded, 0.10).ok();
 /// let cabinet = Object::block("cabinet", 0.5, 1.9);
 /// let rate = site.rates(&subject(&cabinet).expect("it rocks")).overturning;
 /// // Once in 10,000 years.

@@ -24,13 +24,14 @@ const DIMENSIONS: usize = 4;
 /// The magnitude-distance grid and how its cells are sampled (section 2.1.1).
 ///
 /// ```
-/// use rockfrag_core::motion::{Design, Grid};
-/// let grid = Grid { mw: vec![6.0, 7.0], re_km: vec![10.0], samples: 5, design: Design::Lhs, seed: 42 };
+/// use rockfrag_core::motion::{Design, ScenarioGrid};
+/// let (mw, re_km) = (vec![6.0, 7.0], vec![10.0]);
+/// let grid = ScenarioGrid { mw, re_km, samples: 5, design: Design::Lhs, seed: 42 };
 /// let scenarios = grid.scenarios_of_cell(1);
 /// assert_eq!((grid.cells(), scenarios.len(), scenarios[0].mw), (2, 5, 7.0));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Grid {
+pub struct ScenarioGrid {
     pub mw: Vec<f64>,
     pub re_km: Vec<f64>,
     /// Scenarios in each cell.
@@ -39,7 +40,7 @@ pub struct Grid {
     pub seed: u64,
 }
 
-impl Grid {
+impl ScenarioGrid {
     pub fn cells(&self) -> usize {
         self.mw.len() * self.re_km.len()
     }
@@ -63,7 +64,7 @@ impl Grid {
 }
 
 pub struct Cell<'a> {
-    grid: &'a Grid,
+    grid: &'a ScenarioGrid,
     cell: usize,
     /// The stratum of each sample, for each parameter of a Latin hypercube.
     strata: Option<[Vec<u32>; DIMENSIONS]>,
@@ -71,7 +72,7 @@ pub struct Cell<'a> {
 
 impl Cell<'_> {
     pub fn scenario(&self, sample: usize) -> Scenario {
-        let Grid { mw, re_km, .. } = self.grid;
+        let ScenarioGrid { mw, re_km, .. } = self.grid;
         let (mw, re_km) = (mw[self.cell / re_km.len()], re_km[self.cell % re_km.len()]);
         Scenario {
             scenario_id: self.scenario_id(sample) as i64,

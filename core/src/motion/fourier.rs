@@ -8,7 +8,7 @@ pub use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 #[derive(Clone)]
-struct Planned {
+struct FftPlans {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
@@ -17,19 +17,22 @@ struct Planned {
 const KEPT: usize = 64;
 
 thread_local! {
-    static PLANNED: RefCell<HashMap<usize, Planned>> = RefCell::default();
+    static PLANNED: RefCell<HashMap<usize, FftPlans>> = RefCell::default();
 }
 
 /// Returns the transforms of a length. Each has its own planner: a shared planner reuses earlier plans, and
 /// the last digits would depend on the history of the thread.
-fn planned(samples: usize) -> Planned {
+fn planned(samples: usize) -> FftPlans {
     PLANNED.with_borrow_mut(|known| {
         if known.len() == KEPT && !known.contains_key(&samples) {
             known.clear();
         }
         let plan = || {
             let mut planner = RealFftPlanner::new();
-            Planned { forward: planner.plan_fft_forward(samples), inverse: planner.plan_fft_inverse(samples) }
+            FftPlans {
+                forward: planner.plan_fft_forward(samples),
+                inverse: planner.plan_fft_inverse(samples),
+            }
         };
         known.entry(samples).or_insert_with(plan).clone()
     })

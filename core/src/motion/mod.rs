@@ -29,7 +29,7 @@ pub mod stochastic;
 mod synthesis;
 
 pub use combine::{Difference, Epoch};
-pub use design::{Design, Grid};
+pub use design::{Design, ScenarioGrid};
 pub use floor::{Amplified, Floor};
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MotionMeasures};

@@ -14,7 +14,7 @@ pub struct Peaks {
 
 impl Peaks {
     /// Limits the peaks to the range of records, which the tails of ground-motion models exceed.
-    pub fn at_rim(self) -> Peaks {
+    pub fn clamp_to_recorded(self) -> Peaks {
         let pga_m_s2 = self.pga_m_s2.min(STRONGEST_PGA_G * G_M_S2);
         let pgv_m_s = self.pgv_m_s.min(STRONGEST_PGV_M_S);
         let is_possible = pga_m_s2 == 0.0 || PGV_PGA_S.contains(&(pgv_m_s / pga_m_s2));

@@ -1,7 +1,7 @@
 //! An object with its models and its uncertainty, as changes that are applied on demand.
 
 use super::given::{Object, Reason};
-use crate::fragility::{Direction, Kind, Model, Z_95};
+use crate::fragility::{Model, MotionKind, RockingDirection, Z_95};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
@@ -45,12 +45,12 @@ impl Part {
 /// An object in its directions, and its uncertainties.
 ///
 /// ```
-/// use rockfrag_core::fragility::Kind;
+/// use rockfrag_core::fragility::MotionKind;
 /// use rockfrag_core::object::{Object, Part, Subject};
 ///
 /// let mut rack = Object::block("rack", 0.6, 1.9);
 /// rack.shape.depth = Some(0.8);
-/// let subject = Subject::shipped(&rack, Kind::Recorded, 0.10)?;
+/// let subject = Subject::shipped(&rack, MotionKind::Recorded, 0.10)?;
 /// // It may fall over its width or over its depth; the loss at an impact is not known.
 /// assert_eq!(subject.directions.len(), 2);
 /// assert_eq!(subject.unknowns[0].part, Part::Eta);
@@ -61,7 +61,7 @@ impl Part {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Subject {
     /// The weaker first; one or more.
-    pub directions: Vec<Direction>,
+    pub directions: Vec<RockingDirection>,
     pub unknowns: Vec<Unknown>,
 }
 
@@ -126,12 +126,11 @@ impl Subject {
                 off.map(|off| Change::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })),
             );
         }
-        let directions = sides
-            .into_iter()
-            .zip(models)
-            .map(|(side, model)| Some(Direction { structure: side.structure, model: model.on(floor)? }));
+        let directions = sides.into_iter().zip(models).map(|(side, model)| {
+            Some(RockingDirection { structure: side.structure, model: model.on(floor)? })
+        });
         let problem = "period: the paper's model is that of the ground";
-        let directions: Option<Vec<Direction>> = directions.collect();
+        let directions: Option<Vec<RockingDirection>> = directions.collect();
         let directions = directions.ok_or_else(|| Reason::Implausible(problem.to_string()))?;
         Ok(Subject { directions, unknowns })
     }
@@ -140,13 +139,13 @@ impl Subject {
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn shipped(object: &Object, kind: Kind, limit_state: f64) -> Result<Subject, Reason> {
+    pub fn shipped(object: &Object, kind: MotionKind, limit_state: f64) -> Result<Subject, Reason> {
         let sides = object.sides()?;
         let models = sides.iter().map(|side| Model::shipped(kind, &side.structure, limit_state));
         Subject::new(object, models.collect())
     }
 
-    pub fn changed(&self, change: &Change) -> Vec<Direction> {
+    pub fn changed(&self, change: &Change) -> Vec<RockingDirection> {
         let mut directions = self.directions.clone();
         match change {
             Change::Structures(structures) => {
@@ -155,7 +154,7 @@ impl Subject {
                 }
             }
             Change::Floor(floor) => {
-                for Direction { model, .. } in &mut directions {
+                for RockingDirection { model, .. } in &mut directions {
                     if let Some(moved) = model.clone().on(Some(*floor)) {
                         *model = moved;
                     }
@@ -166,7 +165,7 @@ impl Subject {
     }
 
     /// Results with each unknown at its quantiles.
-    pub fn ends<T>(&self, result: impl Fn(&[Direction]) -> T) -> Vec<Unknown<T>> {
+    pub fn ends<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<Unknown<T>> {
         let all = self.unknowns.iter();
         all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
     }
@@ -178,7 +177,8 @@ impl Subject {
     /// Warnings about hardly possible structures, and about predictions under a motion.
     pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
         let mut warnings = self.structure_warnings();
-        for Direction { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0) {
+        for RockingDirection { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0)
+        {
             let measures = IntensityMeasures::new(structure, motion, None, None);
             warnings.extend(model.warnings(structure, &measures));
         }

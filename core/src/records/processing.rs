@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::implausibility::{Implausibility, implausibility, incompleteness};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
-use super::rotation::{Direction, HorizontalPair, Parts, RotD};
+use super::rotation::{HorizontalPair, Orientation, Parts, RotD};
 use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use super::{Origin, RecordedMotion};
 use crate::motion::measures::peak;
@@ -140,7 +140,7 @@ pub struct Processing {
     pub high_pass_hz: Option<f64>,
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
-    pub direction: Option<Direction>,
+    pub direction: Option<Orientation>,
     pub scaling: Scaling,
     pub pulses: PulseSearch,
     /// Whether implausible motions are imported, with a warning, or are errors.
@@ -196,8 +196,8 @@ impl Processing {
     fn rotated(&self, first: NamedRecord, second: NamedRecord) -> (NamedRecord, RotD) {
         let pair = HorizontalPair::new(first.motion, second.motion);
         let azimuth_deg = match self.direction {
-            Some(Direction::Azimuth(azimuth_deg)) => azimuth_deg,
-            Some(Direction::StrongestPulse) | None => {
+            Some(Orientation::Azimuth(azimuth_deg)) => azimuth_deg,
+            Some(Orientation::StrongestPulse) | None => {
                 let dt_s = pair.first.dt_s;
                 let [x, y] = [&pair.first, &pair.second]
                     .map(|component| measures::velocity(&component.acceleration_m_s2, dt_s));

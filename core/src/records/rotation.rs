@@ -116,20 +116,20 @@ fn median(ascending: &[f64]) -> f64 {
 
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Direction {
+pub enum Orientation {
     /// Azimuth of the strongest wavelet (Shahi & Baker 2014).
     StrongestPulse,
     #[serde(untagged)]
     Azimuth(f64),
 }
 
-impl FromStr for Direction {
+impl FromStr for Orientation {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Direction, String> {
+    fn from_str(text: &str) -> Result<Orientation, String> {
         match text.parse() {
-            Ok(azimuth) if (0.0..=360.0).contains(&azimuth) => Ok(Direction::Azimuth(azimuth)),
-            Err(_) if text == "strongest-pulse" => Ok(Direction::StrongestPulse),
+            Ok(azimuth) if (0.0..=360.0).contains(&azimuth) => Ok(Orientation::Azimuth(azimuth)),
+            Err(_) if text == "strongest-pulse" => Ok(Orientation::StrongestPulse),
             _ => Err(format!("'{text}'; expected an azimuth from 0 to 360 degrees, or strongest-pulse")),
         }
     }

@@ -4,9 +4,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use rockfrag_core::fragility::{Kind, LimitState, Model, Peak, Z_95};
+use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak, Z_95};
 use rockfrag_core::hazard::{
-    Hazard, HazardCurve, Lognormal, Motion, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
+    GroundMotion, Hazard, HazardCurve, Lognormal, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
     SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
 use rockfrag_core::motion::Peaks;
@@ -25,7 +25,7 @@ fn over_pga() -> Site {
 }
 
 fn block(width: f64) -> Subject {
-    Subject::shipped(&Object::block("block", width, 1.9), Kind::Recorded, 0.1).unwrap()
+    Subject::shipped(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
 }
 
 #[test]
@@ -76,11 +76,11 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
     for (over, mw) in [(Peak::Pga, None), (Peak::Pga, Some(7.0)), (Peak::Pgv, None), (Peak::Pgv, Some(5.5))] {
         let Lognormal { at_16, theta, beta, largest_error, .. } =
             SitesInGeneral { over, mw, ..general }.fragility(&block(0.5)).overturning;
-        let still = Motion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
+        let still = GroundMotion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
         for (level, Interval { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
             let motion = match over {
-                Peak::Pga => Motion { pga_m_s2: value, ..still },
-                Peak::Pgv => Motion { pgv_m_s: value, ..still },
+                Peak::Pga => GroundMotion { pga_m_s2: value, ..still },
+                Peak::Pgv => GroundMotion { pgv_m_s: value, ..still },
             };
             let p = motion.probabilities(&block(0.5)).states.overturning.value.unwrap();
             assert!((p - level).abs() < 1e-6, "{p} for {level}");
@@ -93,7 +93,7 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 #[test]
 fn the_fragility_of_a_thin_block_never_falls() {
     // IM4 ends in the domain of the surface at 1.6 g.
-    let thin = Subject::shipped(&Object::block("thin", 0.2, 2.4), Kind::Recorded, 0.1).unwrap();
+    let thin = Subject::shipped(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
     for over in [Peak::Pga, Peak::Pgv] {
         let general = SitesInGeneral { over, mw: None, vs30_m_s: None, ratio_s: None };
         for pair in general.fragility(&thin).points.windows(2) {
@@ -118,7 +118,7 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let mut object = Object::block("block", width, 1.9);
     let median = block(width).directions[0].structure.eta;
     object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
-    let mut subject = Subject::shipped(&object, Kind::Recorded, 0.1).unwrap();
+    let mut subject = Subject::shipped(&object, MotionKind::Recorded, 0.1).unwrap();
     let direction = &mut subject.directions[0];
     let ends = direction.model.ends();
     let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };

@@ -1,7 +1,8 @@
 //! Annual rates against closed forms.
 
 use rockfrag_core::fragility::{
-    Direction, Event, GivenPeak, Kind, Measure, Model, Peak, RatioGiven, Z_95, fit_curve, p_overturning,
+    Event, GivenPeak, Measure, Model, MotionKind, Peak, RatioGiven, RockingDirection, Z_95, fit_curve,
+    p_overturning,
 };
 use rockfrag_core::hazard::{
     Budget, Hazard, HazardCurve, HazardError, MatchError, PairOfPeaks, PeakHazard, PgvPgaRatio, Site,
@@ -79,7 +80,7 @@ fn what_is_no_hazard_curve_is_refused() {
 fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
     let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
     (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
-    let peaks = Model::shipped(Kind::Csgm, &equipment(), 0.1).peaks();
+    let peaks = Model::shipped(MotionKind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
     (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
 }
@@ -105,7 +106,7 @@ fn a_power_law_and_a_bivariate_lognormal_have_a_rate_in_closed_form() {
             (Peak::Pgv, of_constant - b[1] * level, b[1] * (1.0 - slope) + b[2], b[1] * sd),
         ] {
             let wider = 1.0_f64.hypot(per_z);
-            let directions = [Direction { structure: structure.clone(), model: model.clone() }];
+            let directions = [RockingDirection { structure: structure.clone(), model: model.clone() }];
             let given = GivenPeak::new(&directions, peak, ratio, None);
             let rate = rates_over_curve(&given, &curve).overturning.unwrap().value;
             let expected = rate_in_closed_form(k0, k, constant / wider, per_ln / wider);
@@ -128,7 +129,7 @@ fn a_joint_hazard_of_lognormal_velocities_has_a_rate_in_closed_form() {
     let ln_uplift = structure.uplift_acceleration_m_s2().ln();
     let z = -15.0 + 1.2 * (pga_m_s2.ln() - ln_uplift) + 1.6 * (m - ln_uplift);
     let expected = 0.02 * normal::cdf(z / 1.0_f64.hypot(1.6 * s));
-    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let subject = Subject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
     let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&subject).unwrap();
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }
@@ -146,7 +147,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard =
         PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, velocity: Some(velocity) };
-    let subject = Subject { directions: vec![Direction { structure, model }], unknowns: vec![] };
+    let subject = Subject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
     let rates = Site::new(Hazard::Curve(hazard)).rates(&subject);
     let errors = rates.errors;
     let of_velocity = errors.part_sd(Part::Velocity).unwrap();
@@ -161,7 +162,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
 
 #[test]
 fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
-    let model = Model::shipped(Kind::Recorded, &equipment(), 0.1);
+    let model = Model::shipped(MotionKind::Recorded, &equipment(), 0.1);
     for (vs30, mw, ln_ratio) in read::<(f64, f64, f64)>("site_levels.csv") {
         let velocity = PgvPgaRatio::by_model(&model, Peak::Pga, Some(vs30));
         let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
@@ -209,7 +210,7 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
 
 /// A block of .9 x 1.4 m, whose rate of overturning a curve up to 4 g leaves open.
 fn squat() -> Subject {
-    Subject::shipped(&Object::block("squat", 0.9, 1.4), Kind::Recorded, 0.1).unwrap()
+    Subject::shipped(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
 }
 
 fn range(rate: Interval<Option<f64>>) -> [f64; 2] {
@@ -276,9 +277,9 @@ fn averages_over_pgv_pga_are_those_of_scipy() {
     // scripts/reference/fragility.py.
     for row in read::<Average>("fragility_answers.csv") {
         let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
-        let model = Model::shipped(Kind::Recorded, &structure, 0.2);
+        let model = Model::shipped(MotionKind::Recorded, &structure, 0.2);
         let ratio = PgvPgaRatio::by_model(&model, row.over, None).at(row.mw, 0.0);
-        let directions = [Direction { structure, model }];
+        let directions = [RockingDirection { structure, model }];
         let unit = if row.over == Peak::Pga { 9.81 } else { 1.0 };
         let p = GivenPeak::new(&directions, row.over, ratio, Some(row.mw)).limit_states(unit * row.intensity);
         let p = p.map(Option::unwrap);

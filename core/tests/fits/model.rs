@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
-    Calibration, Case, Cases, Cluster, Event, Kind, LimitStates, Measure, Model, Scenarios, fit_curve,
+    Calibration, Case, Cases, Cluster, Event, LimitStates, Measure, Model, MotionKind, Scenarios, fit_curve,
     p_failure_given_rocking,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
@@ -32,7 +32,7 @@ fn calibrated(cases: &Cases) -> Model {
 
 #[derive(serde::Deserialize)]
 struct Point {
-    kind: Kind,
+    kind: MotionKind,
     p_rad_s: f64,
     alpha_rad: f64,
     eta: f64,
@@ -77,7 +77,7 @@ fn logits_are_those_of_python() {
 
 #[derive(serde::Deserialize)]
 struct Fitted {
-    kind: Kind,
+    kind: MotionKind,
     structure: String,
     p_rad_s: f64,
     alpha_rad: f64,
@@ -95,7 +95,7 @@ struct Fitted {
 
 #[derive(serde::Deserialize)]
 struct Answer {
-    kind: Kind,
+    kind: MotionKind,
     structure: String,
     event: String,
     n: i64,
@@ -115,7 +115,7 @@ fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
         rows.iter().filter(|row| (row.kind, &row.structure) == (answer.kind, &answer.structure)).collect();
     let Fitted { p_rad_s, alpha_rad, eta, .. } = *rows[0];
     let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
-    let suite = (answer.kind != Kind::Recorded).then(|| answer.kind.into());
+    let suite = (answer.kind != MotionKind::Recorded).then(|| answer.kind.into());
     let mut cases = Cases::new(suite, structure);
     for row in rows {
         let Fitted { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
@@ -170,7 +170,7 @@ fn probabilities_never_fall_along_20000_lines() {
     let mut random = random(5);
     let own = calibrated(&rocking(400));
     let mut ln = |low: f64, high: f64| random.random_range(low.ln()..high.ln()).exp();
-    for kind in Kind::VARIANTS {
+    for kind in MotionKind::VARIANTS {
         let mut largest = [0.0_f64; 5];
         for line in 0..20_000 {
             // Half of the lines begin at a tenth of the least of the domain and end at ten times the largest.
@@ -199,7 +199,7 @@ fn probabilities_never_fall_along_20000_lines() {
 
 #[test]
 fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
-    for kind in Kind::VARIANTS {
+    for kind in MotionKind::VARIANTS {
         for (p, eta) in [(0.5, 0.75), (2.5, 0.92), (7.8, 0.99)] {
             let structure = Structure::new("any", p, 0.2, eta).unwrap();
             let at = |im4: f64, limit_state: f64| {
@@ -280,7 +280,7 @@ fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
 #[test]
 fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
     let block = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
-    let model = Model::shipped(Kind::Csgm, &block, 0.1);
+    let model = Model::shipped(MotionKind::Csgm, &block, 0.1);
     for (pga, pgv) in [(3.0, 0.2), (5.0, 0.6), (9.0, 1.5), (20.0, 5.0)] {
         let of = |scenarios| {
             let p = model.probabilities(&block, &measures(&block, pga, pgv), None, scenarios);
@@ -307,12 +307,12 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
 #[test]
 fn what_lies_outside_is_warned_once() {
     let inside = measures(&equipment(), 5.0, 0.6);
-    let shipped = Model::shipped(Kind::Csgm, &equipment(), 0.1);
+    let shipped = Model::shipped(MotionKind::Csgm, &equipment(), 0.1);
     let by = |model: &Model, of_motion| model.warnings(&equipment(), &of_motion);
     assert_eq!(by(&shipped, inside), []);
     assert_eq!(by(&shipped, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
     assert_eq!(by(&shipped, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
-    assert_eq!(by(&Model::shipped(Kind::Csgm, &equipment(), 2.0), inside), [Warning::Extrapolated]);
+    assert_eq!(by(&Model::shipped(MotionKind::Csgm, &equipment(), 2.0), inside), [Warning::Extrapolated]);
     let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
     assert!(shipped.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
     // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
@@ -323,7 +323,7 @@ fn what_lies_outside_is_warned_once() {
 #[test]
 fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
     let structure = Structure::new("any", 2.5, 0.2, 0.92).unwrap();
-    let shipped = Calibration::shipped(Kind::Recorded, &structure, None);
+    let shipped = Calibration::shipped(MotionKind::Recorded, &structure, None);
     let of_motion = measures(&structure, 4.0, 0.4);
     let logit = |p: f64| (p / (1.0 - p)).ln();
     for mw in [None, Some(7.2)] {

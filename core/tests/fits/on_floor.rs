@@ -1,6 +1,6 @@
 //! The model on floors: what must hold of it without fits.
 
-use rockfrag_core::fragility::{Kind, Model, Scenarios};
+use rockfrag_core::fragility::{Model, MotionKind, Scenarios};
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::normal;
@@ -15,7 +15,7 @@ fn overturning(model: &Model, structure: &Structure, pga_m_s2: f64, pgv_m_s: f64
 fn stronger_motions_overturn_more_and_higher_floors_rock_sooner() {
     for (width, height) in [(0.4, 1.6), (0.8, 2.2), (1.2, 4.0)] {
         let structure = Structure::rectangular_block("block", width, height, None).unwrap();
-        let model = Model::shipped(Kind::Recorded, &structure, 0.1);
+        let model = Model::shipped(MotionKind::Recorded, &structure, 0.1);
         for (period_s, level) in [(0.2, 1.0), (0.6, 0.3), (0.6, 1.0), (2.0, 0.6)] {
             let floor = model.clone().on(Some(Floor { period_s, level })).unwrap();
             let of = |scale: f64| overturning(&floor, &structure, scale, 0.12 * scale);
@@ -33,7 +33,7 @@ fn stronger_motions_overturn_more_and_higher_floors_rock_sooner() {
 #[test]
 fn a_floor_rocks_as_often_as_its_peak_exceeds_uplift() {
     let structure = Structure::rectangular_block("block", 0.8, 2.2, None).unwrap();
-    let model = Model::shipped(Kind::Recorded, &structure, 0.1);
+    let model = Model::shipped(MotionKind::Recorded, &structure, 0.1);
     let floor = Floor { period_s: 0.6, level: 1.0 };
     let ground = Peaks { pga_m_s2: 2.0, pgv_m_s: 0.2 };
     let (peaks, scatter) = (floor.peaks(ground), floor.amplified(ground).sd_ln_pfa);
@@ -45,7 +45,7 @@ fn a_floor_rocks_as_often_as_its_peak_exceeds_uplift() {
 #[test]
 fn level_0_is_the_ground_and_a_rigid_building_moves_with_it() {
     let structure = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
-    let model = Model::shipped(Kind::Recorded, &structure, 0.1);
+    let model = Model::shipped(MotionKind::Recorded, &structure, 0.1);
     for (pga, pgv) in [(3.0, 0.5), (6.0, 0.8), (12.0, 1.5)] {
         let ground = overturning(&model, &structure, pga, pgv);
         for (floor, tolerance) in

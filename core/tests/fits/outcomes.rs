@@ -1,7 +1,7 @@
 //! Calibrations to what stood and what fell, against scipy on the same posterior density
 //! (scripts/reference/outcomes.py).
 
-use rockfrag_core::fragility::{Calibration, Kind, ObservedOutcome};
+use rockfrag_core::fragility::{Calibration, MotionKind, ObservedOutcome};
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
@@ -65,7 +65,7 @@ fn calibrations_to_outcomes_are_those_of_scipy() {
         }
         // Limits of one earthquake keep the spread between earthquakes.
         let structure = &outcomes(&answer.list)[0].structure;
-        assert_eq!(found.tau, Calibration::shipped(Kind::Recorded, structure, None).tau);
+        assert_eq!(found.tau, Calibration::shipped(MotionKind::Recorded, structure, None).tau);
     }
 }
 
@@ -74,7 +74,7 @@ fn lists_without_an_event_or_without_outcomes_say_so() {
     assert_eq!(Calibration::fit_outcomes(&[]), None);
     let shipped = |list: &str| {
         let structure = &outcomes(list)[0].structure;
-        Calibration::shipped(Kind::Recorded, structure, None).c
+        Calibration::shipped(MotionKind::Recorded, structure, None).c
     };
     for (list, sign) in [("stood", -1.0), ("fell", 1.0)] {
         let found = Calibration::fit_outcomes(&outcomes(list)).unwrap();

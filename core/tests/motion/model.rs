@@ -10,8 +10,8 @@ use rockfrag_core::motion::pulse::largest_velocity;
 use rockfrag_core::motion::site::SiteTableError;
 use rockfrag_core::motion::stochastic::{CONSTANT, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag_core::motion::{
-    Design, Difference, Epoch, Grid, MeasurePlan, MotionModel, Pulse, Scenario, SiteAmplification, Suite,
-    Synthesizer, Synthetic, measures,
+    Design, Difference, Epoch, MeasurePlan, MotionModel, Pulse, Scenario, ScenarioGrid, SiteAmplification,
+    Suite, Synthesizer, Synthetic, measures,
 };
 use strum::VariantArray;
 
@@ -19,13 +19,13 @@ const EPOCHS: [Epoch; 3] = [Epoch::EnvelopePeak, Epoch::Pga, Epoch::Pgv];
 
 /// Scenarios of one magnitude and distance.
 fn cell(mw: f64, re_km: f64, samples: usize, seed: u64) -> Vec<Scenario> {
-    Grid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
+    ScenarioGrid { mw: vec![mw], re_km: vec![re_km], samples, design: Design::Lhs, seed }.scenarios_of_cell(0)
 }
 
 #[test]
 fn a_latin_hypercube_has_a_sample_in_each_stratum() {
     for (design, is_stratified) in [(Design::Lhs, true), (Design::Random, false)] {
-        let grid = Grid { mw: vec![6.0, 7.0], re_km: vec![5.0], samples: 1024, design, seed: 42 };
+        let grid = ScenarioGrid { mw: vec![6.0, 7.0], re_km: vec![5.0], samples: 1024, design, seed: 42 };
         let cell = grid.cell(1);
         let points: Vec<_> = (0..grid.samples).map(|sample| cell.quantiles(sample)).collect();
         assert!(points.iter().flatten().all(|u| *u > 0.0 && *u < 1.0));
@@ -46,8 +46,13 @@ fn a_latin_hypercube_has_a_sample_in_each_stratum() {
 
 /// Small and large earthquakes: pulses much shorter and much longer than the window.
 fn varied_scenarios() -> Vec<Scenario> {
-    let grid =
-        Grid { mw: vec![5.5, 6.5, 7.5], re_km: vec![5.0, 20.0], samples: 12, design: Design::Lhs, seed: 42 };
+    let grid = ScenarioGrid {
+        mw: vec![5.5, 6.5, 7.5],
+        re_km: vec![5.0, 20.0],
+        samples: 12,
+        design: Design::Lhs,
+        seed: 42,
+    };
     (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)).collect()
 }
 

@@ -6,12 +6,12 @@ use rockfrag_core::motion::measures::velocity;
 use rockfrag_core::motion::{MeasurePlan, MotionMeasures};
 use rockfrag_core::records::pulses::{FittedPulse, PulseIndicator};
 
-use crate::shared::{Motion, reference_motions, rows};
+use crate::shared::{StoredMotion, reference_motions, rows};
 
 const SA_PERIODS_S: [f64; 6] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0];
 
 /// Motions of the references, by name.
-fn by_name() -> HashMap<String, Motion> {
+fn by_name() -> HashMap<String, StoredMotion> {
     reference_motions().into_iter().map(|motion| (motion.motion_id.clone(), motion)).collect()
 }
 
@@ -39,7 +39,7 @@ fn measures_are_those_of_eqsig_and_numpy() {
     let answers: Vec<(String, String, f64)> = rows("records/measures.csv");
     assert_eq!(answers.len(), 24 * 15);
     for (motion_id, measure, value) in answers {
-        let Motion { acceleration_m_s2, dt_s, .. } = &motions[&motion_id];
+        let StoredMotion { acceleration_m_s2, dt_s, .. } = &motions[&motion_id];
         let measured = plan.measure(acceleration_m_s2, *dt_s);
         let (ours, (share, amount)) = (ours(&measured, &measure), tolerance(&measure, *dt_s));
         assert!(
@@ -65,7 +65,7 @@ fn pulses_are_those_of_full_resolution_and_global_search() {
     assert_eq!(answers.len(), 24);
     let mut same_period = 0;
     for PulseAnswer { motion_id, indicator, period_s, r2, tp_s } in &answers {
-        let Motion { acceleration_m_s2, dt_s, .. } = &motions[motion_id];
+        let StoredMotion { acceleration_m_s2, dt_s, .. } = &motions[motion_id];
         let velocity = velocity(acceleration_m_s2, *dt_s);
         let found = PulseIndicator::of(&velocity, *dt_s).unwrap();
         assert!((found.indicator - indicator).abs() < 0.01, "motion {motion_id}: {found:?} for {indicator}");

@@ -16,14 +16,14 @@ pub fn rows<T: DeserializeOwned>(name: &str) -> Vec<T> {
     csv::Reader::from_path(reference(name)).unwrap().into_deserialize().map(Result::unwrap).collect()
 }
 
-pub struct Motion {
+pub struct StoredMotion {
     pub motion_id: String,
     pub dt_s: f64,
     pub acceleration_m_s2: Vec<f64>,
 }
 
 /// All motions of a file whose first columns are name, time step and samples.
-pub fn motions(path: &Path) -> Vec<Motion> {
+pub fn motions(path: &Path) -> Vec<StoredMotion> {
     let sample = |field: &Field| match field {
         Field::Float(value) => f64::from(*value),
         Field::Double(value) => *value,
@@ -34,7 +34,7 @@ pub fn motions(path: &Path) -> Vec<Motion> {
         Field::Str(name) => name.clone(),
         number => number.to_string(),
     };
-    let motion = |row: parquet::record::Row| Motion {
+    let motion = |row: parquet::record::Row| StoredMotion {
         motion_id: name(row.get_column_iter().next().unwrap().1),
         dt_s: row.get_double(1).unwrap(),
         acceleration_m_s2: row.get_list(2).unwrap().elements().iter().map(sample).collect(),
@@ -43,7 +43,7 @@ pub fn motions(path: &Path) -> Vec<Motion> {
 }
 
 /// The sixty synthetic motions of the references.
-pub fn reference_motions() -> Vec<Motion> {
+pub fn reference_motions() -> Vec<StoredMotion> {
     motions(&reference("rocking/motions.parquet"))
 }
 

@@ -2,13 +2,13 @@
 
 use std::mem::discriminant;
 
-use rockfrag_core::motion::{Design, Grid, MotionModel, Suite, Synthesizer};
+use rockfrag_core::motion::{Design, MotionModel, ScenarioGrid, Suite, Synthesizer};
 use rockfrag_core::rocking::{Outcome, Problem, Record, Response, Structure, reference, simulate_all};
 
 #[test]
 fn vectors_solve_the_equations_of_the_paper() {
     let (mw, re_km) = (vec![5.5, 6.5, 7.5], vec![5.0, 10.0, 20.0]);
-    let grid = Grid { mw, re_km, samples: 8, design: Design::Lhs, seed: 42 };
+    let grid = ScenarioGrid { mw, re_km, samples: 8, design: Design::Lhs, seed: 42 };
     let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
     let scenarios = (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell));
     let motions: Vec<Vec<f64>> =

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use rockfrag_core::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all};
 
-use crate::shared::{Motion, known, motions, reference_motions, rows};
+use crate::shared::{StoredMotion, known, motions, reference_motions, rows};
 
 #[derive(Debug, serde::Deserialize)]
 struct Answer {
@@ -43,14 +43,14 @@ impl Comparison<'_> {
     }
 }
 
-fn compare(motions: Vec<Motion>, answers: &[Answer]) -> Vec<Comparison<'_>> {
-    let motions: HashMap<String, Motion> =
+fn compare(motions: Vec<StoredMotion>, answers: &[Answer]) -> Vec<Comparison<'_>> {
+    let motions: HashMap<String, StoredMotion> =
         motions.into_iter().map(|motion| (motion.motion_id.clone(), motion)).collect();
     let structure =
         |answer: &Answer| Structure::new("s", answer.p_rad_s, answer.alpha_rad, answer.eta).unwrap();
     let structures: Vec<Structure> = answers.iter().map(structure).collect();
     let problem = |(answer, structure): (&Answer, _)| {
-        let Motion { acceleration_m_s2, dt_s, .. } = &motions[&answer.motion_id];
+        let StoredMotion { acceleration_m_s2, dt_s, .. } = &motions[&answer.motion_id];
         Problem { structure, record: Record::new(acceleration_m_s2, *dt_s).unwrap() }
     };
     let problems: Vec<Problem> = answers.iter().zip(&structures).map(problem).collect();

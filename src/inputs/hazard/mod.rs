@@ -16,7 +16,7 @@ use rockfrag_core::warning::{Warning, Warnings};
 
 pub use self::columns::peak;
 use self::columns::{Column, Frequency, Measure, Statistic, noted_statistic};
-pub use self::motions::{Motions, expect_motions_alone, motions};
+pub use self::motions::{MotionTable, expect_motions_alone, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Renames};
 use crate::number::period;
@@ -340,7 +340,7 @@ fn joint(
     effective_years: Option<f64>,
     warnings: &mut Warnings,
 ) -> Result<Vec<PairOfPeaks>, InputError> {
-    let Some(Motions { given, mw, .. }) = motions(grid, warnings)? else {
+    let Some(MotionTable { given, mw, .. }) = motions(grid, warnings)? else {
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
         return Err(InputError::missing(found, "both, or rates of exceedance"));
     };
@@ -355,7 +355,7 @@ fn joint(
             let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
             return Err(InputError::missing(found, "one row of each bin"));
         }
-        bins.push(PairOfPeaks { peaks: given[row].at_rim(), annual_rate, mw: mw[row] });
+        bins.push(PairOfPeaks { peaks: given[row].clamp_to_recorded(), annual_rate, mw: mw[row] });
     }
     judge_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
         .and_then(|()| judge_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))

@@ -20,7 +20,7 @@ pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
 }
 
 /// The motions in the rows of a table.
-pub struct Motions {
+pub struct MotionTable {
     /// Peaks as they are given, perhaps beyond any record.
     pub given: Vec<Peaks>,
     pub mw: Vec<Option<f64>>,
@@ -30,7 +30,7 @@ pub struct Motions {
 
 /// Reads the motions of a table with both peaks, which must show no wrong unit, and warns of those beyond any
 /// record.
-pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, InputError> {
+pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTable>, InputError> {
     let headings = || grid.headings.iter().enumerate().filter_map(|(at, heading)| Some((at, peak(heading)?)));
     let [Some((pga, (_, pga_unit))), Some((pgv, (_, pgv_unit)))] =
         [Peak::Pga, Peak::Pgv].map(|wanted| headings().find(|(_, (peak, _))| *peak == wanted))
@@ -47,10 +47,10 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<Motions>, 
         mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
     }
     judge_medians(given.iter().copied()).map_err(InputError::Implausible)?;
-    let beyond = given.iter().filter(|peaks| **peaks != peaks.at_rim()).count();
+    let beyond = given.iter().filter(|peaks| **peaks != peaks.clamp_to_recorded()).count();
     if beyond > 0 {
         warnings.add(Warning::AtRim, format!("{beyond} of {} rows", given.len()));
     }
     let columns = [Some(pga), Some(pgv), magnitude].into_iter().flatten().collect();
-    Ok(Some(Motions { given, mw, columns }))
+    Ok(Some(MotionTable { given, mw, columns }))
 }

@@ -1,6 +1,6 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use rockfrag_core::fragility::{Calibration, Cases, Kind, Scenarios};
+use rockfrag_core::fragility::{Calibration, Cases, MotionKind, Scenarios};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::Range;
 use rockfrag_core::statistics::numerics::{equal_ratios, first};
@@ -50,7 +50,7 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
 fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<Mark> {
     let structure = &cases.structure;
-    let shipped = || Calibration::shipped(Kind::from_suite(cases.suite.as_deref()), structure, None);
+    let shipped = || Calibration::shipped(MotionKind::from_suite(cases.suite.as_deref()), structure, None);
     let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
     let reaches = |pga: f64, ln_pgv: f64| {
         let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };

@@ -8,7 +8,7 @@ use rockfrag_core::rocking::{Record, Structure, simulate, trace};
 use super::common::compare;
 use crate::number;
 use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
-use crate::table::motions::Motion;
+use crate::table::motions::MotionRow;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
 const VALUES: usize = 1200;
@@ -18,10 +18,10 @@ const TAIL: f64 = 5.0;
 
 /// Figure 1: the coherent pulse, the high frequencies, the whole motion, and the velocities; of a combined
 /// motion that has its pulse beside it, else of any.
-pub fn motion(motions: &[Motion]) -> Figure {
+pub fn motion(motions: &[MotionRow]) -> Figure {
     let combined = motions.iter().find(|whole| is_of(whole, Suite::Csgm) && pulse(whole, motions).is_some());
     let Some(whole) = combined.or(motions.first()) else { return Figure::default() };
-    let Motion { dt_s, acceleration_m_s2, .. } = whole;
+    let MotionRow { dt_s, acceleration_m_s2, .. } = whole;
     let line = |label: &str, ink: Ink, values: &[f64], most: usize| {
         vec![Layer::line(label, ink, envelope(values, *dt_s, most))]
     };
@@ -49,23 +49,23 @@ pub fn motion(motions: &[Motion]) -> Figure {
     Figure::new("motion", "A ground motion", 1, 46.0, panels).explained(caption)
 }
 
-fn is_of(motion: &Motion, suite: Suite) -> bool {
+fn is_of(motion: &MotionRow, suite: Suite) -> bool {
     motion.suite.as_deref() == Some(suite.into())
 }
 
 /// The pulse of a combined motion.
-fn pulse<'a>(whole: &Motion, motions: &'a [Motion]) -> Option<&'a Motion> {
+fn pulse<'a>(whole: &MotionRow, motions: &'a [MotionRow]) -> Option<&'a MotionRow> {
     motions.iter().find(|other| {
         let is_same = (other.mw, other.re_km, other.tp_s) == (whole.mw, whole.re_km, whole.tp_s);
         is_same && is_of(other, Suite::Pulse)
     })
 }
 
-fn velocity(motion: &Motion) -> Vec<f64> {
+fn velocity(motion: &MotionRow) -> Vec<f64> {
     measures::velocity(&motion.acceleration_m_s2, motion.dt_s)
 }
 
-fn words(motion: &Motion) -> String {
+fn words(motion: &MotionRow) -> String {
     match motion.mw.zip(motion.re_km) {
         Some((mw, re_km)) => format!("magnitude {mw}, distance {re_km} km"),
         None => format!("motion {}", motion.motion_id),
@@ -74,7 +74,7 @@ fn words(motion: &Motion) -> String {
 
 /// Figure 5: the rotations of two structures in their own units and in dimensionless ones, under the motion
 /// in which the first rocks furthest without overturning; if there are such.
-pub fn similarity(groups: &[Cases], motions: &[Motion]) -> Option<Figure> {
+pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     let mut structures = groups.iter().map(|cases| &cases.structure);
     let first = structures.next()?;
     let second = structures.find(|other| other.p_rad_s != first.p_rad_s)?;
@@ -118,7 +118,7 @@ pub fn similarity(groups: &[Cases], motions: &[Motion]) -> Option<Figure> {
 }
 
 /// The demand of a motion in safe rocking.
-fn safe_demand(structure: &Structure, motion: &Motion) -> Option<f64> {
+fn safe_demand(structure: &Structure, motion: &MotionRow) -> Option<f64> {
     let record = Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?;
     simulate(structure, &record).outcome.demand().filter(|demand| *demand > 0.0)
 }

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args};
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{Hazard, Motion, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
+use rockfrag_core::hazard::{GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Restitution};
 use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -188,7 +188,7 @@ impl Stage for Evaluate {
 
 impl Evaluate {
     /// The motion that is given.
-    fn motion(&self) -> anyhow::Result<Motion> {
+    fn motion(&self) -> anyhow::Result<GroundMotion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
         match (pga_m_s2, pgv_m_s) {
             (Some(_), Some(_)) if self.vs30.is_some() => {
@@ -199,10 +199,15 @@ impl Evaluate {
             }
             _ => {}
         }
-        Ok(Motion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
+        Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
-    fn under_motion(&self, motion: &Motion, models: &Models, context: &Context) -> anyhow::Result<String> {
+    fn under_motion(
+        &self,
+        motion: &GroundMotion,
+        models: &Models,
+        context: &Context,
+    ) -> anyhow::Result<String> {
         let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let objects = self.objects(Renames::new(&self.columns), models, context)?;

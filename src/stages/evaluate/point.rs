@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use rockfrag_core::fragility::{Direction, LimitStates, Scenarios};
-use rockfrag_core::hazard::{Budget, Motion, MotionProbabilities};
+use rockfrag_core::fragility::{LimitStates, RockingDirection, Scenarios};
+use rockfrag_core::hazard::{Budget, GroundMotion, MotionProbabilities};
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::object::Subject;
 use rockfrag_core::statistics::Interval;
@@ -34,13 +34,13 @@ pub struct TreeRow {
 
 impl TreeRow {
     /// Predicts for an object under a motion, with the errors of the logit of P_ro.
-    pub fn new(motion: &Motion, subject: &Subject) -> (TreeRow, Budget) {
+    pub fn new(motion: &GroundMotion, subject: &Subject) -> (TreeRow, Budget) {
         let MotionProbabilities { states, errors } = motion.probabilities(subject);
         let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             _ if motion.is_still() => None,
-            ([Direction { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
+            ([RockingDirection { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
                 let peaks = Peaks { pga_m_s2, pgv_m_s };
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
                 model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking

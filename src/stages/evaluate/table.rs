@@ -8,7 +8,7 @@ use std::path::Path;
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::Motion;
+use rockfrag_core::hazard::GroundMotion;
 use rockfrag_core::motion::{Peaks, judge_medians};
 use rockfrag_core::object::{Object, Restitution, Subject};
 use rockfrag_core::rocking::Structure;
@@ -103,12 +103,12 @@ fn with_probabilities<'a>(
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (subject, about_model) = subject(row);
-        let peaks = given[row].at_rim();
+        let peaks = given[row].clamp_to_recorded();
         let mut warnings = [about_model.clone(), subject.warnings(peaks)].concat();
         warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
         warnings.sort();
         warnings.dedup();
-        let motion = Motion {
+        let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
             pgv_m_s: Some(peaks.pgv_m_s),
             mw: mw[row].or(magnitude),

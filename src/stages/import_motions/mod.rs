@@ -10,7 +10,7 @@ use arrow_array::RecordBatch;
 use clap::Args;
 use rockfrag_core::motion::MeasurePlan;
 use rockfrag_core::records::processing::{ImportedMotion, Processing, PulseSearch};
-use rockfrag_core::records::rotation::Direction;
+use rockfrag_core::records::rotation::Orientation;
 use rockfrag_core::records::signal::{Baseline, Scaling};
 use rockfrag_core::units::{G_M_S2, Unit};
 use rockfrag_core::warning::Warning;
@@ -69,7 +69,7 @@ pub struct ImportMotions {
     /// Rotate pairs of horizontal components to an azimuth (degrees) or the strongest-pulse; add
     /// RotD50 and RotD100
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
-    rotate: Option<Direction>,
+    rotate: Option<Orientation>,
     /// Scale by these factors; each gives a separate motion
     #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"],
           value_parser = steps(f64::MIN_POSITIVE..=f64::MAX, "expected factors above 0"))]

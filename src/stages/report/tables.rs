@@ -19,7 +19,7 @@ use crate::table::TableError;
 use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
 use crate::table::file::{self, Table};
 use crate::table::keys::key_of;
-use crate::table::motions::{self, Motion, is_of_motion};
+use crate::table::motions::{self, MotionRow, is_motion_column};
 use crate::table::provenance::{Provenance, joined};
 use crate::table::responses::TraceRow;
 use crate::table::rows::{self, Row};
@@ -273,11 +273,11 @@ impl Tables {
     }
 
     /// The motions of a row group in the middle of the first file of them.
-    pub fn motions(&self) -> Result<Vec<Motion>, TableError> {
+    pub fn motions(&self) -> Result<Vec<MotionRow>, TableError> {
         let Some(item) = self.of(Kind::Motions).next() else { return Ok(Vec::new()) };
         let table = motions::open(&item.path, None)?;
         let middle = table.rows() / MOTIONS_IN_GROUP / 2;
-        let parts = || motions::parts(&table, is_of_motion, MOTIONS_IN_GROUP);
+        let parts = || motions::parts(&table, is_motion_column, MOTIONS_IN_GROUP);
         let some = parts().nth(middle).or_else(|| parts().next()).map(|part| part()).transpose()?;
         Ok(some.into_iter().flatten().next().map_or(Vec::new(), |some| some.motions))
     }

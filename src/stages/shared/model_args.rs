@@ -4,7 +4,9 @@ use std::collections::HashSet;
 
 use anyhow::bail;
 use clap::Args;
-use rockfrag_core::fragility::{Calibration, CurveFit, DemandFit, DemandModel, Event, Kind, Measure, Model};
+use rockfrag_core::fragility::{
+    Calibration, CurveFit, DemandFit, DemandModel, Event, Measure, Model, MotionKind,
+};
 use rockfrag_core::motion::Suite;
 use rockfrag_core::object::{Object, Subject};
 use rockfrag_core::rocking::Structure;
@@ -45,7 +47,7 @@ pub struct ModelArgs {
     pub name: Option<String>,
     /// Kind of motion: recorded, csgm, pulse or hfc [default: the kind of the fits, else recorded]
     #[arg(long, value_name = "KIND")]
-    pub suite: Option<Kind>,
+    pub suite: Option<MotionKind>,
     /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
     #[arg(long, default_value = "calibrated", requires_if("paper", "fits"))]
     pub model: ModelName,
@@ -130,7 +132,7 @@ impl Models {
             let all: Vec<&Calibration> = self.overturning.iter().collect();
             let kind = match suite {
                 Some(kind) => kind,
-                None if all.is_empty() => Kind::Recorded,
+                None if all.is_empty() => MotionKind::Recorded,
                 None => self.kind(&all)?,
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
@@ -228,7 +230,7 @@ impl Models {
     }
 
     /// Returns the requested kind of motion, or the only one of rows.
-    fn kind(&self, rows: &[&Calibration]) -> anyhow::Result<Kind> {
+    fn kind(&self, rows: &[&Calibration]) -> anyhow::Result<MotionKind> {
         let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.into()).collect();
         kinds.sort_unstable();
         kinds.dedup();

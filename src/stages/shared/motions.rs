@@ -11,7 +11,7 @@ use rockfrag_core::warning::{Warning, Warnings};
 use crate::pipeline::context::Progress;
 use crate::pipeline::stream::{batches, pipelined};
 use crate::table::TableError;
-use crate::table::motions::{Motion, Part, Sampled};
+use crate::table::motions::{MotionRow, Part, Sampled};
 use crate::table::responses::ResponseRow;
 
 /// Parts of the file that are read at once, for each thread.
@@ -59,7 +59,7 @@ pub struct Measures {
 }
 
 impl Measures {
-    pub fn new(motion: &Motion, record: &Record) -> Measures {
+    pub fn new(motion: &MotionRow, record: &Record) -> Measures {
         let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
         let peaks = Peaks {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
@@ -83,7 +83,7 @@ impl Measures {
     }
 
     /// The row of the response of a structure to the motion.
-    pub fn response_row(&self, motion: &Motion, structure: &Structure, response: Response) -> ResponseRow {
+    pub fn response_row(&self, motion: &MotionRow, structure: &Structure, response: Response) -> ResponseRow {
         ResponseRow {
             motion_id: motion.motion_id.clone(),
             suite: motion.suite.clone(),
@@ -110,7 +110,7 @@ impl Measures {
 const PEAK_TOLERANCE: f64 = 0.1;
 
 /// Warnings about a recorded motion of the ground.
-pub fn warnings(motion: &Motion, record: &Record) -> Warnings {
+pub fn warnings(motion: &MotionRow, record: &Record) -> Warnings {
     let mut warnings = Warnings::default();
     let suite = motion.suite.as_deref();
     let is_synthetic =

@@ -61,7 +61,7 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
         }
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
-        let (structure, peaks) = (sides[0].structure.clone(), motions.given[row].at_rim());
+        let (structure, peaks) = (sides[0].structure.clone(), motions.given[row].clamp_to_recorded());
         structure_warnings(&structure).into_iter().for_each(|warning| doubts.add(warning, line.clone()));
         let fell = has_fallen(grid, row, fell)?;
         if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
