@@ -34,7 +34,7 @@ pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure 
         0 => String::new(),
         rest => format!(" Not drawn: {} that take a stronger motion.", number::counted(rest, "object")),
     };
-    let (what, averaged) = (first.over.words().0, averaged(first.over));
+    let (what, averaged) = (first.over.name_and_unit().0, averaged(first.over));
     let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
     let panel = curves_panel(first.over, layers);
     let title = "How strong a motion overturns each object";
@@ -48,7 +48,7 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
     let Some((weakest, fragility)) = known else {
         return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };
     };
-    let what = fragility.over.words().0;
+    let what = fragility.over.name_and_unit().0;
     let (title, half) = match all {
         [one] => (words(&one.object.marked_title()), "Half".to_string()),
         _ => (
@@ -77,7 +77,7 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
 /// The intensity at which half of the motions overturn an object: `PGA of 0.83 g`.
 pub fn half_in_words(over: Peak, Lognormal { theta, .. }: &Lognormal) -> String {
     let of = if theta.value.is_some() { "of " } else { "" };
-    format!("{} {of}{}", over.words().0, intensity_in_words(over, theta.value))
+    format!("{} {of}{}", over.name_and_unit().0, intensity_in_words(over, theta.value))
 }
 
 /// The intensity of one half, its limits after words, and those of 16 and 84 %.

@@ -91,7 +91,7 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
 
 /// The curve of a limit state, in percent; with its limits if they are wanted.
 pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<Mark> {
-    let (_, unit, _) = fragility.over.words();
+    let (_, unit, _) = fragility.over.name_and_unit();
     let marks = fragility.points.iter().filter_map(|point| {
         let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
         Some(if has_limits { Mark::estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
@@ -100,7 +100,7 @@ pub fn curve(fragility: &Fragility, state: LimitState, has_limits: bool) -> Vec<
 }
 
 fn peak_axis(peak: Peak) -> Axis {
-    let (what, _, symbol) = peak.words();
+    let (what, _, symbol) = peak.name_and_unit();
     Axis::log(&format!("{what} ({symbol})"))
 }
 
@@ -125,7 +125,8 @@ pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option
         let words = Words { x, y: 100.0, text: years(period), side: Side::Along, ink: Ink::Muted };
         panel.add_upright(words, 0.0);
     }
-    let (what, place) = (fragility.over.words().0, if hazard.is_some() { " at the site" } else { "" });
+    let (what, place) =
+        (fragility.over.name_and_unit().0, if hazard.is_some() { " at the site" } else { "" });
     panel
         .explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(fragility.over)))
 }
@@ -133,7 +134,7 @@ pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option
 /// Over what a fragility is averaged.
 pub fn averaged(over: Peak) -> String {
     let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
-    format!("averaged over the {} of such motions", other.words().0)
+    format!("averaged over the {} of such motions", other.name_and_unit().0)
 }
 
 fn changes_panel(Evaluation { when, target, portrait, .. }: &Evaluation) -> Panel {
@@ -162,7 +163,7 @@ impl SiteHazard {
         let [(_, often), (_, rarely)] = self.curve.ends();
         let known = USUAL_YEARS.into_iter().filter(move |years| rarely < 1.0 / years && 1.0 / years <= often);
         known.map(|years| {
-            let intensity = self.curve.intensity(1.0 / years) / self.peak.words().1;
+            let intensity = self.curve.intensity(1.0 / years) / self.peak.name_and_unit().1;
             Usual { intensity, years }
         })
     }
@@ -174,7 +175,7 @@ fn years(years: f64) -> String {
 }
 
 fn hazard_panel(hazard: &SiteHazard) -> Panel {
-    let (what, unit, symbol) = hazard.peak.words();
+    let (what, unit, symbol) = hazard.peak.name_and_unit();
     let [_, (_, lowest)] = hazard.curve.ends();
     let mut panel =
         Panel::new("Hazard", peak_axis(hazard.peak), Axis::log("exceeded, times a year"), Vec::new());
@@ -195,7 +196,7 @@ fn hazard_panel(hazard: &SiteHazard) -> Panel {
 /// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
 /// share.
 fn shares(hazard: &SiteHazard) -> Option<Panel> {
-    let (what, unit, _) = hazard.peak.words();
+    let (what, unit, _) = hazard.peak.name_and_unit();
     let parts = &hazard.parts;
     let all = parts.rates.iter().sum::<f64>() + parts.beyond;
     let mut outline = Vec::new();
@@ -294,10 +295,11 @@ fn tiles(Evaluation { when, portrait, .. }: &Evaluation) -> Vec<Tile> {
         let hazard = portrait.hazard.as_ref();
         let site = hazard.and_then(|hazard| Some((hazard.peak, hazard.usual().next()?)));
         let site = site.map_or(String::new(), |(peak, Usual { intensity, years: period })| {
-            let (intensity, symbol) = (number::significant(intensity, 2), peak.words().2);
+            let (intensity, symbol) = (number::significant(intensity, 2), peak.name_and_unit().2);
             format!("; {intensity} {symbol} comes once in {}", years(period))
         });
-        let words = format!("{} at which half of the motions overturn it{site}", fragility.over.words().0);
+        let words =
+            format!("{} at which half of the motions overturn it{site}", fragility.over.name_and_unit().0);
         tiles.push(Tile::new(intensity_in_words(fragility.over, fragility.overturning.theta.value), words));
     }
     tiles
@@ -335,7 +337,7 @@ pub fn model_in_words(object: &ObjectRow) -> Option<String> {
 pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
     let unknown: Vec<(Part, f64)> = all.iter().flat_map(|rated| rated.doubts.part_sds()).collect();
     let parts = Part::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
-    let parts: Vec<&str> = parts.map(|part| part.words()).collect();
+    let parts: Vec<&str> = parts.map(|part| part.description()).collect();
     let joined = match parts.split_last()? {
         (only, []) => (*only).to_string(),
         (last, others) => format!("{} and {last}", others.join(", ")),

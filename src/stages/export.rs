@@ -166,7 +166,7 @@ impl Export {
         let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
         Ok(Function {
             id: format!("{id}_{}", self.over),
-            description: format!("{}{directions}, by {}", object.name, model.words()),
+            description: format!("{}{directions}, by {}", object.name, model.description()),
             probabilities,
             end_of_data: end,
             levels,

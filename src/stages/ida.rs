@@ -249,7 +249,7 @@ fn half_overturn_at(levels: &[f64], cases: &[&Scanned]) -> Option<f64> {
 
 impl ScaledMeasure {
     /// Its name and unit, as they are printed.
-    fn words(self) -> (&'static str, &'static str) {
+    fn name_and_unit(self) -> (&'static str, &'static str) {
         match self {
             ScaledMeasure::Scale => ("scale factor", ""),
             ScaledMeasure::Pga => ("PGA", " g"),
@@ -328,7 +328,7 @@ fn weakness(row: &CapacityFitRow) -> f64 {
 
 fn line(row: &CapacityFitRow) -> String {
     let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({})", name(suite)));
-    let (measure, unit) = row.measure.words();
+    let (measure, unit) = row.measure.name_and_unit();
     let half = match row.half_overturn_at {
         Some(at) => format!("half of the motions overturn it at {measure} {}{unit}", significant(at, 3)),
         None if 2 * row.n_below >= row.n => "half of the motions overturn it at the first intensity".into(),

@@ -72,7 +72,7 @@ impl ObjectRow {
             alpha_rad: structure.map(|structure| structure.alpha_rad),
             eta: structure.map(|structure| structure.eta),
             friction: structure.map(|structure| structure.alpha_rad.tan()),
-            model: by.map(|direction| direction.model.words()),
+            model: by.map(|direction| direction.model.description()),
             motions: by.map(|direction| direction.model.kind()),
             limit_state: by.map(|_| limit_state),
             kind: shape.kind(),
@@ -201,7 +201,7 @@ pub struct FragilityRow {
 
 impl FragilityRow {
     pub fn new(fragility: Fragility) -> FragilityRow {
-        let (_, unit, _) = fragility.over.words();
+        let (_, unit, _) = fragility.over.name_and_unit();
         let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
             at_16: of.at_16.map(|intensity| intensity / unit),
             theta: of.theta.map(|intensity| intensity / unit),

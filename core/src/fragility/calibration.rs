@@ -6,10 +6,10 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Case, Cases, Event, Group};
-use super::level::{Level, Scenarios};
+use super::level::{QuantileLevel, Scenarios};
 use super::measure_names::Measure;
 use super::peaks::{JointPeaks, RatioGiven};
-use super::surface::{self, AtIm4, Cut, MotionKind, Prior, Section};
+use super::surface::{self, Im4Terms, MotionKind, Prior, StructureSurface, SurfaceAtIm4};
 use super::tree::Z_95;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
@@ -131,9 +131,9 @@ impl Calibration {
             let ObservedOutcome { structure, peaks, mw, earthquake: cluster, fell } = outcome.clone();
             let measures = IntensityMeasures::new(&structure, peaks, None, None);
             let (predictor, expected) = shipped.prediction(&structure, &measures, mw)?;
-            Some(Observed { predictor, happened: fell, expected, peaks, cluster })
+            Some(Observation { predictor, happened: fell, expected, peaks, cluster })
         });
-        let observed: Vec<Observed> = observed.collect();
+        let observed: Vec<Observation> = observed.collect();
         let name = OUTCOMES.to_string();
         Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(&observed) })
     }
@@ -143,7 +143,7 @@ impl Calibration {
         self.suite.as_deref() == Some(OUTCOMES)
     }
 
-    fn fitted(&self, cases: &[Observed]) -> Calibration {
+    fn fitted(&self, cases: &[Observation]) -> Calibration {
         let (at, covariance, n_clusters) = maximum(cases, &surface::prior(self.kind, self.limit_state));
         let peaks = cases.iter().map(|case| case.peaks);
         Calibration {
@@ -181,16 +181,16 @@ impl Calibration {
     ) -> Option<(Predictor, f64)> {
         let branch = self.branch(structure, mw);
         let predictor = branch.predictor_of(structure, measures)?;
-        let p = branch.probability(&predictor, Level::Interval);
+        let p = branch.probability(&predictor, QuantileLevel::Estimate);
         (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
     }
 
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
-        let section = Section::new(self.kind, structure, self.limit_state, mw);
+        let surface = StructureSurface::new(self.kind, structure, self.limit_state, mw);
         let errors = self.errors().map(|ends| ends.map(Parameters::new)).collect();
         Branch {
             calibration: self,
-            section,
+            surface,
             parameters: Parameters::new([self.c, self.ln_s, self.m]),
             errors,
         }
@@ -207,7 +207,7 @@ impl Calibration {
         let branch = self.branch(structure, mw);
         let predictor = branch.predictor_of(structure, measures)?;
         let [value, low, high] =
-            Level::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
+            QuantileLevel::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
         Some(Interval { value, low, high })
     }
 
@@ -257,7 +257,7 @@ impl Calibration {
 #[derive(Debug, Clone)]
 pub(super) struct Branch<'a> {
     calibration: &'a Calibration,
-    pub section: Section,
+    pub surface: StructureSurface,
     parameters: Parameters,
     /// At the 2.5 and 97.5 % quantiles of each independent error.
     errors: Vec<[Parameters; 2]>,
@@ -279,41 +279,41 @@ impl Parameters {
 impl Branch<'_> {
     fn predictor_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<Predictor> {
         let ln_seconds = ln_seconds(structure, measures)?;
-        let cut = self.section.at(&AtIm4::new(measures.im4, measures.im4.ln()));
-        Some(self.predictor(&cut, ln_seconds, self.section.magnitude(ln_seconds + cut.excess)))
+        let at_im4 = self.surface.at(&Im4Terms::new(measures.im4, measures.im4.ln()));
+        Some(self.predictor(&at_im4, ln_seconds, self.surface.magnitude(ln_seconds + at_im4.excess)))
     }
 
     /// For motions with this ln(PGV / PGA), s, and M - 6.9.
-    pub fn predictor(&self, cut: &Cut, ln_seconds: f64, magnitude: f64) -> Predictor {
+    pub fn predictor(&self, at_im4: &SurfaceAtIm4, ln_seconds: f64, magnitude: f64) -> Predictor {
         Predictor {
-            logit: cut.logit(ln_seconds),
+            logit: at_im4.logit(ln_seconds),
             magnitude,
-            magnitude_sd: self.section.magnitude_sd,
-            added: cut.gain(ln_seconds),
+            magnitude_sd: self.surface.magnitude_sd,
+            added: at_im4.gain(ln_seconds),
         }
     }
 
-    pub fn probability(&self, predictor: &Predictor, level: Level) -> f64 {
+    pub fn probability(&self, predictor: &Predictor, level: QuantileLevel) -> f64 {
         logistic(self.logit(predictor, level))
     }
 
     /// The logit c + s L + m (M - 6.9) + g. Its 95 % limits are by the delta method, J V J', without g; those
     /// of one scenario add tau and the spread of an unknown magnitude.
-    pub fn logit(&self, predictor: &Predictor, level: Level) -> f64 {
+    pub fn logit(&self, predictor: &Predictor, level: QuantileLevel) -> f64 {
         let Parameters { c, s, m } = match level {
-            Level::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+            QuantileLevel::Error { number, is_high } => self.errors[number][usize::from(is_high)],
             _ => self.parameters,
         };
         // P must not fall as PGV rises: where it would, a magnitude inferred from PGV / PGA does not count.
         let is_told = predictor.magnitude_sd > 0.0;
         let magnitude =
-            if is_told && m < 0.0 { self.section.middle_magnitude() } else { predictor.magnitude };
+            if is_told && m < 0.0 { self.surface.middle_magnitude() } else { predictor.magnitude };
         let scaled = s * predictor.logit;
         let logit = c + scaled + m * magnitude + predictor.added;
         let (sign, scenarios) = match level {
-            Level::Interval | Level::Error { .. } => return logit,
-            Level::Low(scenarios) => (-1.0, scenarios),
-            Level::High(scenarios) => (1.0, scenarios),
+            QuantileLevel::Estimate | QuantileLevel::Error { .. } => return logit,
+            QuantileLevel::Low(scenarios) => (-1.0, scenarios),
+            QuantileLevel::High(scenarios) => (1.0, scenarios),
         };
         let between = match scenarios {
             Scenarios::One => self.calibration.tau.hypot(m * predictor.magnitude_sd),
@@ -335,7 +335,7 @@ fn logistic(z: f64) -> f64 {
 }
 
 /// A case of the likelihood.
-struct Observed {
+struct Observation {
     predictor: Predictor,
     happened: bool,
     /// The probability by the uncalibrated surface.
@@ -345,7 +345,7 @@ struct Observed {
     cluster: u32,
 }
 
-fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
+fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observation> {
     let (event, limit_state) = match shipped.limit_state {
         Some(limit_state) => (Event::Exceeding, limit_state),
         None => (Event::Overturning, f64::INFINITY),
@@ -353,7 +353,7 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
     let counts = cases.all.iter().filter_map(|&Case { outcome, measures, peaks, mw, cluster }| {
         let happened = event.happened(outcome, limit_state)?;
         let (predictor, expected) = shipped.prediction(&cases.structure, &measures, mw)?;
-        Some(Observed { predictor, happened, expected, peaks, cluster })
+        Some(Observation { predictor, happened, expected, peaks, cluster })
     });
     counts.collect()
 }
@@ -362,13 +362,13 @@ fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observed> {
 /// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
 /// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
 /// one more cluster.
-fn maximum(cases: &[Observed], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
+fn maximum(cases: &[Observation], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
     let found = maximise(|at| log_posterior(cases, prior, at), DVector::from_vec(prior.mean.to_vec()));
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
     let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
     let slopes: Vec<f64> = cases.iter().map(|case| s * case.predictor.logit).collect();
     let magnitudes: Vec<f64> = cases.iter().map(|case| case.predictor.magnitude).collect();
-    let scores = cases.iter().map(|Observed { predictor, happened, .. }| {
+    let scores = cases.iter().map(|Observation { predictor, happened, .. }| {
         let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
         f64::from(*happened) - logistic(z)
     });
@@ -382,10 +382,10 @@ fn maximum(cases: &[Observed], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, us
 /// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum
 /// of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
 /// derivatives are not those of a maximum, their expectation stands for them.
-fn log_posterior(cases: &[Observed], prior: &Prior, at: &DVector<f64>) -> Objective {
+fn log_posterior(cases: &[Observation], prior: &Prior, at: &DVector<f64>) -> Objective {
     let s = at[1].exp();
     let mut sum = Objective::sum(cases.len(), 3, |case, sum| {
-        let Observed { predictor, happened, .. } = &cases[case];
+        let Observation { predictor, happened, .. } = &cases[case];
         let by = [1.0, s * predictor.logit, predictor.magnitude];
         let z = at[0] + by[1] + at[2] * by[2] + predictor.added;
         let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });

@@ -1,8 +1,8 @@
 //! Probabilities given one peak, PGA or PGV: averaged over PGV / PGA of the motions that have it.
 
-use super::level::{Level, Scenarios};
+use super::level::{QuantileLevel, Scenarios};
 use super::model::{Model, RockingDirection};
-use super::on_floor::Uplift;
+use super::on_floor::UpliftIntensities;
 use super::peaks::{Peak, RatioGiven};
 use super::ready::ReadyObject;
 use super::surface;
@@ -70,14 +70,18 @@ impl<'a> GivenPeak<'a> {
     }
 
     pub fn limit_states(&self, intensity: f64) -> LimitStates<Option<f64>> {
-        self.at_levels(intensity, &[Level::Interval])[0]
+        self.at_levels(intensity, &[QuantileLevel::Estimate])[0]
     }
 
     pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
-        LimitStates::from_levels(&self.at_levels(intensity, &Level::with_limits(scenarios)))
+        LimitStates::from_levels(&self.at_levels(intensity, &QuantileLevel::with_limits(scenarios)))
     }
 
-    pub(crate) fn at_levels(&self, intensity: f64, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
+    pub(crate) fn at_levels(
+        &self,
+        intensity: f64,
+        levels: &[QuantileLevel],
+    ) -> Vec<LimitStates<Option<f64>>> {
         let mut means = vec![LimitStates::all(Some(0.0)); levels.len()];
         if self.peak == Peak::Pga && intensity < self.least_uplift_m_s2() {
             return means;
@@ -104,9 +108,9 @@ impl<'a> GivenPeak<'a> {
         uplifts.fold(f64::INFINITY, f64::min)
     }
 
-    pub fn uplift(&self) -> Uplift {
+    pub fn uplift(&self) -> UpliftIntensities {
         let usual = self.directions.iter().map(|direction| direction.uplift_m_s2().usual);
-        Uplift {
+        UpliftIntensities {
             least: self.intensity_of(self.least_uplift_m_s2(), -FARTHEST),
             usual: self.intensity_of(usual.fold(f64::INFINITY, f64::min), 0.0),
         }

@@ -15,21 +15,21 @@ pub enum Scenarios {
 /// The estimate of a probability, one of its 95 % limits, or its value with one of the independent errors of
 /// the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Level {
-    Interval,
+pub(crate) enum QuantileLevel {
+    Estimate,
     Low(Scenarios),
     High(Scenarios),
     Error { number: usize, is_high: bool },
 }
 
-impl Level {
-    pub fn with_limits(scenarios: Scenarios) -> [Level; 3] {
-        [Level::Interval, Level::Low(scenarios), Level::High(scenarios)]
+impl QuantileLevel {
+    pub fn with_limits(scenarios: Scenarios) -> [QuantileLevel; 3] {
+        [QuantileLevel::Estimate, QuantileLevel::Low(scenarios), QuantileLevel::High(scenarios)]
     }
 }
 
 impl LimitStates<Option<Interval>> {
-    /// From the probabilities at [`Level::with_limits`].
+    /// From the probabilities at [`QuantileLevel::with_limits`].
     pub(super) fn from_levels(states: &[LimitStates<Option<f64>>]) -> LimitStates<Option<Interval>> {
         let limits = states[1].zip(states[2], Option::zip);
         states[0].zip(limits, |value, limits| {

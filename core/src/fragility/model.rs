@@ -2,7 +2,7 @@
 
 use super::calibration::Calibration;
 use super::demand::DemandFit;
-use super::on_floor::{self, Uplift};
+use super::on_floor::{self, UpliftIntensities};
 use super::overturning::CurveFit;
 use super::peaks::JointPeaks;
 use super::surface::{self, MotionKind};
@@ -30,11 +30,11 @@ pub struct RockingDirection {
 }
 
 impl RockingDirection {
-    pub fn uplift_m_s2(&self) -> Uplift {
+    pub fn uplift_m_s2(&self) -> UpliftIntensities {
         let uplift = self.structure.uplift_acceleration_m_s2();
         match self.model.floor() {
             Some(_) => on_floor::uplift_m_s2(&self.structure),
-            None => Uplift { least: uplift, usual: uplift },
+            None => UpliftIntensities { least: uplift, usual: uplift },
         }
     }
 }
@@ -111,11 +111,11 @@ impl Model {
         }
     }
 
-    pub fn words(&self) -> String {
+    pub fn description(&self) -> String {
         match self {
             Model::Calibrated { overturning, .. } => {
                 let Calibration { n, structure, kind, suite, .. } = overturning;
-                let (n, motions) = (*n as usize, kind.words());
+                let (n, motions) = (*n as usize, kind.description());
                 let place = if Suite::is_floor(suite.as_deref()) { " of a floor" } else { "" };
                 let calibrated = match n {
                     0 => " for".to_string(),
@@ -127,7 +127,7 @@ impl Model {
                 format!("rockfrag's universal surface{calibrated} {motions}{place}")
             }
             Model::Paper { overturning: CurveFit { n, structure, .. }, .. } => {
-                let (responses, motions) = (counted(*n as usize, "response"), self.kind().words());
+                let (responses, motions) = (counted(*n as usize, "response"), self.kind().description());
                 let structure = name(structure);
                 format!(
                     "rockfrag's fit of the paper's curve and planes to {responses} of {structure} \

@@ -29,16 +29,16 @@ const ROOT_3: f64 = 1.732_050_807_568_877_2;
 
 /// Intensities that uplift an object, m/s2 or m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Uplift {
+pub struct UpliftIntensities {
     /// By the strongest floor, or with the smallest PGV / PGA.
     pub least: f64,
     /// By a usual floor, with the median PGV / PGA.
     pub usual: f64,
 }
 
-pub(super) fn uplift_m_s2(structure: &Structure) -> Uplift {
+pub(super) fn uplift_m_s2(structure: &Structure) -> UpliftIntensities {
     let uplift = structure.uplift_acceleration_m_s2();
-    Uplift { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
+    UpliftIntensities { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
 }
 
 #[derive(Debug, Clone, Copy)]

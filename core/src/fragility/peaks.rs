@@ -18,7 +18,7 @@ pub enum Peak {
 
 impl Peak {
     /// The short name, the unit in SI units, and its symbol.
-    pub fn words(self) -> (&'static str, f64, &'static str) {
+    pub fn name_and_unit(self) -> (&'static str, f64, &'static str) {
         match self {
             Peak::Pga => ("PGA", G_M_S2, "g"),
             Peak::Pgv => ("PGV", 1.0, "m/s"),

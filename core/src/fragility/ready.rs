@@ -7,10 +7,10 @@
 //!    stage is repeated here, for each of the seven nodes of its peaks.
 
 use super::calibration::{Branch, Predictor};
-use super::level::{Level, Scenarios};
+use super::level::{QuantileLevel, Scenarios};
 use super::model::{CONFIDENCE, Model, RockingDirection, paper_probabilities};
 use super::on_floor::{FloorMotionDistribution, OnFloor};
-use super::surface::{AtIm4, Cut};
+use super::surface::{Im4Terms, SurfaceAtIm4};
 use super::tree::{GivenRocking, LimitStates, Probabilities, p_failure_given_rocking};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
@@ -40,10 +40,10 @@ impl Model {
                 let ln_seconds = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
                 let mut states = [LimitStates::all(Some(0.0)); 3];
                 let direction = ReadyDirection::new(structure, self, mw);
-                direction.at(pga_m_s2).join(
+                direction.at(pga_m_s2).combine_into(
                     ln_seconds,
                     &mut None,
-                    &Level::with_limits(scenarios),
+                    &QuantileLevel::with_limits(scenarios),
                     &mut states,
                 );
                 Probabilities::on_floor(LimitStates::from_levels(&states))
@@ -74,12 +74,12 @@ impl Probabilities {
 struct ReadyDirection<'a> {
     structure: &'a Structure,
     uplift_m_s2: f64,
-    by: By<'a>,
+    by: ReadyModel<'a>,
 }
 
 /// P_ro and P_ex of the calibrated surface, or the paper's fits with each of their errors at its quantiles.
 #[expect(clippy::large_enum_variant, reason = "one is made for each direction of an object")]
-enum By<'a> {
+enum ReadyModel<'a> {
     Ground([Branch<'a>; 2]),
     Floor([Branch<'a>; 2], OnFloor),
     Paper(&'a Model, Vec<[Model; 2]>),
@@ -92,12 +92,12 @@ impl<'a> ReadyDirection<'a> {
                 let branches = [overturning, exceeding].map(|calibration| calibration.branch(structure, mw));
                 match floor {
                     Some(floor) => {
-                        By::Floor(branches, OnFloor::new(*floor, structure, exceeding.limit_state))
+                        ReadyModel::Floor(branches, OnFloor::new(*floor, structure, exceeding.limit_state))
                     }
-                    None => By::Ground(branches),
+                    None => ReadyModel::Ground(branches),
                 }
             }
-            Model::Paper { .. } => By::Paper(model, model.ends()),
+            Model::Paper { .. } => ReadyModel::Paper(model, model.ends()),
         };
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }
@@ -106,14 +106,16 @@ impl<'a> ReadyDirection<'a> {
         let im4 = pga_m_s2 / self.uplift_m_s2;
         let ln_im4 = im4.ln();
         match &self.by {
-            By::Ground(branches) if im4 >= 1.0 => {
-                let at = AtIm4::new(im4, ln_im4);
-                let cuts = branches.each_ref().map(|branch| branch.section.at(&at));
-                DirectionAtPga::Ground(branches, cuts)
+            ReadyModel::Ground(branches) if im4 >= 1.0 => {
+                let at = Im4Terms::new(im4, ln_im4);
+                let at_im4 = branches.each_ref().map(|branch| branch.surface.at(&at));
+                DirectionAtPga::Ground(branches, at_im4)
             }
-            By::Ground(_) => DirectionAtPga::Still,
-            By::Floor(branches, on_floor) => DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 },
-            By::Paper(model, ends) => {
+            ReadyModel::Ground(_) => DirectionAtPga::Still,
+            ReadyModel::Floor(branches, on_floor) => {
+                DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 }
+            }
+            ReadyModel::Paper(model, ends) => {
                 DirectionAtPga::Paper { model, ends, structure: self.structure, pga_m_s2 }
             }
         }
@@ -123,7 +125,7 @@ impl<'a> ReadyDirection<'a> {
 /// Second stage: a direction under motions of one PGA of the ground.
 enum DirectionAtPga<'a> {
     Still,
-    Ground(&'a [Branch<'a>; 2], [Cut; 2]),
+    Ground(&'a [Branch<'a>; 2], [SurfaceAtIm4; 2]),
     Floor { branches: &'a [Branch<'a>; 2], on_floor: &'a OnFloor, im4: f64, ln_im4: f64 },
     Paper { model: &'a Model, ends: &'a [[Model; 2]], structure: &'a Structure, pga_m_s2: f64 },
 }
@@ -132,20 +134,20 @@ impl DirectionAtPga<'_> {
     /// Third stage: joins the probabilities at each level under motions with this ln(PGV / PGA), s, to those
     /// of other directions: an object falls in either, independently under one motion. `motions` are those of
     /// the floor, the same for all directions: the first that needs them computes them.
-    fn join(
+    fn combine_into(
         &self,
         ln_seconds: f64,
         motions: &mut Option<FloorMotionDistribution>,
-        levels: &[Level],
+        levels: &[QuantileLevel],
         joined: &mut [LimitStates<Option<f64>>],
     ) {
         let levels = joined.iter_mut().zip(levels);
         match self {
             DirectionAtPga::Still => {}
-            DirectionAtPga::Ground(branches, cuts) => {
+            DirectionAtPga::Ground(branches, at_im4) => {
                 let predictors = [0, 1].map(|k| {
-                    let (branch, cut) = (&branches[k], &cuts[k]);
-                    branch.predictor(cut, ln_seconds, branch.section.magnitude(ln_seconds + cut.excess))
+                    let (branch, at_im4) = (&branches[k], &at_im4[k]);
+                    branch.predictor(at_im4, ln_seconds, branch.surface.magnitude(ln_seconds + at_im4.excess))
                 });
                 for (joined, level) in levels {
                     let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
@@ -157,12 +159,12 @@ impl DirectionAtPga<'_> {
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
                 let motions = motions.get_or_insert_with(|| on_floor.motions(ln_seconds));
                 let (added, rocking) = (on_floor.added(motions), motions.p_rocking(*ln_im4));
-                let magnitudes = branches.each_ref().map(|branch| branch.section.magnitude(ln_seconds));
+                let magnitudes = branches.each_ref().map(|branch| branch.surface.magnitude(ln_seconds));
                 let rocks = motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0).map(|node| {
-                    let at = AtIm4::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
+                    let at = Im4Terms::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
                     let predictors = [0, 1].map(|k| {
-                        let cut = branches[k].section.at(&at);
-                        let predictor = branches[k].predictor(&cut, node.ln_seconds, magnitudes[k]);
+                        let at_im4 = branches[k].surface.at(&at);
+                        let predictor = branches[k].predictor(&at_im4, node.ln_seconds, magnitudes[k]);
                         Predictor { added: predictor.added + added[k], ..predictor }
                     });
                     (node.weight, predictors)
@@ -184,15 +186,15 @@ impl DirectionAtPga<'_> {
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
                 for (joined, level) in levels {
                     let model = match *level {
-                        Level::Error { number, is_high } => &ends[number][usize::from(is_high)],
+                        QuantileLevel::Error { number, is_high } => &ends[number][usize::from(is_high)],
                         _ => *model,
                     };
                     let tree = model.probabilities(structure, &measures, None, Scenarios::Many);
                     *joined = joined.or(tree.limit_states().map(|p| {
                         p.map(|p| match level {
-                            Level::Low(_) => p.low,
-                            Level::High(_) => p.high,
-                            Level::Interval | Level::Error { .. } => p.value,
+                            QuantileLevel::Low(_) => p.low,
+                            QuantileLevel::High(_) => p.high,
+                            QuantileLevel::Estimate | QuantileLevel::Error { .. } => p.value,
                         })
                     }));
                 }
@@ -201,13 +203,13 @@ impl DirectionAtPga<'_> {
     }
 }
 
-impl Level {
+impl QuantileLevel {
     /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
-    pub fn with_errors(directions: &[RockingDirection]) -> Vec<Level> {
+    pub fn with_errors(directions: &[RockingDirection]) -> Vec<QuantileLevel> {
         let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
-        let errors =
-            (0..fewest).flat_map(|number| [false, true].map(|is_high| Level::Error { number, is_high }));
-        [Level::Interval].into_iter().chain(errors).collect()
+        let errors = (0..fewest)
+            .flat_map(|number| [false, true].map(|is_high| QuantileLevel::Error { number, is_high }));
+        [QuantileLevel::Estimate].into_iter().chain(errors).collect()
     }
 }
 
@@ -228,7 +230,7 @@ impl<'a> ReadyObject<'a> {
         ObjectAtPga(self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect())
     }
 
-    pub fn limit_states(&self, peaks: Peaks, levels: &[Level]) -> Vec<LimitStates<Option<f64>>> {
+    pub fn limit_states(&self, peaks: Peaks, levels: &[QuantileLevel]) -> Vec<LimitStates<Option<f64>>> {
         let mut states = vec![LimitStates::all(Some(0.0)); levels.len()];
         let ln_seconds = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
         self.at(peaks.pga_m_s2).limit_states(ln_seconds, levels, &mut states);
@@ -236,7 +238,7 @@ impl<'a> ReadyObject<'a> {
     }
 
     pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
-        LimitStates::from_levels(&self.limit_states(peaks, &Level::with_limits(scenarios)))
+        LimitStates::from_levels(&self.limit_states(peaks, &QuantileLevel::with_limits(scenarios)))
     }
 }
 
@@ -244,11 +246,16 @@ pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
 
 impl ObjectAtPga<'_> {
     /// The limit states at this ln(PGV / PGA), s, and each level; none where a model has none.
-    pub fn limit_states(&self, ln_seconds: f64, levels: &[Level], states: &mut [LimitStates<Option<f64>>]) {
+    pub fn limit_states(
+        &self,
+        ln_seconds: f64,
+        levels: &[QuantileLevel],
+        states: &mut [LimitStates<Option<f64>>],
+    ) {
         let mut motions = None;
         states.fill(LimitStates::all(Some(0.0)));
         for direction in &self.0 {
-            direction.join(ln_seconds, &mut motions, levels, states);
+            direction.combine_into(ln_seconds, &mut motions, levels, states);
         }
     }
 }

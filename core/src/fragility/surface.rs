@@ -37,7 +37,7 @@ impl MotionKind {
         }
     }
 
-    pub fn words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             MotionKind::Recorded => "recorded motions",
             MotionKind::Csgm => "synthetic near-fault motions on rock",
@@ -49,7 +49,7 @@ impl MotionKind {
 
 /// The surface for one structure, limit state and magnitude: a function of IM4 and PGV / PGA.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Section {
+pub(super) struct StructureSurface {
     /// Coefficients of x^i w^j r^k: at `[i][j][k]`.
     coefficients: [[[f64; POWERS]; POWERS]; POWERS_OF_X],
     /// 0.4 limit: ln IM4 - r - w.
@@ -66,31 +66,31 @@ pub(super) struct Section {
     pub magnitude_sd: f64,
 }
 
-impl Section {
+impl StructureSurface {
     /// P_ex at a limit state, P_ro without one. An unknown magnitude is inferred from PGV / PGA.
     pub fn new(
         kind: MotionKind,
         structure: &Structure,
         limit_state: Option<f64>,
         mw: Option<f64>,
-    ) -> Section {
-        let (domain, curve) = (&SURFACE.domain, SURFACE.curve(kind, limit_state));
+    ) -> StructureSurface {
+        let (domain, branch) = (&SURFACE.domain, SURFACE.branch(kind, limit_state));
         let [limit, end] = limits(limit_state);
         let p = domain.p.held(structure.p_rad_s);
         let fixed = [(domain.eta.held(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
         let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
-        for Term { coefficient, powers: [x, w, r, others @ ..] } in &curve.terms {
+        for Term { coefficient, powers: [x, w, r, others @ ..] } in &branch.terms {
             let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power as i32));
             coefficients[*x][*w][*r] += coefficient * others.product::<f64>();
         }
         let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
         let (intercept, slope) = mw.map_or((intercept, slope), |mw| (mw, 0.0));
-        Section {
+        StructureSurface {
             coefficients,
             lower: 0.4 * limit,
             ln_p: structure.p_rad_s.ln(),
             ln_p_held: p.ln(),
-            rise: curve.rise,
+            rise: branch.rise,
             intercept,
             slope,
             magnitudes: range,
@@ -109,8 +109,8 @@ impl Section {
     }
 
     /// L at an IM4, a cubic in r = ln(PGA / (p PGV)), by Horner's rule in w = ln IM4 - r - 0.4 l.
-    pub fn at(&self, at: &AtIm4) -> Cut {
-        let AtIm4 { ln_im4, held, x, ln_above } = *at;
+    pub fn at(&self, at: &Im4Terms) -> SurfaceAtIm4 {
+        let Im4Terms { ln_im4, held, x, ln_above } = *at;
         let ([a, b, c], w_at_r_0) = (&self.coefficients, held - self.lower);
         let mut cubic = [0.0; POWERS];
         for w in (0..POWERS).rev() {
@@ -122,7 +122,7 @@ impl Section {
         }
         let Rise { n, ln_d, k } = self.rise;
         let ln_gain = n * (ln_d - ln_above - k * (self.ln_p + ln_im4));
-        Cut {
+        SurfaceAtIm4 {
             cubic,
             excess: ln_im4 - held,
             ln_p: self.ln_p_held,
@@ -133,8 +133,8 @@ impl Section {
     }
 }
 
-/// An IM4, with what all sections need of it.
-pub(super) struct AtIm4 {
+/// An IM4, with what the surfaces of all structures need of it.
+pub(super) struct Im4Terms {
     ln_im4: f64,
     /// ln IM4, held at the end of its domain: beyond, the polynomial means nothing, and PGV alone counts, so
     /// that P does not fall as PGV / PGA falls.
@@ -145,16 +145,16 @@ pub(super) struct AtIm4 {
     ln_above: f64,
 }
 
-impl AtIm4 {
-    pub fn new(im4: f64, ln_im4: f64) -> AtIm4 {
+impl Im4Terms {
+    pub fn new(im4: f64, ln_im4: f64) -> Im4Terms {
         let held = SURFACE.ln_im4.held(ln_im4);
-        AtIm4 { ln_im4, held, x: (held + 0.2).ln(), ln_above: (im4 - 1.0).max(0.0).ln() }
+        Im4Terms { ln_im4, held, x: (held + 0.2).ln(), ln_above: (im4 - 1.0).max(0.0).ln() }
     }
 }
 
-/// A section at one IM4: a function of ln(PGV / PGA), s.
+/// The surface of a structure at one IM4: a function of ln(PGV / PGA), s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cut {
+pub(super) struct SurfaceAtIm4 {
     /// L by powers of r.
     cubic: [f64; POWERS],
     /// ln of PGA over the PGA at which it is held.
@@ -167,7 +167,7 @@ pub(super) struct Cut {
     slope: f64,
 }
 
-impl Cut {
+impl SurfaceAtIm4 {
     /// L, with PGA / PGV held within the domain.
     pub fn logit(&self, ln_seconds: f64) -> f64 {
         let r = self.ln_ratio.held(-ln_seconds - self.excess) - self.ln_p;
@@ -219,7 +219,7 @@ pub(super) struct Prior {
 }
 
 pub(super) fn prior(kind: MotionKind, limit_state: Option<f64>) -> Prior {
-    let mut prior = SURFACE.curve(kind, limit_state).prior;
+    let mut prior = SURFACE.branch(kind, limit_state).prior;
     prior.mean[0] += prior.by_limit * limits(limit_state)[1];
     prior
 }
@@ -271,12 +271,12 @@ struct Domain {
 struct KindParameters {
     magnitude: ExpectedMagnitude,
     /// P_ro and P_ex.
-    curves: [Curve; 2],
+    branches: [BranchSurface; 2],
     peaks: JointPeaks,
 }
 
 /// P_ro or P_ex under a kind of motion.
-struct Curve {
+struct BranchSurface {
     terms: Vec<Term>,
     rise: Rise,
     prior: Prior,
@@ -315,7 +315,7 @@ impl Term {
             powers[place] += power.parse::<usize>().expect(product);
         }
         let [x, w, r, ..] = powers;
-        assert!(x < POWERS_OF_X && w + r < POWERS, "{product}: of a higher degree than a section has");
+        assert!(x < POWERS_OF_X && w + r < POWERS, "{product}: of a higher degree than the surface has");
         Term { coefficient, powers }
     }
 }
@@ -325,8 +325,8 @@ static SURFACE: LazyLock<Surface> =
 
 impl Surface {
     /// P_ex has a limit state, P_ro has none.
-    fn curve(&self, kind: MotionKind, limit_state: Option<f64>) -> &Curve {
-        &self.kinds[kind as usize].curves[usize::from(limit_state.is_some())]
+    fn branch(&self, kind: MotionKind, limit_state: Option<f64>) -> &BranchSurface {
+        &self.kinds[kind as usize].branches[usize::from(limit_state.is_some())]
     }
 
     /// Reads the file that is compiled in. An invalid line is a fault of the build, which tests find.
@@ -357,19 +357,19 @@ impl KindParameters {
         });
         KindParameters {
             magnitude: ExpectedMagnitude { intercept, slope, sd, range: Range { low, high } },
-            curves: ["pro", "pex"].map(|name| Curve::parse(rows, kind, name)),
+            branches: ["pro", "pex"].map(|name| BranchSurface::parse(rows, kind, name)),
             peaks: JointPeaks { given_pga, given_pgv },
         }
     }
 }
 
-impl Curve {
-    fn parse(rows: &[Vec<&str>], kind: MotionKind, name: &str) -> Curve {
+impl BranchSurface {
+    fn parse(rows: &[Vec<&str>], kind: MotionKind, name: &str) -> BranchSurface {
         let [n, d, k] = numbers(rows, &["uplift", kind.into(), name]);
         let [c, ln_s, m, sd_c, sd_ln_s, sd_m, tau, by_limit] =
             numbers(rows, &["calibration", kind.into(), name]);
         let terms = rows.iter().filter(|row| row.starts_with(&["term", name]));
-        Curve {
+        BranchSurface {
             terms: terms
                 .map(|row| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number")))
                 .collect(),

@@ -6,7 +6,7 @@ use super::motion::logit;
 use super::motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
-use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak, RockingDirection};
+use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel, RockingDirection};
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
 use crate::object::{Subject, Unknown};
@@ -130,10 +130,10 @@ impl Fragility {
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
         let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
-        let levels = Level::with_errors(&subject.directions);
+        let levels = QuantileLevel::with_errors(&subject.directions);
         let by_level = probabilities(&middle, &intensities, &levels);
-        let mut ends =
-            motions.ends(subject, |given| probabilities(given, &intensities, &[Level::Interval]).remove(0));
+        let mut ends = motions
+            .ends(subject, |given| probabilities(given, &intensities, &[QuantileLevel::Estimate]).remove(0));
         ends.extend(Unknown::from_fit_errors(&by_level));
         let values = &by_level[0];
         let budget = |k: usize, state: LimitState| {
@@ -198,7 +198,7 @@ impl Lognormal {
 
 /// With the unit; none is beyond all that was recorded.
 pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
-    let (_, unit, symbol) = over.words();
+    let (_, unit, symbol) = over.name_and_unit();
     match intensity {
         Some(value) => format!("{} {symbol}", significant(value / unit, 2)),
         None => format!("> {} {symbol}", plain(strongest(over) / unit)),
@@ -208,7 +208,7 @@ pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
 fn probabilities(
     given: &GivenPeak,
     intensities: &[f64],
-    levels: &[Level],
+    levels: &[QuantileLevel],
 ) -> Vec<Vec<LimitStates<Option<f64>>>> {
     let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_levels(*im, levels)).collect();
     (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()

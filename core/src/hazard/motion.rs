@@ -3,7 +3,7 @@
 use super::budget::Budget;
 use super::motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
-use crate::fragility::{Level, LimitState, LimitStates, Model, Peak, ReadyObject, Scenarios, Z_95};
+use crate::fragility::{LimitState, LimitStates, Model, Peak, QuantileLevel, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::statistics::Interval;
@@ -73,7 +73,7 @@ impl GroundMotion {
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
                 let ends = subject.ends(|directions| {
-                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[Level::Interval])[0]
+                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[QuantileLevel::Estimate])[0]
                 });
                 let [many, one] = [Scenarios::Many, Scenarios::One].map(|over| ready.estimates(peaks, over));
                 Known { many, one, ends }

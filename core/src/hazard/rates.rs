@@ -1,7 +1,7 @@
 //! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
 use super::curve::{HazardCurve, Node};
-use crate::fragility::{GivenPeak, Level, LimitStates, ReadyObject, RockingDirection};
+use crate::fragility::{GivenPeak, LimitStates, QuantileLevel, ReadyObject, RockingDirection};
 use crate::motion::Peaks;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
@@ -60,7 +60,7 @@ impl Rate {
 
 /// None where the model has no probability.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
-    OverCurve::new(given_peak, curve, &[Level::Interval]).rates(0)
+    OverCurve::new(given_peak, curve, &[QuantileLevel::Estimate]).rates(0)
 }
 
 /// The probabilities of an object, at each level, at the nodes of a hazard curve and at its last intensity,
@@ -71,7 +71,7 @@ pub(super) struct OverCurve {
 }
 
 impl OverCurve {
-    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, levels: &[Level]) -> OverCurve {
+    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, levels: &[QuantileLevel]) -> OverCurve {
         let at = |node: Node| (node, given_peak.at_levels(node.intensity, levels));
         let [_, (intensity, annual_rate)] = curve.ends();
         let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel()).into_iter();
@@ -114,7 +114,7 @@ pub(super) fn rates_over_pairs(
     directions: &[RockingDirection],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
-    levels: &[Level],
+    levels: &[QuantileLevel],
 ) -> Vec<LimitStates<Option<Rate>>> {
     let mut ready = ReadyObject::new(directions, mw);
     let mut rates = vec![LimitStates::all(Some(0.0)); levels.len()];

@@ -1,7 +1,7 @@
 //! The shares of a rate by intensity.
 
 use super::site::{Hazard, Site};
-use crate::fragility::{Level, ReadyObject};
+use crate::fragility::{QuantileLevel, ReadyObject};
 use crate::object::Subject;
 use crate::statistics::numerics::equal_ratios;
 
@@ -25,7 +25,7 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
-                let curve = self.integrated(hazard, &given, &[Level::Interval]).curve;
+                let curve = self.integrated(hazard, &given, &[QuantileLevel::Estimate]).curve;
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let mut parts = RateByIntensity::new(first, last, bins);
                 let probability = |intensity: f64| given.limit_states(intensity).overturning.unwrap_or(0.0);
@@ -42,7 +42,7 @@ impl Site {
                 let mut parts = RateByIntensity::new(low, high * 1.001, bins);
                 for pair in pairs {
                     let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
-                    let p = ready.limit_states(pair.peaks, &[Level::Interval])[0].overturning;
+                    let p = ready.limit_states(pair.peaks, &[QuantileLevel::Estimate])[0].overturning;
                     parts.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
                 }
                 parts

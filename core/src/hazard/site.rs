@@ -5,7 +5,7 @@ use super::curve::HazardCurve;
 use super::motions::ConditionalMotions;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{GivenPeak, Level, LimitState, LimitStates, Peak};
+use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel};
 use crate::motion::Peaks;
 use crate::object::{Part, Subject, Unknown};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -110,12 +110,12 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
             Hazard::Joint(bins) => {
-                let levels = Level::with_errors(&subject.directions);
+                let levels = QuantileLevel::with_errors(&subject.directions);
                 let all = rates_over_pairs(&subject.directions, self.mw, bins, &levels);
                 let varied = Varied::new(
                     all,
                     subject.ends(|directions| {
-                        rates_over_pairs(directions, self.mw, bins, &[Level::Interval])[0]
+                        rates_over_pairs(directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
                     }),
                 );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
@@ -129,11 +129,12 @@ impl Site {
     pub fn overturning(&self, subject: &Subject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
-                rates_over_pairs(&subject.directions, self.mw, bins, &[Level::Interval])[0]
+                rates_over_pairs(&subject.directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
             }
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
-                let Integrated { over, ends_early, .. } = self.integrated(hazard, &given, &[Level::Interval]);
+                let Integrated { over, ends_early, .. } =
+                    self.integrated(hazard, &given, &[QuantileLevel::Estimate]);
                 Some(over.rates(0)).filter(|_| !ends_early)?
             }
         };
@@ -141,7 +142,12 @@ impl Site {
     }
 
     /// At these levels, the estimate first. A curve that ends too early is extrapolated if `extrapolate`.
-    pub(super) fn integrated(&self, hazard: &PeakHazard, given: &GivenPeak, levels: &[Level]) -> Integrated {
+    pub(super) fn integrated(
+        &self,
+        hazard: &PeakHazard,
+        given: &GivenPeak,
+        levels: &[QuantileLevel],
+    ) -> Integrated {
         let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, levels));
         let [_, (last, _)] = curve.ends();
         let known = over.rates(0).overturning;
@@ -165,7 +171,7 @@ impl Site {
     fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
         let motions = self.motions(hazard, subject);
         let middle = motions.given(&subject.directions, 0.0);
-        let levels = Level::with_errors(&subject.directions);
+        let levels = QuantileLevel::with_errors(&subject.directions);
         let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &levels);
         let mut ends = motions.ends(subject, |given| rates_over_curve(given, &curve));
         if let Some([low, high]) = &hazard.fractiles {
@@ -202,7 +208,7 @@ pub(super) struct Integrated {
 }
 
 impl Varied {
-    /// `by_level` are the rates at [`Level::with_errors`], `ends` those at the quantiles of other unknowns.
+    /// `by_level` are the rates at [`QuantileLevel::with_errors`], `ends` those at the quantiles of other unknowns.
     fn new(
         by_level: Vec<LimitStates<Option<Rate>>>,
         mut ends: Vec<Unknown<LimitStates<Option<Rate>>>>,

@@ -29,7 +29,7 @@ pub enum Part {
 }
 
 impl Part {
-    pub fn words(self) -> &'static str {
+    pub fn description(self) -> &'static str {
         match self {
             Part::Fit => "the fragility",
             Part::Magnitude => "magnitude",

@@ -41,7 +41,7 @@ pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let seeds = seed_values();
     let compared = published().into_iter().map(|number| {
         let group = Group { suite: Some(&number.suite), structure: &number.structure };
-        let ours = Fits { group, demand, curves }.value(&number.quantity);
+        let ours = GroupFits { group, demand, curves }.value(&number.quantity);
         comparison(number, ours, &seeds)
     });
     compared.collect()
@@ -68,13 +68,13 @@ fn z(number: &Published, ours: Option<f64>, sd: Option<f64>) -> Option<f64> {
 }
 
 /// All fits, and the suite and structure whose fits are looked up.
-struct Fits<'a> {
+struct GroupFits<'a> {
     group: Group<'a>,
     demand: &'a [DemandFit],
     curves: &'a [CurveFit],
 }
 
-impl Fits<'_> {
+impl GroupFits<'_> {
     /// Our value of a published quantity; none where no fit gives it.
     fn value(&self, quantity: &str) -> Option<f64> {
         // The example takes the curve of the equipment for both structures.

@@ -83,7 +83,7 @@ fn tell_list(all: &[Answer<FragilityRow>], out: Option<&Path>) -> String {
             },
         )
     });
-    let over = all[0].row.over.unwrap_or(Peak::Pga).words().0;
+    let over = all[0].row.over.unwrap_or(Peak::Pga).name_and_unit().0;
     let by = format!("{over} at which half of the motions have the effect, by {}.", model_of_all(all));
     format!("{}\n{rows}{}", half(&all[0]), line([Some(by), about_buildings(all)]))
 }

@@ -64,7 +64,7 @@ pub fn mostly_unknown<R>(answer: &Answer<R>, about_velocity: &str) -> Option<Str
         Part::Floor => "Measure its period (--period, --period-sd).",
         Part::Hazard => "",
     };
-    Some(format!("Largest uncertainty: {}. {advice}", part.words()).trim_end().to_string())
+    Some(format!("Largest uncertainty: {}. {advice}", part.description()).trim_end().to_string())
 }
 
 /// The warnings of an object in a few words, or in full why it has no answer.
@@ -136,7 +136,10 @@ pub fn model_of_all<R>(all: &[Answer<R>]) -> String {
     let worst = &all[0].object;
     match worst.motions.filter(|_| is_fitted_each(all)) {
         Some(kind) if model(worst).contains("surface") => {
-            format!("rockfrag's universal surface, calibrated to the simulated responses ({})", kind.words())
+            format!(
+                "rockfrag's universal surface, calibrated to the simulated responses ({})",
+                kind.description()
+            )
         }
         _ => model(worst).to_string(),
     }
