@@ -3,7 +3,7 @@
 
 use rockfrag_core::fragility::{LimitState, Peak, Z_95};
 use rockfrag_core::hazard::{Fragility, intensity_in_words};
-use rockfrag_core::object::Part;
+use rockfrag_core::object::UncertaintySource;
 use strum::VariantArray;
 
 use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
@@ -222,7 +222,7 @@ fn shares(hazard: &SiteHazard) -> Option<Panel> {
 
 /// What is not known, by how far it moves the rate.
 fn unknown(rated: &Rated) -> Option<Panel> {
-    let mut parts = rated.doubts.part_sds();
+    let mut parts = rated.doubts.source_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let most = (Z_95 * parts.first()?.1).exp();
     let what = if rated.row.overturning_per_year.value.is_some() { "rate" } else { "odds" };
@@ -244,15 +244,15 @@ fn unknown(rated: &Rated) -> Option<Panel> {
 }
 
 /// What is not known, and what to measure.
-fn what_to_measure(part: Part) -> &'static str {
+fn what_to_measure(part: UncertaintySource) -> &'static str {
     match part {
-        Part::Fit => "fragility: records of the site",
-        Part::Magnitude => "magnitude: disaggregation",
-        Part::Velocity => "PGV: its hazard curve",
-        Part::Eta => "restitution: a rocking test",
-        Part::Object => "centre of mass: weigh it",
-        Part::Floor => "building: measure its period",
-        Part::Hazard => "hazard: its fractiles",
+        UncertaintySource::Fit => "fragility: records of the site",
+        UncertaintySource::Magnitude => "magnitude: disaggregation",
+        UncertaintySource::Velocity => "PGV: its hazard curve",
+        UncertaintySource::Eta => "restitution: a rocking test",
+        UncertaintySource::Object => "centre of mass: weigh it",
+        UncertaintySource::Floor => "building: measure its period",
+        UncertaintySource::Hazard => "hazard: its fractiles",
     }
 }
 
@@ -335,8 +335,10 @@ pub fn model_in_words(object: &ObjectRow) -> Option<String> {
 
 /// What the limits cover.
 pub fn limits_in_words(all: &[&Rated]) -> Option<String> {
-    let unknown: Vec<(Part, f64)> = all.iter().flat_map(|rated| rated.doubts.part_sds()).collect();
-    let parts = Part::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
+    let unknown: Vec<(UncertaintySource, f64)> =
+        all.iter().flat_map(|rated| rated.doubts.source_sds()).collect();
+    let parts =
+        UncertaintySource::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
     let parts: Vec<&str> = parts.map(|part| part.description()).collect();
     let joined = match parts.split_last()? {
         (only, []) => (*only).to_string(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rockfrag_core::fragility::{LimitStates, Peak};
 use rockfrag_core::hazard::{SitesInGeneral, strongest};
-use rockfrag_core::object::{Object, Place, Subject};
+use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{equal_ratios, first};
 use rockfrag_core::warning::Warnings;
@@ -90,10 +90,10 @@ impl Stage for Export {
         let bar = context.bar(objects.len());
         let functions = objects.iter().zip(&ids).map(|(object, id)| {
             bar.advance(1)?;
-            let (subject, warnings) = models.subject(object)?;
-            let warnings = warnings.into_iter().chain(subject.structure_warnings());
+            let (rocking_object, warnings) = models.rocking_object(object)?;
+            let warnings = warnings.into_iter().chain(rocking_object.structure_warnings());
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            self.function(id, object, &subject)
+            self.function(id, object, &rocking_object)
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
@@ -135,10 +135,15 @@ impl Export {
 
     /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
     /// or nothing was ever recorded, and on either side of a jump.
-    fn function(&self, id: &str, object: &Object, subject: &Subject) -> anyhow::Result<Function> {
-        let model = &subject.directions[0].model;
+    fn function(
+        &self,
+        id: &str,
+        object: &Object,
+        rocking_object: &RockingObject,
+    ) -> anyhow::Result<Function> {
+        let model = &rocking_object.directions[0].model;
         let general = SitesInGeneral { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
-        let given_peak = general.given_peak(&subject.directions);
+        let given_peak = general.given_peak(&rocking_object.directions);
         let reaching = |intensity: f64| {
             given_peak.limit_states(intensity).map(|p| p.unwrap_or_default().clamp(0.0, 1.0))
         };
@@ -163,7 +168,7 @@ impl Export {
             most = most.zip(reaching(level), f64::max);
             probabilities.push(most);
         }
-        let directions = if subject.directions.len() > 1 { " in both directions" } else { "" };
+        let directions = if rocking_object.directions.len() > 1 { " in both directions" } else { "" };
         Ok(Function {
             id: format!("{id}_{}", self.over),
             description: format!("{}{directions}, by {}", object.name, model.description()),

@@ -4,7 +4,7 @@ use rockfrag_core::fragility::{MotionKind, Peak, RockingDirection};
 use rockfrag_core::hazard::{
     Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
 };
-use rockfrag_core::object::{Object, Part};
+use rockfrag_core::object::{Object, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -161,8 +161,8 @@ pub struct DoubtsRow {
     pub error_object: Option<f64>,
     pub error_floor: Option<f64>,
     pub error_hazard: Option<f64>,
-    /// The largest part.
-    pub error_largest: Option<Part>,
+    /// The largest source.
+    pub error_largest: Option<UncertaintySource>,
 }
 
 impl DoubtsRow {
@@ -170,22 +170,22 @@ impl DoubtsRow {
         let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
         DoubtsRow {
             warnings: (!texts.is_empty()).then(|| texts.join("; ")),
-            error_fit: budget.part_sd(Part::Fit),
-            error_magnitude: budget.part_sd(Part::Magnitude),
-            error_velocity: budget.part_sd(Part::Velocity),
-            error_eta: budget.part_sd(Part::Eta),
-            error_object: budget.part_sd(Part::Object),
-            error_floor: budget.part_sd(Part::Floor),
-            error_hazard: budget.part_sd(Part::Hazard),
+            error_fit: budget.source_sd(UncertaintySource::Fit),
+            error_magnitude: budget.source_sd(UncertaintySource::Magnitude),
+            error_velocity: budget.source_sd(UncertaintySource::Velocity),
+            error_eta: budget.source_sd(UncertaintySource::Eta),
+            error_object: budget.source_sd(UncertaintySource::Object),
+            error_floor: budget.source_sd(UncertaintySource::Floor),
+            error_hazard: budget.source_sd(UncertaintySource::Hazard),
             error_largest: budget.largest(),
         }
     }
 
-    /// The standard deviations of what is unknown, by part.
-    pub fn part_sds(&self) -> Vec<(Part, f64)> {
+    /// The standard deviations of what is unknown, by source.
+    pub fn source_sds(&self) -> Vec<(UncertaintySource, f64)> {
         let row = serde_json::json!(self);
-        let sd = |part: &Part| Some((*part, row[format!("error_{part}")].as_f64()?));
-        Part::VARIANTS.iter().filter_map(sd).collect()
+        let sd = |source: &UncertaintySource| Some((*source, row[format!("error_{source}")].as_f64()?));
+        UncertaintySource::VARIANTS.iter().filter_map(sd).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The error budget: how much each source of uncertainty moves a result, and the limits that follow.
 
 use crate::fragility::Z_95;
-use crate::object::{Part, Unknown};
+use crate::object::{UncertainParameter, UncertaintySource};
 use crate::statistics::Interval;
 use strum::VariantArray;
 
@@ -9,44 +9,49 @@ use strum::VariantArray;
 /// upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
-    variances: [[f64; 2]; Part::VARIANTS.len()],
+    variances: [[f64; 2]; UncertaintySource::VARIANTS.len()],
 }
 
 impl Budget {
     /// How far a result falls and rises between the quantiles of each unknown; 0 without a result.
-    pub fn new<T>(middle: &T, unknowns: &[Unknown<T>], result: impl Fn(&T) -> Option<f64>) -> Budget {
+    pub fn new<T>(
+        middle: &T,
+        unknowns: &[UncertainParameter<T>],
+        result: impl Fn(&T) -> Option<f64>,
+    ) -> Budget {
         let mut budget = Budget::default();
         let Some(middle) = result(middle) else { return budget };
         for unknown in unknowns {
             // Standard deviations from the median to the quantiles: fractiles of hazards are 16 and 84 %.
-            let deviations = if unknown.part == Part::Hazard { 1.0 } else { Z_95 };
+            let deviations = if unknown.source == UncertaintySource::Hazard { 1.0 } else { Z_95 };
             let Some((low, high)) = result(&unknown.low).zip(result(&unknown.high)) else { continue };
             let off = [low, high].map(|end| (end - middle) / deviations);
-            budget.add(unknown.part, [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]);
+            budget.add(unknown.source, [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]);
         }
         budget
     }
 
     /// The error is independent of those added before.
-    pub fn add(&mut self, part: Part, sds: [f64; 2]) {
-        for (sum, sd) in self.variances[part as usize].iter_mut().zip(sds) {
+    pub fn add(&mut self, source: UncertaintySource, sds: [f64; 2]) {
+        for (sum, sd) in self.variances[source as usize].iter_mut().zip(sds) {
             *sum += if sd.is_finite() { sd * sd } else { 0.0 };
         }
     }
 
     /// The mean of the standard deviations downwards and upwards; none where it is 0.
-    pub fn part_sd(&self, part: Part) -> Option<f64> {
-        let [down, up] = self.variances[part as usize].map(f64::sqrt);
+    pub fn source_sd(&self, source: UncertaintySource) -> Option<f64> {
+        let [down, up] = self.variances[source as usize].map(f64::sqrt);
         Some(0.5 * (down + up)).filter(|sd| *sd > 0.0)
     }
 
     pub fn sds(&self) -> [f64; 2] {
-        [0, 1].map(|side| self.variances.iter().map(|part| part[side]).sum::<f64>().sqrt())
+        [0, 1].map(|side| self.variances.iter().map(|source| source[side]).sum::<f64>().sqrt())
     }
 
-    pub fn largest(&self) -> Option<Part> {
-        let known = Part::VARIANTS.iter().filter_map(|&part| Some((part, self.part_sd(part)?)));
-        known.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(part, _)| part)
+    pub fn largest(&self) -> Option<UncertaintySource> {
+        let known =
+            UncertaintySource::VARIANTS.iter().filter_map(|&source| Some((source, self.source_sd(source)?)));
+        known.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(source, _)| source)
     }
 
     /// 95 % limits of an annual rate, which are never above the rate of rocking.

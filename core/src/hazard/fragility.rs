@@ -9,7 +9,7 @@ use super::site::{Hazard, Site, strongest};
 use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel, RockingDirection};
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
-use crate::object::{Subject, Unknown};
+use crate::object::{RockingObject, UncertainParameter};
 use crate::statistics::numerics::{equal_ratios, first};
 use crate::statistics::{Interval, least_squares, normal};
 
@@ -18,9 +18,9 @@ use crate::statistics::{Interval, least_squares, normal};
 /// ```
 /// use rockfrag_core::fragility::{MotionKind, Peak};
 /// use rockfrag_core::hazard::SitesInGeneral;
-/// use rockfrag_core::object::{Object, Subject};
+/// use rockfrag_core::object::{Object, RockingObject};
 ///
-/// let cabinet = Subject::shipped(&Object::block("cabinet", 0.5, 2.0), MotionKind::Recorded, 0.10)?;
+/// let cabinet = RockingObject::shipped(&Object::block("cabinet", 0.5, 2.0), MotionKind::Recorded, 0.10)?;
 /// let sites = SitesInGeneral { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
 /// let fragility = sites.fragility(&cabinet);
 /// // The PGA at which half of the motions overturn it, m/s2; and how well a lognormal curve describes it.
@@ -92,8 +92,8 @@ const MOST_FITTED: f64 = 0.95;
 const STEPS_FITTED: usize = 39;
 
 impl SitesInGeneral {
-    pub fn fragility(&self, subject: &Subject) -> Fragility {
-        Fragility::new(&self.motions(&subject.directions), subject)
+    pub fn fragility(&self, object: &RockingObject) -> Fragility {
+        Fragility::new(&self.motions(&object.directions), object)
     }
 
     pub fn given_peak<'a>(&self, directions: &'a [RockingDirection]) -> GivenPeak<'a> {
@@ -109,9 +109,9 @@ impl SitesInGeneral {
 impl Site {
     /// Over the peak of the hazard curve, averaged over the motions of the site: the integral over the curve
     /// is the rate. None for a joint hazard.
-    pub fn fragility(&self, subject: &Subject) -> Option<Fragility> {
+    pub fn fragility(&self, object: &RockingObject) -> Option<Fragility> {
         match &self.hazard {
-            Hazard::Curve(hazard) => Some(Fragility::new(&self.motions(hazard, subject), subject)),
+            Hazard::Curve(hazard) => Some(Fragility::new(&self.motions(hazard, object), object)),
             Hazard::Joint(_) => None,
         }
     }
@@ -125,16 +125,16 @@ impl Fragility {
         Fragility { over, points, failure, overturning, errors: Budget::default(), motion: Peaks::default() }
     }
 
-    fn new(motions: &ConditionalMotions, subject: &Subject) -> Fragility {
-        let middle = motions.given(&subject.directions, 0.0);
+    fn new(motions: &ConditionalMotions, object: &RockingObject) -> Fragility {
+        let middle = motions.given(&object.directions, 0.0);
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
         let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
-        let levels = QuantileLevel::with_errors(&subject.directions);
+        let levels = QuantileLevel::with_errors(&object.directions);
         let by_level = probabilities(&middle, &intensities, &levels);
         let mut ends = motions
-            .ends(subject, |given| probabilities(given, &intensities, &[QuantileLevel::Estimate]).remove(0));
-        ends.extend(Unknown::from_fit_errors(&by_level));
+            .ends(object, |given| probabilities(given, &intensities, &[QuantileLevel::Estimate]).remove(0));
+        ends.extend(UncertainParameter::from_fit_errors(&by_level));
         let values = &by_level[0];
         let budget = |k: usize, state: LimitState| {
             Budget::new(values, &ends, |states: &Vec<LimitStates<Option<f64>>>| {

@@ -5,7 +5,7 @@ use super::motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
 use crate::fragility::{LimitState, LimitStates, Model, Peak, QuantileLevel, ReadyObject, Scenarios, Z_95};
 use crate::motion::Peaks;
-use crate::object::{Part, Subject, Unknown};
+use crate::object::{RockingObject, UncertainParameter, UncertaintySource};
 use crate::statistics::Interval;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
@@ -13,16 +13,16 @@ use crate::statistics::Interval;
 /// ```
 /// use rockfrag_core::fragility::MotionKind;
 /// use rockfrag_core::hazard::GroundMotion;
-/// use rockfrag_core::object::{Object, Subject};
+/// use rockfrag_core::object::{Object, RockingObject};
 ///
 /// // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
 /// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
 /// cabinet.shape.depth = Some(0.8);
 /// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
-/// let subject = Subject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
+/// let object = RockingObject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
 /// // A motion of the ground of 0.3 g; its PGV is that of such motions.
 /// let motion = GroundMotion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
-/// let p = motion.probabilities(&subject).states.overturning.estimate().expect("it rocks, and has a PGV");
+/// let p = motion.probabilities(&object).states.overturning.estimate().expect("it rocks, and has a PGV");
 /// assert!(p.low < p.value && p.value < p.high);
 /// # Ok::<(), rockfrag_core::object::Reason>(())
 /// ```
@@ -61,34 +61,34 @@ impl GroundMotion {
     }
 
     /// Averaged over the peak that is not known.
-    pub fn probabilities(&self, subject: &Subject) -> MotionProbabilities {
+    pub fn probabilities(&self, object: &RockingObject) -> MotionProbabilities {
         if self.is_still() {
             let states = LimitStates::all(Interval::exact(0.0).into());
             return MotionProbabilities { states, errors: Budget::default() };
         }
-        let directions = &subject.directions[..];
+        let directions = &object.directions[..];
         let model = &directions[0].model;
-        let known = match self.given_peak(model) {
+        let sensitivity = match self.given_peak(model) {
             // The limits of one motion include the uncertainty of its magnitude, with tau.
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
-                let ends = subject.ends(|directions| {
+                let ends = object.ends(|directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[QuantileLevel::Estimate])[0]
                 });
                 let [many, one] = [Scenarios::Many, Scenarios::One].map(|over| ready.estimates(peaks, over));
-                Known { many, one, ends }
+                ProbabilitySensitivity { many, one, ends }
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
-                let ends = motions.ends(subject, |given| given.limit_states(intensity));
+                let ends = motions.ends(object, |given| given.limit_states(intensity));
                 let [many, one] =
                     [Scenarios::Many, Scenarios::One].map(|over| given.estimates(intensity, over));
-                Known { many, one, ends }
+                ProbabilitySensitivity { many, one, ends }
             }
         };
-        let (_, failure) = known.limited(LimitState::Failure);
-        let (errors, overturning) = known.limited(LimitState::Overturning);
-        let rocking = known.many.rocking;
+        let (_, failure) = sensitivity.limited(LimitState::Failure);
+        let (errors, overturning) = sensitivity.limited(LimitState::Overturning);
+        let rocking = sensitivity.many.rocking;
         MotionProbabilities {
             states: LimitStates { rocking, failure, overturning }.map(Interval::from),
             errors,
@@ -108,16 +108,16 @@ impl GroundMotion {
 }
 
 /// Probabilities with limits, and their other uncertainty.
-struct Known {
+struct ProbabilitySensitivity {
     /// Limits by the parameters of the model.
     many: LimitStates<Option<Interval>>,
     /// Limits by these and by the standard deviation between earthquakes, tau.
     one: LimitStates<Option<Interval>>,
     /// With each other unknown at its quantiles.
-    ends: Vec<Unknown<LimitStates<Option<f64>>>>,
+    ends: Vec<UncertainParameter<LimitStates<Option<f64>>>>,
 }
 
-impl Known {
+impl ProbabilitySensitivity {
     /// The error budget of the logit, without tau; the probability with limits by all errors and tau.
     fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
         let (values, [many, one]) =
@@ -125,7 +125,7 @@ impl Known {
         let mut errors = Budget::new(&values, &self.ends, |states| states.get(state).map(logit));
         let Some((many, one)) = many.zip(one) else { return (errors, None) };
         let [fit, in_all] = [many, one].map(sd_of_limits);
-        errors.add(Part::Fit, [fit, fit]);
+        errors.add(UncertaintySource::Fit, [fit, fit]);
         let tau = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
         match (many.value, values.rocking) {
             (p, Some(rocking)) if p > 0.0 && p < 1.0 => {

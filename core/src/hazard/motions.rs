@@ -2,7 +2,7 @@
 
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use crate::fragility::{GivenPeak, Peak, RockingDirection, Z_95};
-use crate::object::{Part, Subject, Unknown};
+use crate::object::{RockingObject, UncertainParameter, UncertaintySource};
 
 /// Mean and standard deviation of the magnitude of the motions that overturn, at generic sites.
 const USUAL_MAGNITUDE: f64 = 6.35;
@@ -22,7 +22,7 @@ pub(super) struct ConditionalMotions {
     pub velocity: PgvPgaRatio,
     /// Median of the mean magnitude by which PGV / PGA is estimated, and its uncertainty.
     mean: f64,
-    unknown: Unknown<f64>,
+    unknown: UncertainParameter<f64>,
     /// The magnitude of the motions less that mean; none where it is inferred from PGV / PGA.
     above: Option<f64>,
 }
@@ -31,7 +31,11 @@ impl ConditionalMotions {
     /// Motions of earthquakes of a magnitude or, without one, of those that matter at generic sites.
     pub fn new(peak: Peak, velocity: PgvPgaRatio, mw: Option<f64>) -> ConditionalMotions {
         let (mean, sd) = mw.map_or((USUAL_MAGNITUDE, SD_OF_USUAL), |mw| (mw, 0.0));
-        let unknown = Unknown { part: Part::Magnitude, low: mean - Z_95 * sd, high: mean + Z_95 * sd };
+        let unknown = UncertainParameter {
+            source: UncertaintySource::Magnitude,
+            low: mean - Z_95 * sd,
+            high: mean + Z_95 * sd,
+        };
         // PGV / PGA by two curves, or of the model's motions, determines the magnitude.
         let is_told = !matches!(velocity.source, VelocitySource::Sites | VelocitySource::Given);
         ConditionalMotions { peak, velocity, mean, unknown, above: (mw.is_some() || !is_told).then_some(0.0) }
@@ -48,7 +52,7 @@ impl ConditionalMotions {
             VelocitySource::Sites => (0.0, SD_ABOVE_MEAN_OF_PGA),
             _ => (ABOVE_MEAN_OF_PGA, SD_ABOVE_MEAN_OF_PGA),
         };
-        let unknown = Unknown { low: mean - Z_95 * sd, high: mean + Z_95 * sd, ..motions.unknown };
+        let unknown = UncertainParameter { low: mean - Z_95 * sd, high: mean + Z_95 * sd, ..motions.unknown };
         ConditionalMotions { unknown, above: Some(above), ..motions }
     }
 
@@ -63,14 +67,18 @@ impl ConditionalMotions {
     }
 
     /// Results with each unknown of the motions and of the object at its quantiles.
-    pub fn ends<T>(&self, subject: &Subject, result: impl Fn(&GivenPeak) -> T) -> Vec<Unknown<T>> {
-        let directions = &subject.directions[..];
+    pub fn ends<T>(
+        &self,
+        object: &RockingObject,
+        result: impl Fn(&GivenPeak) -> T,
+    ) -> Vec<UncertainParameter<T>> {
+        let directions = &object.directions[..];
         let mut ends = Vec::new();
         if directions[0].model.depends_on_magnitude() && self.above.is_some() {
             ends.push(self.unknown.map(|mean| result(&self.with_mean(directions, *mean, 0.0))));
         }
         ends.push(self.velocity.unknown().map(|ln| result(&self.given(directions, *ln))));
-        ends.extend(subject.ends(|directions| result(&self.given(directions, 0.0))));
+        ends.extend(object.ends(|directions| result(&self.given(directions, 0.0))));
         ends
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::curve::HazardCurve;
 use crate::fragility::{Model, MotionKind, Peak, RatioGiven, Z_95};
-use crate::object::{Part, Unknown};
+use crate::object::{UncertainParameter, UncertaintySource};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
 use crate::statistics::normal;
@@ -198,8 +198,8 @@ impl PgvPgaRatio {
     }
 
     /// The uncertainty of the level, as ln of a factor.
-    pub fn unknown(&self) -> Unknown<f64> {
-        Unknown { part: Part::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
+    pub fn unknown(&self) -> UncertainParameter<f64> {
+        UncertainParameter { source: UncertaintySource::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
     /// PGV / PGA in earthquakes of a magnitude, times exp(`ln`).

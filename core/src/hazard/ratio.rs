@@ -1,7 +1,7 @@
 //! The rate of overturning after a change over that before, with limits in which shared errors cancel.
 
 use crate::fragility::Z_95;
-use crate::object::Part;
+use crate::object::UncertaintySource;
 use crate::statistics::Interval;
 use strum::VariantArray;
 
@@ -9,12 +9,12 @@ use strum::VariantArray;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RateByParts {
     pub rate: f64,
-    pub sds: Vec<(Part, f64)>,
+    pub sds: Vec<(UncertaintySource, f64)>,
 }
 
 impl RateByParts {
-    fn sd(&self, part: Part) -> f64 {
-        self.sds.iter().find(|(other, _)| *other == part).map_or(0.0, |(_, sd)| *sd)
+    fn sd(&self, source: UncertaintySource) -> f64 {
+        self.sds.iter().find(|(other, _)| *other == source).map_or(0.0, |(_, sd)| *sd)
     }
 }
 
@@ -24,11 +24,11 @@ impl RateByParts {
 pub fn ratio_of_rates(
     before: &RateByParts,
     after: &RateByParts,
-    is_shared: impl Fn(Part) -> bool,
+    is_shared: impl Fn(UncertaintySource) -> bool,
 ) -> Interval {
-    let variances = Part::VARIANTS.iter().map(|&part| {
-        let [before, after] = [before, after].map(|of| of.sd(part));
-        if is_shared(part) { (after - before).powi(2) } else { before * before + after * after }
+    let variances = UncertaintySource::VARIANTS.iter().map(|&source| {
+        let [before, after] = [before, after].map(|of| of.sd(source));
+        if is_shared(source) { (after - before).powi(2) } else { before * before + after * after }
     });
     let factor = (Z_95 * variances.sum::<f64>().sqrt()).exp();
     let ratio = after.rate / before.rate;

@@ -2,7 +2,7 @@
 
 use super::site::{Hazard, Site};
 use crate::fragility::{QuantileLevel, ReadyObject};
-use crate::object::Subject;
+use crate::object::RockingObject;
 use crate::statistics::numerics::equal_ratios;
 
 /// Widest panel within a bin, in ln of the intensity.
@@ -21,10 +21,10 @@ pub struct RateByIntensity {
 impl Site {
     /// Splits the annual rate of overturning by the intensity of the hazard, of pairs by PGA, into bins of
     /// equal ratio; 0 where the model has no probability.
-    pub fn rate_by_intensity(&self, subject: &Subject, bins: usize) -> RateByIntensity {
+    pub fn rate_by_intensity(&self, object: &RockingObject, bins: usize) -> RateByIntensity {
         match &self.hazard {
             Hazard::Curve(hazard) => {
-                let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
+                let given = self.motions(hazard, object).given(&object.directions, 0.0);
                 let curve = self.integrated(hazard, &given, &[QuantileLevel::Estimate]).curve;
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let mut parts = RateByIntensity::new(first, last, bins);
@@ -41,7 +41,7 @@ impl Site {
                     peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
                 let mut parts = RateByIntensity::new(low, high * 1.001, bins);
                 for pair in pairs {
-                    let ready = ReadyObject::new(&subject.directions, pair.mw.or(self.mw));
+                    let ready = ReadyObject::new(&object.directions, pair.mw.or(self.mw));
                     let p = ready.limit_states(pair.peaks, &[QuantileLevel::Estimate])[0].overturning;
                     parts.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
                 }

@@ -7,7 +7,7 @@ use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectr
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
 use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel};
 use crate::motion::Peaks;
-use crate::object::{Part, Subject, Unknown};
+use crate::object::{RockingObject, UncertainParameter, UncertaintySource};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::statistics::Interval;
 use crate::units::G_M_S2;
@@ -96,9 +96,9 @@ pub struct SiteRates {
 }
 
 /// Rates with all unknowns at their medians, and with each at its quantiles.
-struct Varied {
+struct RateSensitivity {
     rates: LimitStates<Option<Rate>>,
-    ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
+    ends: Vec<UncertainParameter<LimitStates<Option<Rate>>>>,
 }
 
 impl Site {
@@ -106,33 +106,33 @@ impl Site {
         Site { hazard, mw: None, vs30_m_s: None, extrapolate: false }
     }
 
-    pub fn rates(&self, subject: &Subject) -> SiteRates {
+    pub fn rates(&self, object: &RockingObject) -> SiteRates {
         match &self.hazard {
-            Hazard::Curve(hazard) => self.rates_over_curve(hazard, subject),
+            Hazard::Curve(hazard) => self.rates_over_curve(hazard, object),
             Hazard::Joint(bins) => {
-                let levels = QuantileLevel::with_errors(&subject.directions);
-                let all = rates_over_pairs(&subject.directions, self.mw, bins, &levels);
-                let varied = Varied::new(
+                let levels = QuantileLevel::with_errors(&object.directions);
+                let all = rates_over_pairs(&object.directions, self.mw, bins, &levels);
+                let sensitivity = RateSensitivity::new(
                     all,
-                    subject.ends(|directions| {
+                    object.ends(|directions| {
                         rates_over_pairs(directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
                     }),
                 );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
                 let motion = strongest.map_or(Peaks::default(), |bin| bin.peaks);
-                varied.with_limits(motion, false)
+                sensitivity.with_limits(motion, false)
             }
         }
     }
 
     /// The value of [`Site::rates`] alone; none where the hazard ends too early for it.
-    pub fn overturning(&self, subject: &Subject) -> Option<f64> {
+    pub fn overturning(&self, object: &RockingObject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
-                rates_over_pairs(&subject.directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
+                rates_over_pairs(&object.directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
             }
             Hazard::Curve(hazard) => {
-                let given = self.motions(hazard, subject).given(&subject.directions, 0.0);
+                let given = self.motions(hazard, object).given(&object.directions, 0.0);
                 let Integrated { over, ends_early, .. } =
                     self.integrated(hazard, &given, &[QuantileLevel::Estimate]);
                 Some(over.rates(0)).filter(|_| !ends_early)?
@@ -162,22 +162,24 @@ impl Site {
     }
 
     /// What is not given of the motions is at its median.
-    pub(super) fn motions(&self, hazard: &PeakHazard, subject: &Subject) -> ConditionalMotions {
-        let by_model = || PgvPgaRatio::by_model(&subject.directions[0].model, hazard.peak, self.vs30_m_s);
+    pub(super) fn motions(&self, hazard: &PeakHazard, object: &RockingObject) -> ConditionalMotions {
+        let by_model = || PgvPgaRatio::by_model(&object.directions[0].model, hazard.peak, self.vs30_m_s);
         let velocity = hazard.velocity.unwrap_or_else(by_model);
         ConditionalMotions::at_site(hazard.peak, velocity, self.mw)
     }
 
-    fn rates_over_curve(&self, hazard: &PeakHazard, subject: &Subject) -> SiteRates {
-        let motions = self.motions(hazard, subject);
-        let middle = motions.given(&subject.directions, 0.0);
-        let levels = QuantileLevel::with_errors(&subject.directions);
+    fn rates_over_curve(&self, hazard: &PeakHazard, object: &RockingObject) -> SiteRates {
+        let motions = self.motions(hazard, object);
+        let middle = motions.given(&object.directions, 0.0);
+        let levels = QuantileLevel::with_errors(&object.directions);
         let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &levels);
-        let mut ends = motions.ends(subject, |given| rates_over_curve(given, &curve));
+        let mut ends = motions.ends(object, |given| rates_over_curve(given, &curve));
         if let Some([low, high]) = &hazard.fractiles {
-            ends.push(Unknown { part: Part::Hazard, low, high }.map(|fractile| match beyond {
-                Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
-                None => rates_over_curve(&middle, fractile),
+            ends.push(UncertainParameter { source: UncertaintySource::Hazard, low, high }.map(|fractile| {
+                match beyond {
+                    Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
+                    None => rates_over_curve(&middle, fractile),
+                }
             }));
         }
         let motion = middle.peaks(over.median_intensity(), 0.0);
@@ -192,7 +194,7 @@ impl Site {
             velocity: Some(motions.velocity.source),
             beyond,
             warnings: warnings.into_iter().flatten().collect(),
-            ..Varied::new((0..levels.len()).map(|level| over.rates(level)).collect(), ends)
+            ..RateSensitivity::new((0..levels.len()).map(|level| over.rates(level)).collect(), ends)
                 .with_limits(motion, ends_early)
         }
     }
@@ -207,14 +209,14 @@ pub(super) struct Integrated {
     pub beyond: Option<f64>,
 }
 
-impl Varied {
-    /// `by_level` are the rates at [`QuantileLevel::with_errors`], `ends` those at the quantiles of other unknowns.
+impl RateSensitivity {
+    /// `by_level` are the rates at [`QuantileLevel::with_errors`], `ends` those at other unknowns' quantiles.
     fn new(
         by_level: Vec<LimitStates<Option<Rate>>>,
-        mut ends: Vec<Unknown<LimitStates<Option<Rate>>>>,
-    ) -> Varied {
-        ends.extend(Unknown::from_fit_errors(&by_level));
-        Varied { rates: by_level[0], ends }
+        mut ends: Vec<UncertainParameter<LimitStates<Option<Rate>>>>,
+    ) -> RateSensitivity {
+        ends.extend(UncertainParameter::from_fit_errors(&by_level));
+        RateSensitivity { rates: by_level[0], ends }
     }
 
     /// `ends_early`: where the hazard ends too early for values.

@@ -4,7 +4,7 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
 use super::site::{LEAST, Site};
-use crate::object::{Object, Subject};
+use crate::object::{Object, RockingObject};
 use crate::spelling::unknown_word;
 use crate::statistics::Interval;
 
@@ -22,15 +22,15 @@ pub enum Base {
 /// ```
 /// use rockfrag_core::fragility::{MotionKind, Peak};
 /// use rockfrag_core::hazard::{Base, Hazard, HazardCurve, Site};
-/// use rockfrag_core::object::{Object, Subject};
+/// use rockfrag_core::object::{Object, RockingObject};
 ///
 /// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 /// let site = Site::new(Hazard::over(Peak::Pga, curve));
-/// let subject = |object: &Object| Subject::shipped(object, MotionKind::Recorded, 0.10).ok();
+/// let with_models = |object: &Object| RockingObject::shipped(object, MotionKind::Recorded, 0.10).ok();
 /// let cabinet = Object::block("cabinet", 0.5, 1.9);
-/// let rate = site.rates(&subject(&cabinet).expect("it rocks")).overturning;
+/// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).overturning;
 /// // Once in 10,000 years.
-/// let bases = site.bases(&cabinet, &subject, rate, 1e-4);
+/// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
 /// let width = |base: Option<Base>| base.and_then(Base::width);
 /// let [by_estimate, by_limit] = [bases.by_estimate, bases.by_limit].map(width);
 /// assert!(0.5 < by_estimate.unwrap() && by_estimate < by_limit);
@@ -69,11 +69,11 @@ const FALL: f64 = 3.0;
 impl Site {
     /// The bases with which the annual rate of overturning is a target, at the same height, rule of eta and
     /// relative offset: of another width, else with both sides changed. `rate` is that of the present object,
-    /// `subject` joins an object with its models.
+    /// `with_models` joins an object with its models.
     pub fn bases(
         &self,
         object: &Object,
-        subject: &dyn Fn(&Object) -> Option<Subject>,
+        with_models: &dyn Fn(&Object) -> Option<RockingObject>,
         rate: Interval<Option<f64>>,
         target: f64,
     ) -> Bases {
@@ -83,7 +83,7 @@ impl Site {
             if bases.by_limit.is_none()
                 && let Some([least, start, most]) = sides(object, base)
             {
-                let search = Search { site: self, object, subject, base, target, least, most };
+                let search = Search { site: self, object, with_models, base, target, least, most };
                 let estimate = search.ln_side(search.last_known(least, start), Site::overturning);
                 let limit = estimate.and_then(|ln_side| {
                     // The limit is about as far above the rate as for the present object.
@@ -137,7 +137,7 @@ fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
 struct Search<'a> {
     site: &'a Site,
     object: &'a Object,
-    subject: &'a dyn Fn(&Object) -> Option<Subject>,
+    with_models: &'a dyn Fn(&Object) -> Option<RockingObject>,
     base: fn(f64) -> Base,
     target: f64,
     least: f64,
@@ -145,25 +145,25 @@ struct Search<'a> {
 }
 
 /// None where the hazard ends too early for a rate.
-type Rate = fn(&Site, &Subject) -> Option<f64>;
+type RateFunction = fn(&Site, &RockingObject) -> Option<f64>;
 
-fn upper_limit(site: &Site, subject: &Subject) -> Option<f64> {
-    let Interval { value, high, .. } = site.rates(subject).overturning;
+fn upper_limit(site: &Site, object: &RockingObject) -> Option<f64> {
+    let Interval { value, high, .. } = site.rates(object).overturning;
     value.and(high)
 }
 
 impl Search<'_> {
     /// ln of a rate over the target.
-    fn excess(&self, ln_side: f64, rate: Rate) -> Result<f64, SearchEnd> {
+    fn excess(&self, ln_side: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
         let resized = (self.base)(ln_side.exp()).under(self.object);
-        let subject = (self.subject)(&resized).ok_or(SearchEnd::Model)?;
-        let rate = rate(self.site, &subject).ok_or(SearchEnd::Hazard)?;
+        let object = (self.with_models)(&resized).ok_or(SearchEnd::Model)?;
+        let rate = rate(self.site, &object).ok_or(SearchEnd::Hazard)?;
         Ok((rate.max(LEAST) / self.target).ln())
     }
 
     /// ln of the first side, outwards from `start`, at which the rate is the target: by steps, and between
     /// the last two by Brent's method. The least side if the rate is below the target even there.
-    fn ln_side(&self, start: f64, rate: Rate) -> Result<f64, SearchEnd> {
+    fn ln_side(&self, start: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
         let (mut side, mut off) = (start, self.excess(start, rate)?);
         let (mut edge, mut end) = (if off > 0.0 { self.most } else { self.least }, SearchEnd::Model);
         let mut step = off / FALL;
@@ -202,7 +202,7 @@ impl Search<'_> {
 /// Two sides with excesses of different signs.
 struct Bracket<'a> {
     search: &'a Search<'a>,
-    rate: Rate,
+    rate: RateFunction,
     ends: [(f64, f64); 2],
 }
 

@@ -1,7 +1,7 @@
 //! Changes of an object that change its probability of overturning, one at a time.
 
 use super::given::{Object, Place, Restitution};
-use super::subject::{Part, Unknown};
+use super::rocking::{UncertainParameter, UncertaintySource};
 use crate::fragility::Z_95;
 use crate::motion::Floor;
 use crate::number;
@@ -17,7 +17,7 @@ const WIDER: [f64; 2] = [0.1, 0.25];
 /// How much lower a centre of mass is, of its height.
 const LOWER: f64 = 0.25;
 /// The third of five storeys, with a tenth of a second for each.
-const UPSTAIRS: Floor = Floor { period_s: 0.5, level: 0.6 };
+const EXAMPLE_UPPER_FLOOR: Floor = Floor { period_s: 0.5, level: 0.6 };
 
 impl Object {
     /// Changes one at a time: a base wider on all sides, a lower centre of mass, the ground floor or another
@@ -53,7 +53,7 @@ impl Object {
             object.place = Place { period: None, level: None, period_sd: None, ..self.place };
             "on the ground floor"
         } else {
-            let (period, level) = (Some(UPSTAIRS.period_s), Some(UPSTAIRS.level));
+            let (period, level) = (Some(EXAMPLE_UPPER_FLOOR.period_s), Some(EXAMPLE_UPPER_FLOOR.level));
             object.place = Place { period, level, ..self.place };
             "on the third of five floors"
         };
@@ -63,8 +63,8 @@ impl Object {
     /// With eta known: one standard deviation below and above its median.
     fn measured(&self) -> Vec<Changed> {
         let Ok(sides) = self.sides() else { return Vec::new() };
-        let Some(Unknown { low, high, .. }) =
-            sides[0].unknowns.iter().find(|unknown| unknown.part == Part::Eta)
+        let Some(UncertainParameter { low, high, .. }) =
+            sides[0].unknowns.iter().find(|unknown| unknown.source == UncertaintySource::Eta)
         else {
             return Vec::new();
         };

@@ -6,17 +6,19 @@
 //! field      the numbers that may be known, with the ranges in which they are possible
 //! given      an object as given: dimensions, or p, alpha and eta; ground or floor
 //! sides      its rocking structures, and their uncertainty
-//! subject    its directions with their models, and its unknowns
+//! rocking    its directions with their models, and its unknowns
 //! ```
 
 mod changes;
 mod field;
 mod given;
+mod rocking;
 mod sides;
-mod subject;
 
 pub use changes::Changed;
 pub use field::Field;
 pub use given::{Object, Place, Reason, Restitution, Shape};
+pub use rocking::{
+    Perturbation, RockingObject, SD_OF_PERIOD, UncertainParameter, UncertaintySource, structure_warnings,
+};
 pub use sides::Side;
-pub use subject::{Change, Part, SD_OF_PERIOD, Subject, Unknown, structure_warnings};

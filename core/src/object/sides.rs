@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::given::{Object, Place, Reason, Restitution, Shape};
-use super::subject::{Part, Unknown};
+use super::rocking::{UncertainParameter, UncertaintySource};
 use crate::fragility::Z_95;
 use crate::rocking::{Body, Structure, StructureError, housner_eta};
 use crate::statistics::{Interval, normal, numerics};
@@ -13,7 +13,7 @@ use crate::statistics::{Interval, normal, numerics};
 pub struct Side {
     pub structure: Structure,
     /// Structures at the quantiles of each property that is not known.
-    pub unknowns: Vec<Unknown<Structure>>,
+    pub unknowns: Vec<UncertainParameter<Structure>>,
 }
 
 /// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
@@ -121,7 +121,7 @@ impl Object {
 
     /// Only eta is uncertain: by its standard deviation if that is given, by tests if eta is computed.
     fn side_like(&self, structure: Structure) -> Side {
-        let off = Unknown { part: Part::Eta, low: -Z_95, high: Z_95 };
+        let off = UncertainParameter { source: UncertaintySource::Eta, low: -Z_95, high: Z_95 };
         let etas = match (self.place.eta_sd, self.shape.given_eta()) {
             (Some(sd), _) => Some(off.map(|off| structure.eta + off * sd)),
             (None, Some(_)) => None,
@@ -172,7 +172,7 @@ impl Object {
             // A squat body slides, and so is no danger.
             let [low, high] = bodies
                 .map(|body| self.structure_of_body(body, height).unwrap_or_else(|_| found.structure.clone()));
-            found.unknowns.push(Unknown { part: Part::Object, low, high });
+            found.unknowns.push(UncertainParameter { source: UncertaintySource::Object, low, high });
         }
         Ok(found)
     }

@@ -10,7 +10,7 @@ use rockfrag_core::hazard::{
     SitesInGeneral, intensity_in_words, ratio_of_rates,
 };
 use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, Part, Restitution, Subject};
+use rockfrag_core::object::{Object, Restitution, RockingObject, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use strum::VariantArray;
 
@@ -24,8 +24,8 @@ fn over_pga() -> Site {
     Site::new(Hazard::over(Peak::Pga, curve()))
 }
 
-fn block(width: f64) -> Subject {
-    Subject::shipped(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
+fn block(width: f64) -> RockingObject {
+    RockingObject::shipped(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
 }
 
 #[test]
@@ -46,8 +46,8 @@ fn the_parts_of_a_rate_sum_to_the_rate() {
 
 #[test]
 fn the_fragility_at_a_site_integrates_to_its_rate() {
-    let (site, subject) = (over_pga(), block(0.5));
-    let (rate, points) = (site.rates(&subject), site.fragility(&subject).unwrap().points);
+    let (site, object) = (over_pga(), block(0.5));
+    let (rate, points) = (site.rates(&object), site.fragility(&object).unwrap().points);
     assert!(
         points
             .iter()
@@ -93,7 +93,7 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 #[test]
 fn the_fragility_of_a_thin_block_never_falls() {
     // IM4 ends in the domain of the surface at 1.6 g.
-    let thin = Subject::shipped(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
+    let thin = RockingObject::shipped(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
     for over in [Peak::Pga, Peak::Pgv] {
         let general = SitesInGeneral { over, mw: None, vs30_m_s: None, ratio_s: None };
         for pair in general.fragility(&thin).points.windows(2) {
@@ -118,8 +118,8 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let mut object = Object::block("block", width, 1.9);
     let median = block(width).directions[0].structure.eta;
     object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
-    let mut subject = Subject::shipped(&object, MotionKind::Recorded, 0.1).unwrap();
-    let direction = &mut subject.directions[0];
+    let mut object = RockingObject::shipped(&object, MotionKind::Recorded, 0.1).unwrap();
+    let direction = &mut object.directions[0];
     let ends = direction.model.ends();
     let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };
     for (z, [low, high]) in z[2..].iter().zip(&ends) {
@@ -135,7 +135,7 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     }
     // That of motions is above a mean of the disaggregation.
     let mean = 6.35 + 0.6 * z[1] - 0.25;
-    Site { mw: Some(mean), ..of_one_ratio() }.overturning(&subject).unwrap()
+    Site { mw: Some(mean), ..of_one_ratio() }.overturning(&object).unwrap()
 }
 
 /// PGV / PGA that does not depend on magnitude.
@@ -150,10 +150,10 @@ fn of_one_ratio() -> Site {
 fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
     let [before, after] = [0.5, 0.6].map(|width| {
         let rates = of_one_ratio().rates(&block(width));
-        let known = |part: &Part| Some((*part, rates.errors.part_sd(*part)?));
+        let known = |source: &UncertaintySource| Some((*source, rates.errors.source_sd(*source)?));
         RateByParts {
             rate: rates.overturning.value.unwrap(),
-            sds: Part::VARIANTS.iter().filter_map(known).collect(),
+            sds: UncertaintySource::VARIANTS.iter().filter_map(known).collect(),
         }
     });
     let ratio = ratio_of_rates(&before, &after, |_| true);

@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     VelocitySource, exceedance, probability_in_years, rates_over_curve, velocity_of_spectrum,
 };
 use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, Part, Subject, Unknown};
+use rockfrag_core::object::{Object, RockingObject, UncertainParameter, UncertaintySource};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::{Interval, normal};
 
@@ -129,8 +129,8 @@ fn a_joint_hazard_of_lognormal_velocities_has_a_rate_in_closed_form() {
     let ln_uplift = structure.uplift_acceleration_m_s2().ln();
     let z = -15.0 + 1.2 * (pga_m_s2.ln() - ln_uplift) + 1.6 * (m - ln_uplift);
     let expected = 0.02 * normal::cdf(z / 1.0_f64.hypot(1.6 * s));
-    let subject = Subject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
-    let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&subject).unwrap();
+    let object = RockingObject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
+    let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&object).unwrap();
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }
 
@@ -147,14 +147,14 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard =
         PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, velocity: Some(velocity) };
-    let subject = Subject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
-    let rates = Site::new(Hazard::Curve(hazard)).rates(&subject);
+    let object = RockingObject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
+    let rates = Site::new(Hazard::Curve(hazard)).rates(&object);
     let errors = rates.errors;
-    let of_velocity = errors.part_sd(Part::Velocity).unwrap();
+    let of_velocity = errors.source_sd(UncertaintySource::Velocity).unwrap();
     let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high / Z_95;
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
-    assert!((errors.part_sd(Part::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
-    assert_eq!(errors.part_sd(Part::Magnitude), None);
+    assert!((errors.source_sd(UncertaintySource::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
+    assert_eq!(errors.source_sd(UncertaintySource::Magnitude), None);
     let rate = rates.overturning.estimate().unwrap();
     assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
     assert!(rate.high > rate.value);
@@ -209,8 +209,8 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
 }
 
 /// A block of .9 x 1.4 m, whose rate of overturning a curve up to 4 g leaves open.
-fn squat() -> Subject {
-    Subject::shipped(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
+fn squat() -> RockingObject {
+    RockingObject::shipped(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
 }
 
 fn range(rate: Interval<Option<f64>>) -> [f64; 2] {
@@ -233,7 +233,7 @@ fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
     let rate = whole.overturning.estimate().unwrap();
     assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
     // The errors widen it: without any it is what no and what each stronger motion would make of it.
-    let certain = Subject { unknowns: vec![], ..squat() };
+    let certain = RockingObject { unknowns: vec![], ..squat() };
     let [sure_low, sure_high] = range(to(0.8).rates(&certain).overturning);
     // Rates below once in 1e12 years have no errors.
     assert!(low <= sure_low && sure_low < sure_high && sure_high < high);
@@ -244,14 +244,22 @@ fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
 #[test]
 fn limits_are_those_of_normal_errors() {
     // What only raises a result, such as an offset to either side, has no lower side.
-    let by = |part, result: fn(f64) -> f64| Unknown { part, low: -Z_95, high: Z_95 }.map(|x| result(*x));
-    let unknowns = [by(Part::Eta, |x| 1.0 + 0.4 * x), by(Part::Object, |x| 1.0 + 1.2 * x.abs())];
+    let by = |source, result: fn(f64) -> f64| {
+        UncertainParameter { source, low: -Z_95, high: Z_95 }.map(|x| result(*x))
+    };
+    let unknowns = [
+        by(UncertaintySource::Eta, |x| 1.0 + 0.4 * x),
+        by(UncertaintySource::Object, |x| 1.0 + 1.2 * x.abs()),
+    ];
     let mut budget = Budget::new(&1.0, &unknowns, |result| Some(*result));
-    budget.add(Part::Fit, [0.3, 0.3]);
-    budget.add(Part::Floor, [f64::NAN; 2]);
+    budget.add(UncertaintySource::Fit, [0.3, 0.3]);
+    budget.add(UncertaintySource::Floor, [f64::NAN; 2]);
     let [down, up] = budget.sds();
     assert!((down - 0.5).abs() < 1e-12 && (up - 1.3).abs() < 1e-12);
-    assert_eq!((budget.largest(), budget.part_sd(Part::Floor)), (Some(Part::Object), None));
+    assert_eq!(
+        (budget.largest(), budget.source_sd(UncertaintySource::Floor)),
+        (Some(UncertaintySource::Object), None)
+    );
     let limits = budget.limit_rate(1e-4, 2e-4);
     assert!((limits.low / (1e-4 * (-0.979_982_f64).exp()) - 1.0).abs() < 1e-6);
     assert_eq!(limits.high, 2e-4, "never above the rate of rocking");

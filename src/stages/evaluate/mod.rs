@@ -211,9 +211,9 @@ impl Evaluate {
         let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let objects = self.objects(Renames::new(&self.columns), models, context)?;
-        let all = object::answers(&objects, models, context, |_, subject| {
-            let (row, errors) = TreeRow::new(motion, subject);
-            let motion = motion.peaks(&subject.directions[0].model);
+        let all = object::answers(&objects, models, context, |_, rocking_object| {
+            let (row, errors) = TreeRow::new(motion, rocking_object);
+            let motion = motion.peaks(&rocking_object.directions[0].model);
             Prediction { row, errors, motion, warnings: Vec::new() }
         })?;
         let text = point::text(&all, self.out.as_deref());
@@ -236,9 +236,9 @@ impl Evaluate {
         }
         let objects = self.objects(renames, models, context)?;
         let general = SitesInGeneral { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
-        let all = object::answers(&objects, models, context, |_, subject| {
-            let at_site = site.as_ref().and_then(|site| site.fragility(subject));
-            let fragility = at_site.unwrap_or_else(|| general.fragility(subject));
+        let all = object::answers(&objects, models, context, |_, rocking_object| {
+            let at_site = site.as_ref().and_then(|site| site.fragility(rocking_object));
+            let fragility = at_site.unwrap_or_else(|| general.fragility(rocking_object));
             let (errors, motion) = (fragility.errors, fragility.motion);
             Prediction { row: FragilityRow::new(fragility), errors, motion, warnings: Vec::new() }
         })?;
@@ -258,10 +258,10 @@ impl Evaluate {
         let mut renames = Renames::new(&self.columns);
         let site = self.site(&mut renames, context)?;
         let objects = self.objects(renames, models, context)?;
-        let all = object::answers(&objects, models, context, |object, subject| {
-            let rates = site.rates(subject);
+        let all = object::answers(&objects, models, context, |object, rocking_object| {
+            let rates = site.rates(rocking_object);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years);
-            let joined = |object: &Object| Some(models.subject(object).ok()?.0);
+            let joined = |object: &Object| Some(models.rocking_object(object).ok()?.0);
             let bases = target.map(|target| site.bases(object, &joined, rates.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }

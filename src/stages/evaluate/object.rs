@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use rockfrag_core::fragility::Model;
 use rockfrag_core::hazard::Budget;
 use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 
@@ -40,7 +40,7 @@ pub fn answers<R: Predicted>(
     objects: &[Object],
     models: &Models,
     context: &Context,
-    predict: impl Fn(&Object, &Subject) -> Prediction<R> + Sync,
+    predict: impl Fn(&Object, &RockingObject) -> Prediction<R> + Sync,
 ) -> anyhow::Result<Vec<Answer<R>>> {
     let bar = context.bar(objects.len());
     let answer = |object: &Object| -> anyhow::Result<Answer<R>> {
@@ -50,13 +50,13 @@ pub fn answers<R: Predicted>(
             let object = ObjectRow::new(object, None, models.args.limit_state);
             return Ok(Answer { object, doubts, ..Answer::default() });
         }
-        let (subject, mut warnings) = models.subject(object)?;
-        let predicted = predict(object, &subject);
+        let (rocking_object, mut warnings) = models.rocking_object(object)?;
+        let predicted = predict(object, &rocking_object);
         warnings.extend(predicted.warnings);
-        warnings.extend(subject.warnings(predicted.motion));
+        warnings.extend(rocking_object.warnings(predicted.motion));
         warnings.sort();
         warnings.dedup();
-        let weaker = &subject.directions[0];
+        let weaker = &rocking_object.directions[0];
         Ok(Answer {
             object: ObjectRow::new(object, Some(weaker), models.args.limit_state),
             row: predicted.row,

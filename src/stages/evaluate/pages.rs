@@ -2,7 +2,7 @@
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Hazard, HazardCurve, Site, exceedance, probability_in_years};
-use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::statistics::Interval;
 use serde_json::Value;
 
@@ -63,15 +63,15 @@ pub fn portrait(
     if object.sides().is_err() {
         return Ok(Portrait::default());
     }
-    let subject = models.subject(object)?.0;
-    let outline = outline(object, &subject);
+    let rocking_object = models.rocking_object(object)?.0;
+    let outline = outline(object, &rocking_object);
     let Some(site) = site else { return Ok(Portrait { outline, ..Portrait::default() }) };
-    let p = vec![overturning(&subject, site, years)];
+    let p = vec![overturning(&rocking_object, site, years)];
     let mut changes = vec![Change { words: "as it is".to_string(), is_moved: false, p }];
     for changed in object.changes() {
         // What would not rock, or lies outside the model, has no row.
-        let Ok((subject, _)) = models.subject(&changed.object) else { continue };
-        let p = overturning(&subject, site, years);
+        let Ok((rocking_object, _)) = models.rocking_object(&changed.object) else { continue };
+        let p = overturning(&rocking_object, site, years);
         match changes.last_mut().filter(|last| last.words == changed.words) {
             Some(same) => same.p.push(p),
             None => {
@@ -84,17 +84,17 @@ pub fn portrait(
         Hazard::Curve(hazard) => (hazard.peak, Ok(hazard.curve.clone())),
         Hazard::Joint(pairs) => (Peak::Pga, HazardCurve::new(exceedance(pairs, |pair| pair.peaks.pga_m_s2))),
     };
-    let parts = site.rate_by_intensity(&subject, BINS);
+    let parts = site.rate_by_intensity(&rocking_object, BINS);
     let hazard = curve.ok().map(|curve| SiteHazard { peak, curve, parts });
-    Ok(Portrait { outline, fragility: site.fragility(&subject), hazard, changes })
+    Ok(Portrait { outline, fragility: site.fragility(&rocking_object), hazard, changes })
 }
 
 /// The object over the side to which it falls first.
-fn outline(object: &Object, subject: &Subject) -> Option<Outline> {
+fn outline(object: &Object, rocking_object: &RockingObject) -> Option<Outline> {
     let shape = &object.shape;
     let (width, height) = shape.width.zip(shape.height)?;
     let centre_height = shape.centre_height.unwrap_or(0.5 * height);
-    let alpha_rad = subject.directions[0].structure.alpha_rad;
+    let alpha_rad = rocking_object.directions[0].structure.alpha_rad;
     let weaker = shape.depth.filter(|depth| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9);
     let (width, centre_offset) = match weaker {
         Some(depth) => (depth, 0.0),
@@ -103,6 +103,6 @@ fn outline(object: &Object, subject: &Subject) -> Option<Outline> {
     Some(Outline { width, height, centre_height, centre_offset, alpha_rad })
 }
 
-fn overturning(subject: &Subject, site: &Site, years: f64) -> Interval<Option<f64>> {
-    site.rates(subject).overturning.map(|rate| probability_in_years(rate, years))
+fn overturning(rocking_object: &RockingObject, site: &Site, years: f64) -> Interval<Option<f64>> {
+    site.rates(rocking_object).overturning.map(|rate| probability_in_years(rate, years))
 }

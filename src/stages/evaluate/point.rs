@@ -5,7 +5,7 @@ use std::path::Path;
 use rockfrag_core::fragility::{LimitStates, RockingDirection, Scenarios};
 use rockfrag_core::hazard::{Budget, GroundMotion, MotionProbabilities};
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
-use rockfrag_core::object::Subject;
+use rockfrag_core::object::RockingObject;
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use serde::{Deserialize, Serialize};
@@ -34,11 +34,11 @@ pub struct TreeRow {
 
 impl TreeRow {
     /// Predicts for an object under a motion, with the errors of the logit of P_ro.
-    pub fn new(motion: &GroundMotion, subject: &Subject) -> (TreeRow, Budget) {
-        let MotionProbabilities { states, errors } = motion.probabilities(subject);
+    pub fn new(motion: &GroundMotion, rocking_object: &RockingObject) -> (TreeRow, Budget) {
+        let MotionProbabilities { states, errors } = motion.probabilities(rocking_object);
         let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
-        let p_ex = match (&subject.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
+        let p_ex = match (&rocking_object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             _ if motion.is_still() => None,
             ([RockingDirection { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
                 let peaks = Peaks { pga_m_s2, pgv_m_s };

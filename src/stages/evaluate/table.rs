@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::GroundMotion;
 use rockfrag_core::motion::{Peaks, judge_medians};
-use rockfrag_core::object::{Object, Restitution, Subject};
+use rockfrag_core::object::{Object, Restitution, RockingObject};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
 
@@ -61,7 +61,7 @@ pub fn evaluate(
             "{path}: column {column} and options of a structure; leave out the one or the other"
         )));
     }
-    let given = given.first().map(|object| models.subject(object)).transpose()?;
+    let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     expect_units(&batches)?;
     let mut known = HashMap::new();
     let mut evaluated = Vec::new();
@@ -72,11 +72,11 @@ pub fn evaluate(
         for structure in &structures {
             if let Entry::Vacant(entry) = known.entry(bits(structure)) {
                 let object = Object::with_parameters(structure.clone(), Restitution::Number);
-                entry.insert(models.subject(&object.at(&place))?);
+                entry.insert(models.rocking_object(&object.at(&place))?);
             }
         }
-        let subject = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
-        evaluated.push(with_probabilities(batch, subject, call.magnitude, context)?);
+        let rocking_object = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
+        evaluated.push(with_probabilities(batch, rocking_object, call.magnitude, context)?);
         bar.advance(batch.rows.num_rows())?;
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
@@ -95,16 +95,16 @@ fn bits(structure: &Structure) -> [u64; 3] {
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn with_probabilities<'a>(
     batch: &Batch,
-    subject: impl Fn(usize) -> &'a (Subject, Vec<Warning>) + Sync,
+    rocking_object: impl Fn(usize) -> &'a (RockingObject, Vec<Warning>) + Sync,
     magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let given = peaks(batch)?;
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
-        let (subject, about_model) = subject(row);
+        let (rocking_object, about_model) = rocking_object(row);
         let peaks = given[row].clamp_to_recorded();
-        let mut warnings = [about_model.clone(), subject.warnings(peaks)].concat();
+        let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
         warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
         warnings.sort();
         warnings.dedup();
@@ -114,7 +114,7 @@ fn with_probabilities<'a>(
             mw: mw[row].or(magnitude),
             vs30_m_s: None,
         };
-        let (tree, budget) = TreeRow::new(&motion, subject);
+        let (tree, budget) = TreeRow::new(&motion, rocking_object);
         (tree, DoubtsRow::new(&warnings, &budget), warnings)
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rockfrag_core::object::Part;
+use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::warning::Warning;
 
 use crate::number;
@@ -55,14 +55,14 @@ pub fn friction(object: &ObjectRow) -> String {
 pub fn mostly_unknown<R>(answer: &Answer<R>, about_velocity: &str) -> Option<String> {
     let part = answer.doubts.error_largest?;
     let advice = match part {
-        Part::Fit if answer.responses > 0 => "",
-        Part::Fit => "Calibrate it with records of the site (--fits).",
-        Part::Magnitude => "Add --magnitude.",
-        Part::Velocity => about_velocity,
-        Part::Eta => "Measure it (--eta, --eta-sd).",
-        Part::Object => "Measure its centre of mass.",
-        Part::Floor => "Measure its period (--period, --period-sd).",
-        Part::Hazard => "",
+        UncertaintySource::Fit if answer.responses > 0 => "",
+        UncertaintySource::Fit => "Calibrate it with records of the site (--fits).",
+        UncertaintySource::Magnitude => "Add --magnitude.",
+        UncertaintySource::Velocity => about_velocity,
+        UncertaintySource::Eta => "Measure it (--eta, --eta-sd).",
+        UncertaintySource::Object => "Measure its centre of mass.",
+        UncertaintySource::Floor => "Measure its period (--period, --period-sd).",
+        UncertaintySource::Hazard => "",
     };
     Some(format!("Largest uncertainty: {}. {advice}", part.description()).trim_end().to_string())
 }

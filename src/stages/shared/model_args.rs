@@ -8,7 +8,7 @@ use rockfrag_core::fragility::{
     Calibration, CurveFit, DemandFit, DemandModel, Event, Measure, Model, MotionKind,
 };
 use rockfrag_core::motion::Suite;
-use rockfrag_core::object::{Object, Subject};
+use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::warning::Warning;
@@ -104,7 +104,7 @@ impl ModelArgs {
 
 impl Models {
     /// Joins an object with the model of each of its directions, and returns the warnings about these models.
-    pub fn subject(&self, object: &Object) -> anyhow::Result<(Subject, Vec<Warning>)> {
+    pub fn rocking_object(&self, object: &Object) -> anyhow::Result<(RockingObject, Vec<Warning>)> {
         let (mut models, mut warnings) = (Vec::new(), Vec::new());
         for side in object.sides().map_err(|reason| named(object, &reason))? {
             let (model, about) = self.model(&side.structure)?;
@@ -114,7 +114,7 @@ impl Models {
         if object.place.floor().is_ok_and(|floor| floor.is_some()) {
             self.expect_ground()?;
         }
-        Ok((Subject::new(object, models).map_err(|reason| named(object, &reason))?, warnings))
+        Ok((RockingObject::new(object, models).map_err(|reason| named(object, &reason))?, warnings))
     }
 
     /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one

@@ -12,8 +12,9 @@ use crate::warning::Warning;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Part>)]
-pub enum Part {
+#[strum(serialize_all = "snake_case", parse_err_ty = String)]
+#[strum(parse_err_fn = unknown_word::<UncertaintySource>)]
+pub enum UncertaintySource {
     /// Parameters of the fragility model.
     Fit,
     Magnitude,
@@ -28,16 +29,16 @@ pub enum Part {
     Hazard,
 }
 
-impl Part {
+impl UncertaintySource {
     pub fn description(self) -> &'static str {
         match self {
-            Part::Fit => "the fragility",
-            Part::Magnitude => "magnitude",
-            Part::Velocity => "PGV",
-            Part::Eta => "eta",
-            Part::Object => "the object's body",
-            Part::Floor => "the building",
-            Part::Hazard => "the hazard",
+            UncertaintySource::Fit => "the fragility",
+            UncertaintySource::Magnitude => "magnitude",
+            UncertaintySource::Velocity => "PGV",
+            UncertaintySource::Eta => "eta",
+            UncertaintySource::Object => "the object's body",
+            UncertaintySource::Floor => "the building",
+            UncertaintySource::Hazard => "the hazard",
         }
     }
 }
@@ -46,51 +47,55 @@ impl Part {
 ///
 /// ```
 /// use rockfrag_core::fragility::MotionKind;
-/// use rockfrag_core::object::{Object, Part, Subject};
+/// use rockfrag_core::object::{Object, RockingObject, UncertaintySource};
 ///
 /// let mut rack = Object::block("rack", 0.6, 1.9);
 /// rack.shape.depth = Some(0.8);
-/// let subject = Subject::shipped(&rack, MotionKind::Recorded, 0.10)?;
+/// let object = RockingObject::shipped(&rack, MotionKind::Recorded, 0.10)?;
 /// // It may fall over its width or over its depth; the loss at an impact is not known.
-/// assert_eq!(subject.directions.len(), 2);
-/// assert_eq!(subject.unknowns[0].part, Part::Eta);
-/// let bouncier = subject.changed(&subject.unknowns[0].high);
-/// assert!(bouncier[0].structure.eta > subject.directions[0].structure.eta);
+/// assert_eq!(object.directions.len(), 2);
+/// assert_eq!(object.unknowns[0].source, UncertaintySource::Eta);
+/// let bouncier = object.perturbed(&object.unknowns[0].high);
+/// assert!(bouncier[0].structure.eta > object.directions[0].structure.eta);
 /// # Ok::<(), rockfrag_core::object::Reason>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Subject {
+pub struct RockingObject {
     /// The weaker first; one or more.
     pub directions: Vec<RockingDirection>,
-    pub unknowns: Vec<Unknown>,
+    pub unknowns: Vec<UncertainParameter>,
 }
 
-/// A quantity that is uncertain, a change of a subject, or a result of either.
+/// A quantity that is uncertain, a perturbation of an object, or a result of either.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unknown<T = Change> {
-    pub part: Part,
+pub struct UncertainParameter<T = Perturbation> {
+    pub source: UncertaintySource,
     /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
     pub low: T,
     /// At its 97.5 % quantile, or 84 % fractile.
     pub high: T,
 }
 
-impl<T> Unknown<T> {
-    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> Unknown<U> {
-        Unknown { part: self.part, low: result(&self.low), high: result(&self.high) }
+impl<T> UncertainParameter<T> {
+    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> UncertainParameter<U> {
+        UncertainParameter { source: self.source, low: result(&self.low), high: result(&self.high) }
     }
 }
 
-impl<T: Clone> Unknown<T> {
+impl<T: Clone> UncertainParameter<T> {
     /// `results` are the estimate, then that with each error of the models at both quantiles.
-    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = Unknown<T>> {
+    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = UncertainParameter<T>> {
         let ends = results[1..].chunks_exact(2);
-        ends.map(|ends| Unknown { part: Part::Fit, low: ends[0].clone(), high: ends[1].clone() })
+        ends.map(|ends| UncertainParameter {
+            source: UncertaintySource::Fit,
+            low: ends[0].clone(),
+            high: ends[1].clone(),
+        })
     }
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum Change {
+pub enum Perturbation {
     /// Other structures, one for each direction.
     Structures(Vec<Structure>),
     Floor(Floor),
@@ -101,30 +106,30 @@ pub const SD_OF_PERIOD: f64 = 0.25;
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
 
-impl Subject {
+impl RockingObject {
     /// Joins the [sides](Object::sides) of an object with the model of each, and puts these on its floor.
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn new(object: &Object, models: Vec<Model>) -> Result<Subject, Reason> {
+    pub fn new(object: &Object, models: Vec<Model>) -> Result<RockingObject, Reason> {
         let (sides, floor) = (object.sides()?, object.place.floor()?);
         let mut unknowns = Vec::new();
         // All sides of an object have the same unknown parts.
-        for (number, Unknown { part, .. }) in sides[0].unknowns.iter().enumerate() {
+        for (number, UncertainParameter { source, .. }) in sides[0].unknowns.iter().enumerate() {
             let all = sides.iter().map(|side| &side.unknowns[number]);
             let (low, high) = all.map(|unknown| (unknown.low.clone(), unknown.high.clone())).unzip();
-            unknowns.push(Unknown {
-                part: *part,
-                low: Change::Structures(low),
-                high: Change::Structures(high),
+            unknowns.push(UncertainParameter {
+                source: *source,
+                low: Perturbation::Structures(low),
+                high: Perturbation::Structures(high),
             });
         }
         if let Some(floor) = floor {
             let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
-            let off = Unknown { part: Part::Floor, low: -Z_95, high: Z_95 };
-            unknowns.push(
-                off.map(|off| Change::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })),
-            );
+            let off = UncertainParameter { source: UncertaintySource::Floor, low: -Z_95, high: Z_95 };
+            unknowns.push(off.map(|off| {
+                Perturbation::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })
+            }));
         }
         let directions = sides.into_iter().zip(models).map(|(side, model)| {
             Some(RockingDirection { structure: side.structure, model: model.on(floor)? })
@@ -132,28 +137,28 @@ impl Subject {
         let problem = "period: the paper's model is that of the ground";
         let directions: Option<Vec<RockingDirection>> = directions.collect();
         let directions = directions.ok_or_else(|| Reason::Implausible(problem.to_string()))?;
-        Ok(Subject { directions, unknowns })
+        Ok(RockingObject { directions, unknowns })
     }
 
     /// With the uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure.
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn shipped(object: &Object, kind: MotionKind, limit_state: f64) -> Result<Subject, Reason> {
+    pub fn shipped(object: &Object, kind: MotionKind, limit_state: f64) -> Result<RockingObject, Reason> {
         let sides = object.sides()?;
         let models = sides.iter().map(|side| Model::shipped(kind, &side.structure, limit_state));
-        Subject::new(object, models.collect())
+        RockingObject::new(object, models.collect())
     }
 
-    pub fn changed(&self, change: &Change) -> Vec<RockingDirection> {
+    pub fn perturbed(&self, perturbation: &Perturbation) -> Vec<RockingDirection> {
         let mut directions = self.directions.clone();
-        match change {
-            Change::Structures(structures) => {
+        match perturbation {
+            Perturbation::Structures(structures) => {
                 for (direction, structure) in directions.iter_mut().zip(structures) {
                     direction.structure = structure.clone();
                 }
             }
-            Change::Floor(floor) => {
+            Perturbation::Floor(floor) => {
                 for RockingDirection { model, .. } in &mut directions {
                     if let Some(moved) = model.clone().on(Some(*floor)) {
                         *model = moved;
@@ -165,9 +170,9 @@ impl Subject {
     }
 
     /// Results with each unknown at its quantiles.
-    pub fn ends<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<Unknown<T>> {
+    pub fn ends<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<UncertainParameter<T>> {
         let all = self.unknowns.iter();
-        all.map(|unknown| unknown.map(|change| result(&self.changed(change)))).collect()
+        all.map(|unknown| unknown.map(|perturbation| result(&self.perturbed(perturbation)))).collect()
     }
 
     pub fn structure_warnings(&self) -> Vec<Warning> {
