@@ -7,7 +7,7 @@ use rockfrag_core::fragility::{LimitStates, Peak};
 use rockfrag_core::hazard::{SitesInGeneral, strongest};
 use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::spelling::unknown_word;
-use rockfrag_core::statistics::numerics::{equal_ratios, first};
+use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::warning::Warnings;
 use serde::Serialize;
 
@@ -149,7 +149,7 @@ impl Export {
         };
         let is_whole = |intensity: f64| reaching(intensity).into_array().iter().all(|&p| p >= 1.0 - NEAR);
         let uplift = given_peak.uplift().least;
-        let end = first(uplift, strongest(self.over).max(2.0 * uplift), is_whole);
+        let end = bisect_first_true(uplift, strongest(self.over).max(2.0 * uplift), is_whole);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let mut levels: Vec<f64> = jumps.flat_map(|jump| [jump * (1.0 - GAP), jump]).collect();
         levels.extend(equal_ratios(uplift, end, STEPS));

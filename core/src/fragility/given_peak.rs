@@ -8,7 +8,7 @@ use super::ready::ReadyObject;
 use super::surface;
 use super::tree::LimitStates;
 use crate::motion::Peaks;
-use crate::statistics::numerics::{Panel, first, panels};
+use crate::statistics::numerics::{QuadraturePanel, bisect_first_true, panels};
 use crate::statistics::{Interval, Range, normal};
 
 /// Ratios further from the median than this many standard deviations do not count.
@@ -167,8 +167,10 @@ impl<'a> GivenPeak<'a> {
             return pga_m_s2;
         }
         let sought = SOUGHT_M_S.ln();
-        first(sought.low, sought.high, |ln_pgv| self.peaks(ln_pgv.exp(), deviations).pga_m_s2 >= pga_m_s2)
-            .exp()
+        bisect_first_true(sought.low, sought.high, |ln_pgv| {
+            self.peaks(ln_pgv.exp(), deviations).pga_m_s2 >= pga_m_s2
+        })
+        .exp()
     }
 
     /// Visits the nodes of the quadrature over the motions of an intensity: ln(PGV / PGA), s, and weight. The
@@ -186,7 +188,7 @@ impl<'a> GivenPeak<'a> {
         } else {
             let widest = if self.peak == Peak::Pga { PANEL_OF_PGA } else { PANEL_OF_PGV };
             for edge in self.edges(ln_intensity).windows(2) {
-                panels(edge[0], edge[1], widest).flat_map(Panel::nodes).for_each(&mut visit);
+                panels(edge[0], edge[1], widest).flat_map(QuadraturePanel::nodes).for_each(&mut visit);
             }
         }
     }

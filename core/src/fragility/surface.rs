@@ -76,8 +76,8 @@ impl StructureSurface {
     ) -> StructureSurface {
         let (domain, branch) = (&SURFACE.domain, SURFACE.branch(kind, limit_state));
         let [limit, end] = limits(limit_state);
-        let p = domain.p.held(structure.p_rad_s);
-        let fixed = [(domain.eta.held(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
+        let p = domain.p.clamp(structure.p_rad_s);
+        let fixed = [(domain.eta.clamp(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
         let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
         for Term { coefficient, powers: [x, w, r, others @ ..] } in &branch.terms {
             let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power as i32));
@@ -100,7 +100,7 @@ impl StructureSurface {
 
     /// M - 6.9 of motions with this ln(PGV / PGA), s.
     pub fn magnitude(&self, ln_seconds: f64) -> f64 {
-        self.magnitudes.held(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
+        self.magnitudes.clamp(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
     }
 
     /// M - 6.9 in the middle of the magnitudes of the data.
@@ -147,7 +147,7 @@ pub(super) struct Im4Terms {
 
 impl Im4Terms {
     pub fn new(im4: f64, ln_im4: f64) -> Im4Terms {
-        let held = SURFACE.ln_im4.held(ln_im4);
+        let held = SURFACE.ln_im4.clamp(ln_im4);
         Im4Terms { ln_im4, held, x: (held + 0.2).ln(), ln_above: (im4 - 1.0).max(0.0).ln() }
     }
 }
@@ -170,7 +170,7 @@ pub(super) struct SurfaceAtIm4 {
 impl SurfaceAtIm4 {
     /// L, with PGA / PGV held within the domain.
     pub fn logit(&self, ln_seconds: f64) -> f64 {
-        let r = self.ln_ratio.held(-ln_seconds - self.excess) - self.ln_p;
+        let r = self.ln_ratio.clamp(-ln_seconds - self.excess) - self.ln_p;
         self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)
     }
 
@@ -244,7 +244,7 @@ const POWERS_OF_X: usize = 3;
 /// The features `limit` and `end`, which falls steeply near overturning.
 fn limits(limit_state: Option<f64>) -> [f64; 2] {
     limit_state.map_or([0.0; 2], |limit_state| {
-        let held = SURFACE.domain.limit.held(limit_state);
+        let held = SURFACE.domain.limit.clamp(limit_state);
         [(held / 0.2).ln(), (1.1 - held).ln()]
     })
 }

@@ -1,6 +1,6 @@
 //! Hazard curve of one intensity, and its convolution with a fragility.
 
-use crate::statistics::numerics::{Panel, panels};
+use crate::statistics::numerics::{QuadraturePanel, panels};
 
 /// No largest intensity of a curve is exceeded this often a year: one that seems to be is itself a rate.
 const FREQUENT: f64 = 0.02;
@@ -144,14 +144,14 @@ impl HazardCurve {
     }
 
     /// ln IM within a panel, with its annual rate.
-    fn masses(&self, panel: Panel) -> impl Iterator<Item = (f64, f64)> {
+    fn masses(&self, panel: QuadraturePanel) -> impl Iterator<Item = (f64, f64)> {
         let before = self.points.partition_point(|point| point.0.ln() <= panel.from).max(1) - 1;
         let segments = self.points[before..].windows(2);
         segments.take_while(move |segment| segment[0].0.ln() < panel.to).flat_map(move |segment| {
             let [(low, rate), (high, rate_at_high)] = [segment[0], segment[1]];
             let (ln_low, ln_high) = (low.ln(), high.ln());
             let slope = (rate / rate_at_high).ln() / (ln_high - ln_low);
-            let within = Panel { from: ln_low.max(panel.from), to: ln_high.min(panel.to) };
+            let within = QuadraturePanel { from: ln_low.max(panel.from), to: ln_high.min(panel.to) };
             let density = move |ln_im: f64| slope * rate * (-slope * (ln_im - ln_low)).exp();
             within.nodes().map(move |(ln_im, width)| (ln_im, width * density(ln_im)))
         })

@@ -10,7 +10,7 @@ use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel, 
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
 use crate::object::{RockingObject, UncertainParameter};
-use crate::statistics::numerics::{equal_ratios, first};
+use crate::statistics::numerics::{bisect_first_true, equal_ratios};
 use crate::statistics::{Interval, least_squares, normal};
 
 /// Motions of generic sites, of which one peak is given, and what narrows the other.
@@ -219,7 +219,7 @@ fn reaching(given: &GivenPeak, points: &[FragilityPoint], state: LimitState, lev
     let reaches = |p: Option<f64>| p.is_some_and(|p| p >= level);
     let after = points.iter().position(|point| reaches(point.p.get(state).value))?;
     let [low, high] = [after.saturating_sub(1), after].map(|k| points[k].intensity.ln());
-    Some(first(low, high, |ln| reaches(given.limit_states(ln.exp()).get(state))).exp())
+    Some(bisect_first_true(low, high, |ln| reaches(given.limit_states(ln.exp()).get(state))).exp())
 }
 
 /// The intensity at which a limit passes `level`: between points its probit is linear in ln intensity.

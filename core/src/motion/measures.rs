@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::fourier::{even_smooth_at_least, transform};
-use crate::statistics::numerics::first;
+use crate::statistics::numerics::bisect_first_true;
 use crate::units::G_M_S2;
 
 /// Largest frequency step and frequency band of the mean period, Hz (Rathje et al. 1998).
@@ -95,7 +95,7 @@ fn time_of_share(acceleration: &[f64], energy: &[f64], dt_s: f64, share: f64) ->
     let after = energy.partition_point(|sum| *sum < reached).max(1);
     let (left, right) = (acceleration[after - 1], acceleration[after]);
     let sum = |part: f64| energy[after - 1] + part * squared(dt_s, left, left + part * (right - left));
-    dt_s * ((after - 1) as f64 + first(0.0, 1.0, |part| sum(part) >= reached))
+    dt_s * ((after - 1) as f64 + bisect_first_true(0.0, 1.0, |part| sum(part) >= reached))
 }
 
 fn trapezoid(dt_s: f64, left: f64, right: f64) -> f64 {

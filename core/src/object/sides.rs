@@ -200,7 +200,7 @@ fn folded_quantiles(mean: f64, sd: f64) -> Interval {
         return Interval::exact(mean.abs());
     }
     let [low, value, high] = [0.025, 0.5, 0.975].map(|share| {
-        numerics::first(0.0, mean.abs() + 5.0 * sd, |x| {
+        numerics::bisect_first_true(0.0, mean.abs() + 5.0 * sd, |x| {
             normal::cdf((x - mean) / sd) - normal::cdf((-x - mean) / sd) > share
         })
     });

@@ -15,14 +15,14 @@ pub fn simulate(structure: &Structure, record: &Record) -> Response {
 /// Simulates the problems in the widest vector registers, independently of each other. Returns one response
 /// for each, in order.
 pub fn simulate_all(problems: &[Problem]) -> Vec<Response> {
-    Arch::new().dispatch(Batch { problems })
+    Arch::new().dispatch(ProblemBatch { problems })
 }
 
-struct Batch<'a> {
+struct ProblemBatch<'a> {
     problems: &'a [Problem<'a>],
 }
 
-impl WithSimd for Batch<'_> {
+impl WithSimd for ProblemBatch<'_> {
     type Output = Vec<Response>;
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use pulp::Simd;
 use super::record::Record;
 use super::response::{Response, free_rocking};
 use super::structure::Structure;
-use super::taylor::{MOST_IMPACTS, Slenderness, State};
+use super::taylor::{MOST_IMPACTS, RockingState, Slenderness};
 use super::uplift::Uplift;
 use super::vector::{MOST_LANES, Vector};
 use crate::units::G_PER_M_S2;
@@ -67,7 +67,7 @@ pub struct Lanes<'a, S: Simd> {
     pub(super) p_dt: Vector<S>,
     /// Longest Taylor step, p dt.
     pub(super) longest: Vector<S>,
-    pub(super) state: State<Vector<S>>,
+    pub(super) state: RockingState<Vector<S>>,
     /// The sign of theta.
     pub(super) side: Vector<S>,
     /// Ground acceleration over g now.
@@ -100,7 +100,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
             eta: zero,
             p_dt: zero,
             longest: zero,
-            state: State { rotation: zero, velocity: zero },
+            state: RockingState { rotation: zero, velocity: zero },
             side: zero,
             now: zero,
             next: zero,
@@ -116,15 +116,18 @@ impl<'a, S: Simd> Lanes<'a, S> {
 
     #[inline(never)]
     pub fn handle(&mut self, events: Events) {
-        for lane in each(events.overturned) {
+        for lane in set_bits(events.overturned) {
             self.finish(lane, None);
         }
-        for lane in each(events.ended) {
+        for lane in set_bits(events.ended) {
             let structure = self.problems[self.problem[lane]].structure;
             let (rotation, velocity) = (self.state.rotation.lane(lane), self.state.velocity.lane(lane));
-            self.finish(lane, free_rocking(State { rotation, velocity }, structure.alpha_rad, structure.eta));
+            self.finish(
+                lane,
+                free_rocking(RockingState { rotation, velocity }, structure.alpha_rad, structure.eta),
+            );
         }
-        for lane in each(events.rested) {
+        for lane in set_bits(events.rested) {
             if !self.leave_rest(lane) {
                 self.finish(lane, Some(0.0));
             }
@@ -223,7 +226,7 @@ impl<'a, S: Simd> Lanes<'a, S> {
 }
 
 /// Iterates over the lanes whose bits are set.
-pub fn each(bits: u32) -> impl Iterator<Item = usize> {
+pub fn set_bits(bits: u32) -> impl Iterator<Item = usize> {
     let later = |left: &u32| Some(left & (left - 1)).filter(|left| *left != 0);
     std::iter::successors((bits != 0).then_some(bits), later).map(|left| left.trailing_zeros() as usize)
 }

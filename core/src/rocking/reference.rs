@@ -10,10 +10,10 @@ use std::f64::consts::FRAC_PI_2;
 use super::record::Record;
 use super::response::{Response, free_rocking};
 use super::structure::Structure;
-use super::taylor::{MOST_IMPACTS, REST_VELOCITY, State};
+use super::taylor::{MOST_IMPACTS, REST_VELOCITY, RockingState};
 use super::uplift::Uplift;
 use crate::spelling::unknown_word;
-use crate::statistics::numerics::first;
+use crate::statistics::numerics::bisect_first_true;
 use crate::units::G_PER_M_S2;
 
 /// Longest step, as p h sqrt(1 + PGA/g): truncation changes the median peak by 1e-12 of itself.
@@ -133,10 +133,14 @@ pub fn solve(
             let falls = |at: Rocking| now.side * at.velocity < 0.0;
             let mut h = longest_s.min(dt_s - t);
             if strikes(at(h)) || overturns(at(h)) {
-                h = first(0.0, h, |h| strikes(at(h)) || overturns(at(h)));
+                h = bisect_first_true(0.0, h, |h| strikes(at(h)) || overturns(at(h)));
             }
             let next = at(h);
-            let top = if falls(next) && !falls(now) { at(first(0.0, h, |h| falls(at(h)))) } else { next };
+            let top = if falls(next) && !falls(now) {
+                at(bisect_first_true(0.0, h, |h| falls(at(h))))
+            } else {
+                next
+            };
             (t, state, peak) = (t + h, Some(next), peak.max(now.side * top.theta));
             if overturns(next) {
                 note(sample_s + t, state, Some(SolverEvent::Overturn));
@@ -157,7 +161,7 @@ pub fn solve(
     note(steps.len() as f64 * dt_s, state, None);
     let Rocking { side, theta, velocity } = state.unwrap_or_default();
     let later = free_rocking(
-        State { rotation: side * theta, velocity: side * velocity / structure.p_rad_s },
+        RockingState { rotation: side * theta, velocity: side * velocity / structure.p_rad_s },
         alpha,
         structure.eta,
     );

@@ -1,6 +1,6 @@
 //! The outcome, the demand, and free rocking after the record in closed form.
 
-use super::taylor::State;
+use super::taylor::RockingState;
 
 /// The outcome of one structure under one ground motion (Figure 6).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +48,8 @@ impl Response {
 /// On still ground v^2/2 + cos(alpha - r) is constant between impacts, with a barrier of height 1 at
 /// r = alpha. Each impact removes the fraction 1 - eta^2 of the kinetic energy, so that only the first peak
 /// and the one after the first impact can be the largest.
-pub fn free_rocking(state: State, alpha: f64, eta: f64) -> Option<f64> {
-    let State { rotation, velocity } = state;
+pub fn free_rocking(state: RockingState, alpha: f64, eta: f64) -> Option<f64> {
+    let RockingState { rotation, velocity } = state;
     let kinetic = 0.5 * velocity * velocity;
     // Energy above rest: cos(alpha - r) - cos(alpha), without cancellation.
     let potential = 2.0 * (alpha - 0.5 * rotation).sin() * (0.5 * rotation).sin();

@@ -7,10 +7,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use pulp::Simd;
 
-use super::lanes::{Events, Lanes, each};
+use super::lanes::{Events, Lanes, set_bits};
 use super::polynomial::{ORDER, Polynomial};
 use super::roots::{falling_root, first_impact, first_overturning, largest, slopes, values};
-use super::taylor::{Excess, MOST_IMPACTS, REST_VELOCITY, State, series};
+use super::taylor::{Excess, MOST_IMPACTS, REST_VELOCITY, RockingState, series};
 use super::vector::{Mask, Vector};
 use crate::units::G_PER_M_S2;
 
@@ -24,7 +24,7 @@ pub struct Step<S: Simd> {
     /// Rotation at its end; negative if the structure strikes its base before.
     last: Vector<S>,
     /// State at its end, without an impact.
-    end: State<Vector<S>>,
+    end: RockingState<Vector<S>>,
     /// Bounds of the rotation over the step.
     low: Vector<S>,
     high: Vector<S>,
@@ -88,7 +88,7 @@ impl<S: Simd> Lanes<'_, S> {
             per_h,
             fraction,
             last,
-            end: State { rotation: last.max(zero), velocity },
+            end: RockingState { rotation: last.max(zero), velocity },
             low: last - rise,
             high: r[0] + rise,
             concave: (r[2] + change).lt(zero),
@@ -149,7 +149,7 @@ impl<S: Simd> Lanes<'_, S> {
         let strikes = candidates & below & starts_above & plain;
         let passes = !below & (step.concave | (plain & monotone));
         let mut until = if strikes.any() { strikes.select(falling_root(c, strikes), one) } else { one };
-        for lane in each((candidates & !strikes & !passes).bits()) {
+        for lane in set_bits((candidates & !strikes & !passes).bits()) {
             until.set(lane, first_impact(&in_lane(c, lane)).unwrap_or(1.0));
         }
         until
@@ -162,7 +162,7 @@ impl<S: Simd> Lanes<'_, S> {
         let overturns = |lane: &usize| {
             first_overturning(&in_lane(&step.rotation, *lane)).is_some_and(|x| x <= until.lane(*lane))
         };
-        each(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
+        set_bits(high).filter(overturns).fold(0, |bits, lane| bits | 1 << lane)
     }
 
     #[inline(always)]
@@ -182,7 +182,7 @@ impl<S: Simd> Lanes<'_, S> {
             let highest = values(r, falling_root(&slope, turning));
             self.peak = turning.select(self.peak.max(highest), self.peak);
         }
-        for lane in each((higher & !ends & !turns).bits()) {
+        for lane in set_bits((higher & !ends & !turns).bits()) {
             let highest = largest(&in_lane(r, lane), until.lane(lane));
             self.peak.set(lane, highest.max(self.peak.lane(lane)));
         }

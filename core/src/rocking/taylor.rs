@@ -51,7 +51,7 @@ pub struct Excess<T> {
 
 /// Rotation r >= 0 (rad) and velocity dr/dx (rad) on one side of the rest position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<T = f64> {
+pub struct RockingState<T = f64> {
     pub rotation: T,
     pub velocity: T,
 }
@@ -63,7 +63,7 @@ pub struct State<T = f64> {
 pub fn series<S: Simd>(
     slenderness: &Slenderness<Vector<S>>,
     excess: Excess<Vector<S>>,
-    state: State<Vector<S>>,
+    state: RockingState<Vector<S>>,
     h: Vector<S>,
 ) -> Polynomial<Vector<S>> {
     // -h^2 A and -h^2 B, linear in the fraction of the step.

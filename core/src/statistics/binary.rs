@@ -12,7 +12,7 @@ use super::normal;
 /// A fit needs this many events, and this many cases without an event.
 const LEAST_EVENTS: usize = 5;
 /// With a larger standard error of z the likelihood has no maximum.
-const ENDLESS: f64 = 1e3;
+const SEPARATION_SE: f64 = 1e3;
 
 /// A probit regression P(event) = Phi(z), z = b0 + b1 x1 + ...
 ///
@@ -109,7 +109,7 @@ fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance:
     let [(least_other, largest_other), (least_event, largest_event)] = ends;
     let do_not_overlap = largest_other <= least_event && least_other < largest_event;
     let largest_variance = (x * covariance).component_mul(x).column_sum().max();
-    do_not_overlap || largest_variance > ENDLESS * ENDLESS
+    do_not_overlap || largest_variance > SEPARATION_SE * SEPARATION_SE
 }
 
 /// Fits as [`probit`], adds the clustered covariance, and tests the form: likelihood-ratio test of the

@@ -16,20 +16,20 @@ const GAUSS_LEGENDRE: [(f64, f64); ORDER] = [
 
 /// An interval over which a function is taken as the polynomial through its values at the nodes.
 #[derive(Debug, Clone, Copy)]
-pub struct Panel {
+pub struct QuadraturePanel {
     pub from: f64,
     pub to: f64,
 }
 
 /// Returns the equal panels between two values, none wider than `widest`.
-pub fn panels(from: f64, to: f64, widest: f64) -> impl Iterator<Item = Panel> {
+pub fn panels(from: f64, to: f64, widest: f64) -> impl Iterator<Item = QuadraturePanel> {
     let count = ((to - from) / widest).ceil().max(1.0);
     let width = (to - from) / count;
     (0..count as usize)
-        .map(move |k| Panel { from: from + width * k as f64, to: from + width * (k + 1) as f64 })
+        .map(move |k| QuadraturePanel { from: from + width * k as f64, to: from + width * (k + 1) as f64 })
 }
 
-impl Panel {
+impl QuadraturePanel {
     pub fn nodes(self) -> impl Iterator<Item = (f64, f64)> {
         let width = self.to - self.from;
         GAUSS_LEGENDRE.into_iter().map(move |(node, weight)| (self.from + node * width, weight * width))
@@ -73,7 +73,7 @@ const HALVINGS: usize = 60;
 
 /// Finds by bisection the least value from `low` to `high` at which a condition holds, which then holds up to
 /// `high`.
-pub fn first(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+pub fn bisect_first_true(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         *(if holds(middle) { &mut high } else { &mut low }) = middle;

@@ -23,7 +23,7 @@ impl Range {
         (self.low * (1.0 - UNSEEN)..=self.high * (1.0 + UNSEEN)).contains(&value)
     }
 
-    pub fn held(&self, value: f64) -> f64 {
+    pub fn clamp(&self, value: f64) -> f64 {
         value.clamp(self.low, self.high)
     }
 

@@ -3,7 +3,7 @@
 use rockfrag_core::fragility::{Calibration, Cases, MotionKind, Scenarios};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::Range;
-use rockfrag_core::statistics::numerics::{equal_ratios, first};
+use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, called, name, rocked};
@@ -62,7 +62,7 @@ fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<M
     let mut marks = Vec::new();
     for pga in equal_ratios(pga.low, pga.high, STEPS) {
         let is_crossed = reaches(pga, most) && !reaches(pga, least);
-        let ln_pgv = is_crossed.then(|| first(least, most, |ln_pgv| reaches(pga, ln_pgv)));
+        let ln_pgv = is_crossed.then(|| bisect_first_true(least, most, |ln_pgv| reaches(pga, ln_pgv)));
         marks.push(Mark::new(pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)));
     }
     marks
