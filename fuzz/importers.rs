@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use rockfrag::inputs::records::{Format, ReadOptions, read_records};
+use rockfrag::inputs::records::{ReadOptions, RecordFormat, read_records};
 use rockfrag::inputs::{Grid, objects};
 use rockfrag_core::rocking::Record;
 use rockfrag_core::units::Unit;
@@ -15,9 +15,9 @@ fuzz_target!(|bytes: &[u8]| {
         for (row, column) in (0..grid.lines.len()).flat_map(|row| (0..columns).map(move |at| (row, at))) {
             assert!(grid.number(row, column).is_ok_and(f64::is_finite) || grid.number(row, column).is_err());
         }
-        let _ = objects::in_rows(&grid, &[], &objects::Common::default());
+        let _ = objects::in_rows(&grid, &[], &objects::ListDefaults::default());
     }
-    let formats = Format::VARIANTS.iter().copied().map(Some).chain([None]);
+    let formats = RecordFormat::VARIANTS.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];
     let options = ReadOptions {
         format: formats.cycle().nth(usize::from(first & 7)).flatten(),

@@ -16,7 +16,7 @@ const PEER: &str = "Summary of Metadata of Selected Records";
 #[derive(Debug, Default)]
 pub struct About {
     /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
-    known: HashMap<String, Known>,
+    known: HashMap<String, RecordMetadata>,
     /// Headings of other columns.
     pub unused: Vec<String>,
 }
@@ -24,7 +24,7 @@ pub struct About {
 /// What is known of a record.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the names say it")]
-pub struct Known {
+pub struct RecordMetadata {
     pub mw: Option<f64>,
     pub re_km: Option<f64>,
     pub earthquake: Option<String>,
@@ -56,7 +56,7 @@ impl About {
         }
         let mut all = HashMap::new();
         for (row, &line) in grid.lines.iter().enumerate() {
-            let known = Known {
+            let known = RecordMetadata {
                 mw: grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?,
                 re_km: grid.known(row, distance, &DISTANCES_KM, "a distance from 0 to 1000 km")?,
                 earthquake: earthquake.and_then(|at| grid.value(row, at)).map(str::to_string),
@@ -76,7 +76,7 @@ impl About {
     }
 
     /// What the table says of a file.
-    pub fn get(&self, file: &Path) -> Option<&Known> {
+    pub fn get(&self, file: &Path) -> Option<&RecordMetadata> {
         let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
         // RSN6_IMPVALL.I_I-ELC180.AT2
         let number = stem.as_deref().and_then(|stem| stem.split('_').next());

@@ -9,9 +9,9 @@ use rockfrag_core::units::Unit;
 use super::decode::decode;
 use super::error::{InputError, expect_few_cells};
 use super::heading::Heading;
-use super::numbers::{self, Evidence, Style, is_missing, is_number};
+use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
 use super::unpack::unpack_one;
-use super::words::words;
+use super::words::synonyms;
 use super::workbook;
 use crate::number::counted;
 use crate::source;
@@ -33,11 +33,11 @@ pub struct Grid {
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
     rows: Vec<StringRecord>,
-    styles: Vec<Style>,
+    notations: Vec<DecimalNotation>,
 }
 
 /// A row of a file, before it is known what it is.
-struct Row {
+struct RawRow {
     line: usize,
     cells: StringRecord,
     is_comment: bool,
@@ -68,7 +68,7 @@ impl Grid {
     }
 
     /// Parts headings, units and comments from rows. No `separator` stands between cells of a workbook.
-    fn new(rows: Vec<Row>, separator: Option<char>) -> Result<Grid, InputError> {
+    fn new(rows: Vec<RawRow>, separator: Option<char>) -> Result<Grid, InputError> {
         let is_number_column = number_columns(&rows);
         let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
         let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
@@ -92,7 +92,7 @@ impl Grid {
         };
         let mut evidence: Vec<Evidence> = headings.iter().map(Evidence::under).collect();
         let (mut notes, mut lines, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        for (at, Row { line, cells, is_comment }) in rows.into_iter().enumerate() {
+        for (at, RawRow { line, cells, is_comment }) in rows.into_iter().enumerate() {
             if at < end || is_ruler(&cells) || is_comment && !is_row(at, &cells) {
                 if heading != Some(at) {
                     let filled: Vec<&str> = cells.iter().filter(|cell| !cell.is_empty()).collect();
@@ -109,13 +109,13 @@ impl Grid {
             lines.push(line);
             kept.push(cells);
         }
-        let styles = numbers::styles(&evidence, separator.is_none());
-        Ok(Grid { notes, headings, has_headings: heading.is_some(), lines, rows: kept, styles })
+        let notations = numbers::notations(&evidence, separator.is_none());
+        Ok(Grid { notes, headings, has_headings: heading.is_some(), lines, rows: kept, notations })
     }
 
-    /// Returns the index of the first column about this; see [`words`].
+    /// Returns the index of the first column about this; see [`synonyms`].
     pub fn about(&self, meaning: &str) -> Option<usize> {
-        words(meaning).find_map(|word| self.headings.iter().position(|heading| heading.name == word))
+        synonyms(meaning).find_map(|word| self.headings.iter().position(|heading| heading.name == word))
     }
 
     /// Returns the text of a cell; empty beyond the end of a short row.
@@ -135,17 +135,17 @@ impl Grid {
 
     /// Reads the number in a cell; 10 % is 0.1, also where the heading has the sign.
     pub fn number(&self, row: usize, column: usize) -> Result<f64, InputError> {
-        let (cell, style) = (self.cell(row, column), self.styles[column]);
+        let (cell, notation) = (self.cell(row, column), self.notations[column]);
         let has_sign = cell.ends_with('%');
         let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
         let place = || (self.lines[row], self.name_of(column), cell.to_string());
-        match style.number(cell) {
-            Some(_) if style.may_be_shares && !has_sign => {
+        match notation.number(cell) {
+            Some(_) if notation.may_be_shares && !has_sign => {
                 let (line, heading, found) = place();
                 Err(InputError::Percent { line, heading, found })
             }
             Some(number) => Ok(size * number),
-            None if style.is_unclear(cell) => {
+            None if notation.is_unclear(cell) => {
                 let (line, heading, found) = place();
                 Err(InputError::Thousands { line, heading, found })
             }
@@ -210,7 +210,7 @@ impl Grid {
     }
 }
 
-fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<Row>, InputError> {
+fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>, InputError> {
     let joined = join_lines(lines, separator);
     expect_few_cells(joined.matches(separator).count())?;
     let mut reader = ReaderBuilder::new();
@@ -222,14 +222,14 @@ fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<Row>, InputError>
     }
     let rows = records.into_iter().filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
         let line = cells.position().map_or(1, |at| at.line() as usize);
-        Row { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
+        RawRow { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
     });
     Ok(rows.collect())
 }
 
-fn rows_of_sheet(first: usize, cells: Vec<Vec<String>>) -> Vec<Row> {
+fn rows_of_sheet(first: usize, cells: Vec<Vec<String>>) -> Vec<RawRow> {
     let rows = (first..).zip(cells).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
-    rows.map(|(line, cells)| Row { line, is_comment: false, cells: StringRecord::from(cells) }).collect()
+    rows.map(|(line, cells)| RawRow { line, is_comment: false, cells: StringRecord::from(cells) }).collect()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -310,7 +310,7 @@ fn never_closed(last: &StringRecord, text: &str) -> Option<usize> {
 }
 
 /// In which columns numbers stand, by the row of the last ones that has the most.
-fn number_columns(rows: &[Row]) -> Vec<bool> {
+fn number_columns(rows: &[RawRow]) -> Vec<bool> {
     let last = rows.iter().rev().filter(|row| !row.is_comment).take(SHOWN);
     let model = last.max_by_key(|row| row.cells.iter().filter(|cell| is_number(cell)).count());
     model.map_or(Vec::new(), |model| model.cells.iter().map(is_number).collect())
@@ -319,7 +319,7 @@ fn number_columns(rows: &[Row]) -> Vec<bool> {
 /// Finds the heading: the row above the numbers, or first of them, that has the most words where others have
 /// numbers; a comment needs as many cells as a row. Of equal rows the last one is that above the numbers;
 /// without numbers, all but the first are rows.
-fn heading_row(above: &[Row], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
+fn heading_row(above: &[RawRow], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
     let width = is_number_column.len();
     let mut best = None;
     for (at, row) in above.iter().enumerate() {
@@ -337,7 +337,7 @@ fn heading_row(above: &[Row], is_number_column: &[bool], separator: Option<char>
 }
 
 /// Whether numbers are more than words where numbers are expected.
-fn is_data(row: &Row, is_number_column: &[bool]) -> bool {
+fn is_data(row: &RawRow, is_number_column: &[bool]) -> bool {
     let cells = is_number_column.iter().zip(&row.cells).filter(|(is_number, _)| **is_number);
     cells.filter(|(_, cell)| is_number(cell)).count() > count_words(row, is_number_column)
 }
@@ -351,7 +351,7 @@ fn has_numbers_behind(cells: &StringRecord, is_number_column: &[bool]) -> bool {
 
 /// How many cells have words where numbers are expected, or at all if none are. What begins with a digit is a
 /// damaged number.
-fn count_words(row: &Row, is_number_column: &[bool]) -> usize {
+fn count_words(row: &RawRow, is_number_column: &[bool]) -> usize {
     let is_anywhere = !is_number_column.contains(&true);
     let cells = row.cells.iter().enumerate();
     let cells = cells.filter(|(at, _)| is_anywhere || is_number_column.get(*at) == Some(&true));
@@ -364,7 +364,7 @@ fn is_word(cell: &str) -> bool {
 }
 
 /// Whether a row has units and nothing else.
-fn is_units(row: &Row) -> bool {
+fn is_units(row: &RawRow) -> bool {
     const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
     let mut units = 0;
     for cell in &row.cells {
@@ -385,7 +385,7 @@ fn is_ruler(cells: &StringRecord) -> bool {
 }
 
 /// Headings with the units in a row below.
-fn with_units(headings: &[Heading], units: &Row) -> Result<Vec<Heading>, InputError> {
+fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>, InputError> {
     let mut with_units = Vec::new();
     for (at, heading) in headings.iter().enumerate() {
         with_units.push(match units.cells.get(at).unwrap_or_default() {

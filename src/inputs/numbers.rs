@@ -14,7 +14,7 @@ enum Sign {
 
 /// How the numbers of a column are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Style {
+pub struct DecimalNotation {
     point: Sign,
     comma: Sign,
     /// Whether numbers below a percent sign may be percent, or shares that a workbook shows as percent.
@@ -56,9 +56,9 @@ pub fn is_missing(cell: &str) -> bool {
 /// Whether a cell is a number in some country.
 pub fn is_number(cell: &str) -> bool {
     use Sign::{Decimal, Thousands};
-    let styles = [(Decimal, Decimal), (Thousands, Decimal), (Decimal, Thousands)];
-    let style = |(point, comma)| Style { point, comma, may_be_shares: false };
-    styles.into_iter().any(|signs| style(signs).number(cell).is_some())
+    let notations = [(Decimal, Decimal), (Thousands, Decimal), (Decimal, Thousands)];
+    let notation = |(point, comma)| DecimalNotation { point, comma, may_be_shares: false };
+    notations.into_iter().any(|signs| notation(signs).number(cell).is_some())
 }
 
 /// Splits a percent sign off.
@@ -122,7 +122,7 @@ impl Evidence {
 }
 
 /// Settles how each column is written. In a workbook points are decimal.
-pub fn styles(columns: &[Evidence], is_workbook: bool) -> Vec<Style> {
+pub fn notations(columns: &[Evidence], is_workbook: bool) -> Vec<DecimalNotation> {
     let in_any = |is_seen: fn(&Seen, &Evidence) -> bool, at: usize| {
         columns.iter().any(|column| is_seen(&column.signs[at], column))
     };
@@ -131,15 +131,15 @@ pub fn styles(columns: &[Evidence], is_workbook: bool) -> Vec<Style> {
         thousands: in_any(|seen, _| seen.thousands, at),
         either: in_any(|seen, column| seen.either && column.hundreds, at),
     });
-    let styles = columns.iter().map(|own| Style {
+    let notations = columns.iter().map(|own| DecimalNotation {
         point: if is_workbook { Sign::Decimal } else { own.sign(0, &all) },
         comma: own.sign(1, &all),
         may_be_shares: is_workbook && own.has_percent && own.largest > 0.0 && own.largest <= 1.0,
     });
-    styles.collect()
+    notations.collect()
 }
 
-impl Style {
+impl DecimalNotation {
     /// Reads a number; 10 % is 0.1.
     pub fn number(self, cell: &str) -> Option<f64> {
         let (text, size) = share(cell);

@@ -10,13 +10,13 @@ use rockfrag_core::warning::{Warning, Warnings};
 use strum::VariantArray;
 
 use super::floors::{self, Building, Storey};
-use super::words::{is_one_of, joined, means, words};
+use super::words::{is_one_of, joined, means, synonyms};
 use super::{Grid, Heading, InputError, Renames};
 use crate::number::rounded;
 
 /// What a column is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Column {
+enum ColumnRole {
     /// What is known of an object.
     Known(Field),
     /// The number of such objects.
@@ -43,7 +43,7 @@ const HIGHEST: f64 = 50.0;
 
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Common {
+pub struct ListDefaults {
     /// The number of the ground floor, if it is given.
     pub ground_floor: Option<u32>,
     /// Where objects stand that do not say so themselves.
@@ -53,7 +53,7 @@ pub struct Common {
 /// A list: its columns by what they say.
 struct List<'a> {
     grid: &'a Grid,
-    columns: Vec<Column>,
+    columns: Vec<ColumnRole>,
     name: Option<usize>,
     ground_floor: u32,
     place: Place,
@@ -63,19 +63,19 @@ struct List<'a> {
 pub fn read(
     path: &Path,
     renames: &mut Renames,
-    common: &Common,
+    defaults: &ListDefaults,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
-    renames.read(path).and_then(|grid| in_rows(&grid, &[], common)).map_err(|error| error.in_file(path))
+    renames.read(path).and_then(|grid| in_rows(&grid, &[], defaults)).map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.
 pub fn in_rows(
     grid: &Grid,
     others: &[usize],
-    common: &Common,
+    defaults: &ListDefaults,
 ) -> Result<(Vec<Object>, Warnings), InputError> {
-    let mut list = List::new(grid, common)?;
-    others.iter().for_each(|at| list.columns[*at] = Column::Other);
+    let mut list = List::new(grid, defaults)?;
+    others.iter().for_each(|at| list.columns[*at] = ColumnRole::Other);
     Ok((list.objects(), list.doubts()))
 }
 
@@ -84,63 +84,64 @@ pub fn describes_object(heading: &Heading) -> bool {
     match meaning(heading) {
         // Of an earthquake or a station.
         _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
-        Column::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
-        Column::Unclear => words("of-objects").any(|part| heading.name.contains(part)),
-        column => matches!(column, Column::Storey | Column::Storeys),
+        ColumnRole::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
+        ColumnRole::Unclear => synonyms("of-objects").any(|part| heading.name.contains(part)),
+        column => matches!(column, ColumnRole::Storey | ColumnRole::Storeys),
     }
 }
 
-fn meaning(heading: &Heading) -> Column {
-    const OTHERS: [(&str, Column); 5] = [
-        ("count", Column::Count),
-        ("unit", Column::Unit),
-        ("storey", Column::Storey),
-        ("storeys", Column::Storeys),
-        ("building", Column::Building),
+fn meaning(heading: &Heading) -> ColumnRole {
+    const OTHERS: [(&str, ColumnRole); 5] = [
+        ("count", ColumnRole::Count),
+        ("unit", ColumnRole::Unit),
+        ("storey", ColumnRole::Storey),
+        ("storeys", ColumnRole::Storeys),
+        ("building", ColumnRole::Building),
     ];
     let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
     let is_named = |meaning: &str| name == meaning || is_one_of(name, meaning);
     let field = Field::VARIANTS.iter().find(|&field| is_named(field.into()));
     let other = || OTHERS.iter().find(|(meaning, _)| is_named(meaning)).map(|(_, column)| *column);
-    match field.map(|field| Column::Known(*field)).or_else(other) {
-        _ if quantity == Some(Quantity::Counts) => Column::Count,
+    match field.map(|field| ColumnRole::Known(*field)).or_else(other) {
+        _ if quantity == Some(Quantity::Counts) => ColumnRole::Count,
         Some(column) => column,
-        None if words("held").any(|start| name.starts_with(start)) => Column::Held,
-        None if words("of-objects").any(|part| name.contains(part)) => Column::Unclear,
+        None if synonyms("held").any(|start| name.starts_with(start)) => ColumnRole::Held,
+        None if synonyms("of-objects").any(|part| name.contains(part)) => ColumnRole::Unclear,
         // Perhaps another side of the base: without it the object would seem safer.
-        None if quantity == Some(Quantity::Length) => Column::Unclear,
-        None => Column::Unused,
+        None if quantity == Some(Quantity::Length) => ColumnRole::Unclear,
+        None => ColumnRole::Unused,
     }
 }
 
 impl List<'_> {
-    fn new<'a>(grid: &'a Grid, common: &Common) -> Result<List<'a>, InputError> {
-        let columns: Vec<Column> = grid.headings.iter().map(meaning).collect();
-        let mut list = List { grid, columns, name: grid.about("name"), ground_floor: 0, place: common.place };
+    fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>, InputError> {
+        let columns: Vec<ColumnRole> = grid.headings.iter().map(meaning).collect();
+        let mut list =
+            List { grid, columns, name: grid.about("name"), ground_floor: 0, place: defaults.place };
         list.check()?;
         let rows = 0..grid.lines.len();
-        let has_units = list.column(Column::Unit).is_some_and(|at| {
+        let has_units = list.column(ColumnRole::Unit).is_some_and(|at| {
             let mut units = rows.clone().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
         let is_of_floors = list.level_is_of_floors();
-        let has_storey = list.column(Column::Storey).is_some() || is_of_floors;
+        let has_storey = list.column(ColumnRole::Storey).is_some() || is_of_floors;
         for (at, column) in list.columns.iter_mut().enumerate() {
             match column {
-                Column::Known(Field::Level) if is_of_floors => *column = Column::Storey,
-                Column::Count if numbers_rows(grid, at) => *column = Column::Unused,
+                ColumnRole::Known(Field::Level) if is_of_floors => *column = ColumnRole::Storey,
+                ColumnRole::Count if numbers_rows(grid, at) => *column = ColumnRole::Unused,
                 // A ward, perhaps.
-                Column::Unit if !has_units => *column = Column::Unused,
+                ColumnRole::Unit if !has_units => *column = ColumnRole::Unused,
                 // Without a floor, the building says nothing.
-                Column::Storeys | Column::Building if !has_storey => *column = Column::Unused,
+                ColumnRole::Storeys | ColumnRole::Building if !has_storey => *column = ColumnRole::Unused,
                 _ => {}
             }
         }
-        let Some(at) = list.column(Column::Storey) else { return Ok(list) };
-        let open = rows.filter(|row| list.cell(*row, Column::Known(Field::Level)).is_none());
+        let Some(at) = list.column(ColumnRole::Storey) else { return Ok(list) };
+        let open = rows.filter(|row| list.cell(*row, ColumnRole::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
         let heading = grid.headings[at].text.clone();
-        list.ground_floor = common
+        list.ground_floor = defaults
             .ground_floor
             .map_or_else(|| floors::ground_floor(&storeys), Ok)
             .map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
@@ -149,8 +150,9 @@ impl List<'_> {
 
     /// Whether levels are floors: shares of the height of a building do not exceed 1.
     fn level_is_of_floors(&self) -> bool {
-        let level =
-            self.column(Column::Known(Field::Level)).filter(|_| self.column(Column::Storey).is_none());
+        let level = self
+            .column(ColumnRole::Known(Field::Level))
+            .filter(|_| self.column(ColumnRole::Storey).is_none());
         level.is_some_and(|at| {
             let rows = 0..self.grid.lines.len();
             let levels: Vec<f64> = rows.filter_map(|row| self.grid.number(row, at).ok()).collect();
@@ -162,9 +164,13 @@ impl List<'_> {
     /// Checks the headings, and the lengths below each.
     fn check(&self) -> Result<(), InputError> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
-        if self.column(Column::Known(Field::Height)).or(self.column(Column::Known(Field::P))).is_none() {
+        if self
+            .column(ColumnRole::Known(Field::Height))
+            .or(self.column(ColumnRole::Known(Field::P)))
+            .is_none()
+        {
             let found = grid.found();
-            let mut unknown = self.headings(Column::Unused).chain(self.headings(Column::Unclear));
+            let mut unknown = self.headings(ColumnRole::Unused).chain(self.headings(ColumnRole::Unclear));
             return Err(match unknown.find(|text| !text.is_empty()).map(str::to_string) {
                 Some(heading) => InputError::Heading { heading, expected, found },
                 None => InputError::missing(found, expected),
@@ -176,17 +182,20 @@ impl List<'_> {
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             let text = heading.text.replace("(-)", "").replace("[-]", "");
             let has_sign = text.contains(['(', '[', '"', '\'', '%']);
-            if matches!(column, Column::Known(_)) && heading.unit.is_none() && has_sign {
+            if matches!(column, ColumnRole::Known(_)) && heading.unit.is_none() && has_sign {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::missing(found, "m, cm or mm in brackets, or no unit"));
             }
-            let is_one = !matches!(column, Column::Held | Column::Unclear | Column::Other | Column::Unused);
+            let is_one = !matches!(
+                column,
+                ColumnRole::Held | ColumnRole::Unclear | ColumnRole::Other | ColumnRole::Unused
+            );
             let before = self.columns[..at].iter().position(|before| before == column).filter(|_| is_one);
             if let Some(before) = before {
                 let found = format!("columns '{}' and '{}'", grid.headings[before].text, heading.text);
                 return Err(InputError::missing(found, "one of them"));
             }
-            let Column::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
+            let ColumnRole::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
                 continue;
             };
             if let Some(unit) = heading.unit {
@@ -202,25 +211,25 @@ impl List<'_> {
         Ok(())
     }
 
-    fn column(&self, wanted: Column) -> Option<usize> {
+    fn column(&self, wanted: ColumnRole) -> Option<usize> {
         self.columns.iter().position(|column| *column == wanted)
     }
 
     /// The texts of the headings of this kind, but for that of names.
-    fn headings(&self, wanted: Column) -> impl Iterator<Item = &str> {
+    fn headings(&self, wanted: ColumnRole) -> impl Iterator<Item = &str> {
         let all =
             (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted && Some(*at) != self.name);
         all.map(|at| self.grid.headings[at].text.as_str())
     }
 
     /// What stands in a column, if it says anything.
-    fn cell(&self, row: usize, column: Column) -> Option<&str> {
+    fn cell(&self, row: usize, column: ColumnRole) -> Option<&str> {
         self.column(column).and_then(|at| self.grid.value(row, at))
     }
 
     /// The columns that are not used, named once, and the words that are taken as no value.
     fn doubts(&self) -> Warnings {
-        let unused: Vec<&str> = self.headings(Column::Unused).filter(|text| !text.is_empty()).collect();
+        let unused: Vec<&str> = self.headings(ColumnRole::Unused).filter(|text| !text.is_empty()).collect();
         let mut doubts: Warnings =
             (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", "))).into_iter().collect();
         let rows = 0..self.grid.lines.len();
@@ -228,9 +237,9 @@ impl List<'_> {
             let mut values = rows.clone().filter_map(|row| self.grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
             let is_open = match column {
-                Column::Held => values.any(|cell| means(cell, "free")),
-                Column::Known(Field::Depth) => values.next().is_some(),
-                Column::Known(_) => false,
+                ColumnRole::Held => values.any(|cell| means(cell, "free")),
+                ColumnRole::Known(Field::Depth) => values.next().is_some(),
+                ColumnRole::Known(_) => false,
                 _ => continue,
             };
             for row in rows.clone().filter(|row| self.grid.value(*row, at).is_none()) {
@@ -276,7 +285,7 @@ impl List<'_> {
 
     /// Whether a row says on which floor its object stands.
     fn names_floor(&self, row: usize) -> bool {
-        self.cell(row, Column::Storey).or(self.cell(row, Column::Known(Field::Level))).is_some()
+        self.cell(row, ColumnRole::Storey).or(self.cell(row, ColumnRole::Known(Field::Level))).is_some()
     }
 
     /// The object of a row, or what is wrong with it.
@@ -285,12 +294,12 @@ impl List<'_> {
         for (at, column) in self.columns.iter().enumerate() {
             let cell = self.grid.cell(row, at);
             let is_needed =
-                [Field::Width, Field::Height, Field::P, Field::Alpha].map(Column::Known).contains(column);
+                [Field::Width, Field::Height, Field::P, Field::Alpha].map(ColumnRole::Known).contains(column);
             let (name, size) = match column {
                 _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
-                Column::Known(field) => (field.into(), self.size(row, at, *field)?),
-                Column::Count => ("count", 1.0),
-                Column::Unclear => {
+                ColumnRole::Known(field) => (field.into(), self.size(row, at, *field)?),
+                ColumnRole::Count => ("count", 1.0),
+                ColumnRole::Unclear => {
                     let text = &self.grid.headings[at].text;
                     let problem = "is not understood: rename it (--columns) or leave it out";
                     return Err(format!("column '{text}' {problem}"));
@@ -313,7 +322,7 @@ impl List<'_> {
     /// row.
     fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
         let (heading, quantity) = (&self.grid.headings[at], field.quantity());
-        let cell = self.cell(row, Column::Unit).filter(|_| quantity == Some(Quantity::Length));
+        let cell = self.cell(row, ColumnRole::Unit).filter(|_| quantity == Some(Quantity::Length));
         let own = cell.and_then(Unit::parse);
         if let Some(cell) = cell.filter(|_| own.is_none() || heading.unit.is_some() && heading.unit != own) {
             return Err(format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text));
@@ -332,7 +341,7 @@ impl List<'_> {
     /// The place of an object with the floor that its row names.
     fn on_floor(&self, row: usize, place: Place) -> Result<Place, String> {
         let known = Place { period: place.period.or(self.place.period), ..place };
-        let Some(cell) = self.cell(row, Column::Storey) else { return Ok(place) };
+        let Some(cell) = self.cell(row, ColumnRole::Storey) else { return Ok(place) };
         if known.level.is_some() && known.period.is_some() {
             return Ok(place);
         }
@@ -342,7 +351,7 @@ impl List<'_> {
         if above == Some(0) {
             return Ok(Place { level: place.level.or(Some(0.0)), ..place });
         }
-        let all = self.cell(row, Column::Storeys).ok_or_else(|| {
+        let all = self.cell(row, ColumnRole::Storeys).ok_or_else(|| {
             format!(
                 "floor {cell}: expected the storeys of the building (column Storeys), or Level and T1 (s)"
             )
@@ -353,7 +362,7 @@ impl List<'_> {
         if above > storeys {
             return Err(format!("floor {cell} of {storeys} storeys: which is right?"));
         }
-        let building = match self.cell(row, Column::Building) {
+        let building = match self.cell(row, ColumnRole::Building) {
             Some(cell) => Some(Building::parse(cell).ok_or_else(|| {
                 format!("building '{cell}'; expected walls, masonry, concrete frame or steel frame")
             })?),
@@ -363,9 +372,9 @@ impl List<'_> {
     }
 
     fn floor_in_words(&self, row: usize) -> Option<String> {
-        match Storey::parse(self.cell(row, Column::Storey)?)? {
+        match Storey::parse(self.cell(row, ColumnRole::Storey)?)? {
             Storey::Number(number) | Storey::Above(number) => {
-                let all = self.cell(row, Column::Storeys).map(|all| format!(" of {all}"));
+                let all = self.cell(row, ColumnRole::Storeys).map(|all| format!(" of {all}"));
                 Some(format!("floor {number}{}", all.unwrap_or_default()))
             }
             _ => None,
@@ -374,7 +383,7 @@ impl List<'_> {
 
     /// Why the object of a row is not free to rock.
     fn held(&self, row: usize) -> Option<Reason> {
-        let held = self.columns.iter().enumerate().filter(|(_, column)| **column == Column::Held);
+        let held = self.columns.iter().enumerate().filter(|(_, column)| **column == ColumnRole::Held);
         held.filter_map(|(at, _)| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?)).next()
     }
 }
@@ -397,7 +406,7 @@ fn names_unit_of_length(note: &str) -> bool {
 /// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.
 fn held_by(heading: &str, cell: &str) -> Option<Reason> {
     let (heading, text) = (heading.to_lowercase(), joined(cell));
-    let has = |text: &str, meaning: &str| words(meaning).any(|part| text.contains(part));
+    let has = |text: &str, meaning: &str| synonyms(meaning).any(|part| text.contains(part));
     let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
     let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
     if means(cell, "free") || is_loose {

@@ -13,7 +13,7 @@ static WORDS: LazyLock<HashMap<&str, Vec<&str>>> = LazyLock::new(|| {
 });
 
 /// The words with a meaning, the best first.
-pub fn words(meaning: &str) -> impl Iterator<Item = &'static str> {
+pub fn synonyms(meaning: &str) -> impl Iterator<Item = &'static str> {
     WORDS.get(meaning).into_iter().flatten().copied()
 }
 
@@ -24,7 +24,7 @@ pub fn means(text: &str, meaning: &str) -> bool {
 
 /// Whether a word, as in the table, has a meaning.
 pub fn is_one_of(word: &str, meaning: &str) -> bool {
-    words(meaning).any(|known| known == word)
+    synonyms(meaning).any(|known| known == word)
 }
 
 /// The letters and digits of a text in lower case, its parts joined by hyphens.

@@ -9,7 +9,7 @@ use super::error::{InputError, expect_few_cells};
 use crate::source::guarded;
 
 /// A text, and its row and column from 0.
-struct Cell {
+struct SheetCell {
     row: u32,
     column: u32,
     text: String,
@@ -63,7 +63,7 @@ fn expect_few_announced(bytes: &[u8]) -> Result<(), InputError> {
 }
 
 /// The cells of a sheet that have a text.
-fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell>, InputError> {
+fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<SheetCell>, InputError> {
     let mut cells = Vec::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
@@ -71,7 +71,7 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
             let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
             while let Some(cell) = reader.next_cell().map_err(InputError::damaged)? {
                 let ((row, column), value) = (cell.get_position(), cell.get_value().clone().into());
-                cells.push(Cell { row, column, text: text(&value, None) });
+                cells.push(SheetCell { row, column, text: text(&value, None) });
                 expect_few_cells(cells.len())?;
             }
         }
@@ -81,7 +81,7 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
             let (top, left) = range.start().unwrap_or_default();
             for (row, column, value) in range.cells() {
                 let (row, column) = (top + row as u32, left + column as u32);
-                cells.push(Cell { row, column, text: text(value, formulas.get_value((row, column))) });
+                cells.push(SheetCell { row, column, text: text(value, formulas.get_value((row, column))) });
                 expect_few_cells(cells.len())?;
             }
         }
@@ -92,7 +92,7 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
 
 /// Reads a sheet twice, for formulas and values: the places of the former hold for values too, of which the
 /// reader skips those that it does not know, such as the error #SPILL!.
-fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell>, InputError> {
+fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<SheetCell>, InputError> {
     let mut formulas = Vec::new();
     match workbook.worksheet_cells_reader(sheet) {
         Err(XlsxError::NotAWorksheet(_)) => return Ok(Vec::new()),
@@ -112,14 +112,14 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
             Err(error) => return Err(InputError::damaged(error)),
         };
         let (row, column) = formula.get_position();
-        Ok(Cell { row, column, text: text(&value, Some(formula.get_value())) })
+        Ok(SheetCell { row, column, text: text(&value, Some(formula.get_value())) })
     });
     cells.collect()
 }
 
 /// The rows between the first and the last cells, with the number of the first.
-fn in_rows(cells: Vec<Cell>) -> Result<(usize, Vec<Vec<String>>), InputError> {
-    let of = |place: fn(&Cell) -> u32| {
+fn in_rows(cells: Vec<SheetCell>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+    let of = |place: fn(&SheetCell) -> u32| {
         let places = || cells.iter().map(place);
         let first = places().min().unwrap_or_default() as usize;
         (first, places().max().unwrap_or_default() as usize + 1 - first)
@@ -127,7 +127,7 @@ fn in_rows(cells: Vec<Cell>) -> Result<(usize, Vec<Vec<String>>), InputError> {
     let ((top, height), (left, width)) = (of(|cell| cell.row), of(|cell| cell.column));
     expect_few_cells(height.saturating_mul(width))?;
     let mut rows = vec![vec![String::new(); width]; height];
-    for Cell { row, column, text } in cells {
+    for SheetCell { row, column, text } in cells {
         rows[row as usize - top][column as usize - left] = text;
     }
     Ok((top + 1, rows))

@@ -4,9 +4,9 @@ use rockfrag::inputs::{Grid, Heading, InputError};
 
 /// A text, the names of its columns with their units, the line of its first row, and its rows (text if not a
 /// number).
-type Case = (&'static str, &'static str, usize, &'static str);
+type TableCase = (&'static str, &'static str, usize, &'static str);
 
-const CASES: &[Case] = &[
+const CASES: &[TableCase] = &[
     // Separators and decimal commas.
     ("pga_g,rate\n0.1,2e-3\n0.2,1e-3\n", "pga:g rate", 2, "0.1 0.002; 0.2 0.001"),
     ("PGA [g];rate\n0,1;0,002\n0,2;0,001\n", "pga:g rate", 2, "0.1 0.002; 0.2 0.001"),

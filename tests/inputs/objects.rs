@@ -1,6 +1,6 @@
 //! Lists of objects in the forms that people keep them in.
 
-use rockfrag::inputs::objects::{self, Common};
+use rockfrag::inputs::objects::{self, ListDefaults};
 use rockfrag::inputs::{InputError, Rename, Renames};
 use rockfrag_core::object::{Object, structure_warnings};
 use rockfrag_core::warning::Warning;
@@ -42,8 +42,8 @@ fn read(
     std::fs::write(&path, bytes).unwrap();
     let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
     let mut renames = Renames::new(&renames);
-    let common = Common { ground_floor, ..Common::default() };
-    let (objects, _) = objects::read(&path, &mut renames, &common)?;
+    let defaults = ListDefaults { ground_floor, ..ListDefaults::default() };
+    let (objects, _) = objects::read(&path, &mut renames, &defaults)?;
     renames.expect_used()?;
     Ok(objects)
 }
@@ -253,7 +253,7 @@ fn columns_that_are_not_used_are_all_named_once() {
     let path = folder.path().join("list.csv");
     std::fs::write(&path, "No.,name,Room,Mass (kg),width,height,Value,Remarks\n1,a,R1,80,0.5,2,100,old\n")
         .unwrap();
-    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &ListDefaults::default()).unwrap();
     let lines = warnings.lines();
     assert!(
         lines.len() == 1
@@ -261,12 +261,12 @@ fn columns_that_are_not_used_are_all_named_once() {
     );
     let missing = "name,width,depth,height,eta\na,0.5,NA,2,\nb,0.5,1,2,null\n";
     std::fs::write(&path, missing).unwrap();
-    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let (_, warnings) = objects::read(&path, &mut Renames::new(&[]), &ListDefaults::default()).unwrap();
     let lines = warnings.lines();
     assert!(lines.len() == 1 && lines[0].starts_with("depth of a, eta of b:"), "{lines:?}");
     let open = "name,Number,width,depth,height,anchored\na,1023,0.5,-,2,no\nb,1024,0.5,1,2,\n";
     std::fs::write(&path, open).unwrap();
-    let (objects, warnings) = objects::read(&path, &mut Renames::new(&[]), &Common::default()).unwrap();
+    let (objects, warnings) = objects::read(&path, &mut Renames::new(&[]), &ListDefaults::default()).unwrap();
     let lines = warnings.lines().join("\n");
     assert!(objects.iter().all(|object| object.count.is_none()), "a number of each row counts nothing");
     assert!(["depth of a, anchored of b", "Number"].iter().all(|about| lines.contains(about)), "{lines}");

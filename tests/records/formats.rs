@@ -1,7 +1,7 @@
 //! Formats of the agencies: reading returns what was written, and damage causes no harm.
 
 use proptest::prelude::*;
-use rockfrag::inputs::records::{Format, ReadOptions, RecordFileError, is_vertical, read_records};
+use rockfrag::inputs::records::{ReadOptions, RecordFileError, RecordFormat, is_vertical, read_records};
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 use strum::VariantArray;
@@ -13,15 +13,15 @@ fn read(text: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
 }
 
 /// A file of 1000 samples, half a unit of their last digit (m/s2), and its labels.
-struct Written {
-    format: Format,
+struct SampleFile {
+    format: RecordFormat,
     text: String,
     half_digit: f64,
     labels: [&'static str; 3],
     azimuth_deg: f64,
 }
 
-fn each_format() -> [Written; 5] {
+fn each_format() -> [SampleFile; 5] {
     let samples = motion(1000);
     let pga = peak(&samples) / G;
     let unit = format!("ACCELERATION TIME HISTORY IN UNITS OF G,  PGA=   {pga:.5} G, PGV= 1 CM/SEC");
@@ -32,13 +32,13 @@ fn each_format() -> [Written; 5] {
     let italy = ["NORTHERN_ITALY 20120529 070002", "IT MRN MIRANDOLA", "HNE"];
     let japan = ["2011/03/11 14:46:00", "MYG004 surface", "E-W"];
     [
-        (Format::PeerAt2, nga_at2(&samples), 0.5e-7 * G, taiwan, 270.0),
-        (Format::PeerAt2, old, 0.5e-7 * G, taiwan, 270.0),
-        (Format::Cosmos, cosmos(&samples, 90), 0.5e-7, alaska, 90.0),
-        (Format::Esm, esm(&samples), 0.5e-8, italy, 90.0),
-        (Format::Knet, knet(&samples), 2e-6, japan, 90.0),
+        (RecordFormat::PeerAt2, nga_at2(&samples), 0.5e-7 * G, taiwan, 270.0),
+        (RecordFormat::PeerAt2, old, 0.5e-7 * G, taiwan, 270.0),
+        (RecordFormat::Cosmos, cosmos(&samples, 90), 0.5e-7, alaska, 90.0),
+        (RecordFormat::Esm, esm(&samples), 0.5e-8, italy, 90.0),
+        (RecordFormat::Knet, knet(&samples), 2e-6, japan, 90.0),
     ]
-    .map(|(format, text, half_digit, labels, azimuth_deg)| Written {
+    .map(|(format, text, half_digit, labels, azimuth_deg)| SampleFile {
         format,
         text,
         half_digit,
@@ -50,14 +50,15 @@ fn each_format() -> [Written; 5] {
 #[test]
 fn what_is_written_is_read() {
     let mean = motion(1000).iter().sum::<f64>() / 1000.0;
-    for Written { format, text, half_digit, labels, azimuth_deg } in each_format() {
+    for SampleFile { format, text, half_digit, labels, azimuth_deg } in each_format() {
         let [read_motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
         let RecordedMotion { origin, acceleration_m_s2, .. } = read_motion;
         assert_eq!((read_motion.format, origin.azimuth_deg), (format.into(), Some(azimuth_deg)));
-        let mw = [(Format::Esm, 6.0), (Format::Knet, 9.0)].into_iter().find(|(of, _)| *of == format);
+        let mw =
+            [(RecordFormat::Esm, 6.0), (RecordFormat::Knet, 9.0)].into_iter().find(|(of, _)| *of == format);
         assert_eq!(origin.mw, mw.map(|(_, mw)| mw));
         assert!((read_motion.dt_s - DT).abs() < 1e-12 && acceleration_m_s2.len() == 1000);
-        let offset = if format == Format::Knet { mean } else { 0.0 };
+        let offset = if format == RecordFormat::Knet { mean } else { 0.0 };
         for (a, b) in acceleration_m_s2.iter().zip(motion(1000)) {
             assert!((a - b + offset).abs() <= half_digit * 1.001, "{format:?}: {a} {b}");
         }
@@ -85,7 +86,7 @@ fn cosmos_holds_channels_whose_numbers_may_touch() {
 
 #[test]
 fn what_is_cut_off_or_overwritten_is_refused() {
-    for Written { format, text, .. } in each_format() {
+    for SampleFile { format, text, .. } in each_format() {
         let lines: Vec<&str> = text.lines().collect();
         for kept in [1, 12, lines.len() * 4 / 10] {
             assert!(read(&lines[..kept].join("\n")).is_err(), "{format:?}: {kept} of {} lines", lines.len());
@@ -133,7 +134,7 @@ proptest! {
     #[test]
     fn any_bytes_are_records_or_an_error(
         bytes in prop_oneof![4 => damaged(), 1 => ".{0,400}".prop_map(String::into_bytes)],
-        format in prop::option::of(prop::sample::select(Format::VARIANTS.to_vec())),
+        format in prop::option::of(prop::sample::select(RecordFormat::VARIANTS.to_vec())),
         is_given in any::<bool>(),
         column in prop::option::of(prop::sample::select(vec!["all", "2", "0", "a"])),
     ) {
@@ -149,7 +150,7 @@ proptest! {
 
 #[test]
 fn headers_must_agree_with_options() {
-    for Written { format, text, .. } in each_format() {
+    for SampleFile { format, text, .. } in each_format() {
         let [motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
         assert!(!is_vertical(&motion.origin), "{format:?}");
         for options in [

@@ -9,9 +9,9 @@ use rockfrag_core::units::Quantity;
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, InputError};
 
-/// A measure of motions.
+/// An intensity measure type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
-pub enum Measure {
+pub enum Imt {
     #[strum(serialize = "PGA")]
     Pga,
     #[strum(serialize = "PGV")]
@@ -51,13 +51,13 @@ pub enum Frequency {
 
 /// A column by its heading: of values, of frequencies, or of neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Column {
+pub struct HazardColumn {
     pub at: usize,
     /// Unit of its values, in m/s2 or m/s.
     pub unit: Option<f64>,
     pub frequency: Option<Frequency>,
     /// None where the heading names none: `Ground Motion (g)`, `AFE`.
-    pub measure: Option<Measure>,
+    pub measure: Option<Imt>,
     pub statistic: Statistic,
 }
 
@@ -65,9 +65,9 @@ fn is_numeric(word: &str) -> bool {
     word.starts_with(|sign: char| sign.is_ascii_digit())
 }
 
-impl Column {
+impl HazardColumn {
     /// Reads the heading of a column of a file whose probabilities are for so many years, if it says so.
-    pub fn new(at: usize, heading: &Heading, investigation_years: Option<f64>) -> Column {
+    pub fn new(at: usize, heading: &Heading, investigation_years: Option<f64>) -> HazardColumn {
         // A fractile may stand behind the unit: pga_g_16.
         let ranked = heading.text.rsplit_once('_');
         let ranked = ranked.filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
@@ -84,8 +84,8 @@ impl Column {
         let unit = unit.filter(|_| are_of_values(&words, measure, quantity)).map(|unit| unit.si);
         let frequency = Frequency::new(&words, investigation_years).filter(|_| unit.is_none());
         let is_velocity = quantity == Some(Quantity::Velocity);
-        let measure = measure.or(is_velocity.then_some(Measure::Pgv));
-        Column { at, unit, frequency, measure, statistic }
+        let measure = measure.or(is_velocity.then_some(Imt::Pgv));
+        HazardColumn { at, unit, frequency, measure, statistic }
     }
 
     pub fn is_of_curve(&self) -> bool {
@@ -96,20 +96,20 @@ impl Column {
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
 /// word more, which may change the meaning: `vertical PGA`. An acceleration without a name is PGA.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let Column { unit, measure, .. } = Column::new(0, heading, None);
+    let HazardColumn { unit, measure, .. } = HazardColumn::new(0, heading, None);
     match measure {
-        None | Some(Measure::Pga) => Some((Peak::Pga, unit?)),
-        Some(Measure::Pgv) => Some((Peak::Pgv, unit?)),
-        Some(Measure::Spectral | Measure::Other) => None,
+        None | Some(Imt::Pga) => Some((Peak::Pga, unit?)),
+        Some(Imt::Pgv) => Some((Peak::Pgv, unit?)),
+        Some(Imt::Spectral | Imt::Other) => None,
     }
 }
 
 /// Whether a heading in a unit, with these words beside a measure, is of values.
-fn are_of_values(words: &[&str], measure: Option<Measure>, quantity: Option<Quantity>) -> bool {
+fn are_of_values(words: &[&str], measure: Option<Imt>, quantity: Option<Quantity>) -> bool {
     let name = match (quantity, measure) {
-        (Some(Quantity::Acceleration), Some(Measure::Spectral | Measure::Other)) => return words.is_empty(),
-        (Some(Quantity::Acceleration), None | Some(Measure::Pga)) => "acceleration",
-        (Some(Quantity::Velocity), None | Some(Measure::Pgv)) => "velocity",
+        (Some(Quantity::Acceleration), Some(Imt::Spectral | Imt::Other)) => return words.is_empty(),
+        (Some(Quantity::Acceleration), None | Some(Imt::Pga)) => "acceleration",
+        (Some(Quantity::Velocity), None | Some(Imt::Pgv)) => "velocity",
         _ => return false,
     };
     let is_named = measure.is_some() || words.iter().any(|word| is_one_of(word, name));
@@ -131,19 +131,19 @@ fn parted(text: &str) -> String {
 }
 
 /// Takes the words that name a measure out of a heading.
-fn take_measure(words: &mut Vec<&str>) -> Option<Measure> {
+fn take_measure(words: &mut Vec<&str>) -> Option<Imt> {
     for at in 0..words.len() {
         let period: Vec<&str> = words[at + 1..].iter().copied().take_while(|word| is_numeric(word)).collect();
         let is_after_spectral = at > 0 && words[at - 1] == "spectral";
         let (measure, length) = match words[at] {
-            "pgv" => (Measure::Pgv, 1),
-            "pga" | "ag" => (Measure::Pga, 1),
+            "pgv" => (Imt::Pgv, 1),
+            "pga" | "ag" => (Imt::Pga, 1),
             "s" if at > 0 || period.is_empty() => continue,
             "acceleration" if !is_after_spectral => continue,
             "sa" | "psa" | "s" | "acceleration" => {
                 let is_at_1_s = period.join(".").parse() == Ok(1.0);
                 let in_s = words.get(at + 1 + period.len()).is_some_and(|next| matches!(*next, "s" | "sec"));
-                let measure = if is_at_1_s { Measure::Spectral } else { Measure::Other };
+                let measure = if is_at_1_s { Imt::Spectral } else { Imt::Other };
                 (measure, 1 + period.len() + usize::from(in_s))
             }
             _ => continue,

@@ -15,7 +15,7 @@ use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 
 pub use self::columns::peak;
-use self::columns::{Column, Frequency, Measure, Statistic, noted_statistic};
+use self::columns::{Frequency, HazardColumn, Imt, Statistic, noted_statistic};
 pub use self::motions::{MotionTable, expect_motions_alone, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Renames};
@@ -43,7 +43,7 @@ pub fn read(
 }
 
 /// A point of a curve, and the cell of its rate, which is unknown of a motion that is certain.
-struct Point {
+struct CurvePoint {
     /// In m/s2 or m/s.
     value: f64,
     annual_rate: Option<f64>,
@@ -53,7 +53,7 @@ struct Point {
 
 /// A curve, and the file that it is from.
 struct Curve {
-    measure: Measure,
+    measure: Imt,
     statistic: Statistic,
     curve: HazardCurve,
     file: String,
@@ -64,7 +64,7 @@ impl Curve {
     /// columns of their frequencies. Tables often begin with motions that are certain to come, and end with
     /// some that never do: these tell nothing.
     fn new(
-        (measure, statistic): (Measure, Statistic),
+        (measure, statistic): (Imt, Statistic),
         frequency: Frequency,
         cells: Vec<(f64, usize, usize)>,
         grid: &Grid,
@@ -72,7 +72,12 @@ impl Curve {
     ) -> Result<Curve, InputError> {
         let mut points = Vec::new();
         for (value, row, column) in cells {
-            points.push(Point { value, annual_rate: frequency.annual_rate(grid, row, column)?, row, column });
+            points.push(CurvePoint {
+                value,
+                annual_rate: frequency.annual_rate(grid, row, column)?,
+                row,
+                column,
+            });
         }
         points.retain(|point| point.value != 0.0);
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -87,7 +92,7 @@ impl Curve {
         }
         let known = points.iter().filter_map(|point| Some((point.value, point.annual_rate?)));
         let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
-        let unit = if measure == Measure::Pgv { 1.0 } else { G_M_S2 };
+        let unit = if measure == Imt::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
         judge_hazard(&measure.to_string(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
@@ -96,12 +101,12 @@ impl Curve {
 
 /// The hazard of one peak, with what the other curves tell of it.
 fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputError> {
-    let find = |measure: Measure, statistic: Statistic| {
+    let find = |measure: Imt, statistic: Statistic| {
         curves.iter().find(|curve| (curve.measure, curve.statistic) == (measure, statistic))
     };
     let central = |measure| find(measure, Statistic::Mean).or(find(measure, Statistic::Median));
-    let (pga, pgv) = (central(Measure::Pga), central(Measure::Pgv));
-    let spectral = central(Measure::Spectral).filter(|_| pgv.is_none());
+    let (pga, pgv) = (central(Imt::Pga), central(Imt::Pgv));
+    let spectral = central(Imt::Spectral).filter(|_| pgv.is_none());
     let (main, mut hazard) = match (pga, pgv, spectral) {
         (Some(pga), None, Some(spectral)) if pga.curve == spectral.curve => {
             return Err(InputError::missing("SA(1.0 s) as PGA, at all rates", "the curves of both"));
@@ -174,8 +179,9 @@ impl Found {
             (false, None) => {}
         }
         let years = openquake::investigation_years(&grid);
-        let columns = grid.headings.iter().enumerate().map(|(at, heading)| Column::new(at, heading, years));
-        let mut columns: Vec<Column> = columns.collect();
+        let columns =
+            grid.headings.iter().enumerate().map(|(at, heading)| HazardColumn::new(at, heading, years));
+        let mut columns: Vec<HazardColumn> = columns.collect();
         if columns.iter().all(|column| column.statistic == Statistic::Mean) {
             let statistic = noted_statistic(&grid)?;
             columns.iter_mut().for_each(|column| column.statistic = statistic);
@@ -273,8 +279,8 @@ impl Found {
 
 /// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
 /// not understood first.
-fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
-    let (curve, others): (Vec<&Column>, Vec<&Column>) =
+fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
+    let (curve, others): (Vec<&HazardColumn>, Vec<&HazardColumn>) =
         columns.iter().partition(|column| column.is_of_curve());
     let mut others = others.iter().map(|column| &grid.headings[column.at]);
     // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
@@ -291,7 +297,7 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
         return InputError::missing(found, expected);
     }
     let mut values = curve.iter().filter(|column| column.unit.is_some());
-    let expected = if values.clone().any(|column| column.measure == Some(Measure::Other)) {
+    let expected = if values.clone().any(|column| column.measure == Some(Imt::Other)) {
         "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
     } else if values.next().is_none() {
         "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns pga_g=HEADING"
@@ -309,20 +315,25 @@ fn not_understood(grid: &Grid, columns: &[Column]) -> InputError {
 }
 
 /// The curve of a column of values and one of frequencies, if they belong together.
-fn curve_of(grid: &Grid, values: &Column, rates: &Column, file: &Path) -> Result<Option<Curve>, InputError> {
+fn curve_of(
+    grid: &Grid,
+    values: &HazardColumn,
+    rates: &HazardColumn,
+    file: &Path,
+) -> Result<Option<Curve>, InputError> {
     let (Some(unit), Some(frequency)) = (values.unit, rates.frequency) else { return Ok(None) };
     let measure = match (values.measure, rates.measure) {
         (Some(own), Some(other)) if own != other => return Ok(None),
         // An acceleration without a name has that of its rates.
-        (None, Some(Measure::Pgv)) => return Ok(None),
-        (own, other) => own.or(other).unwrap_or(Measure::Pga),
+        (None, Some(Imt::Pgv)) => return Ok(None),
+        (own, other) => own.or(other).unwrap_or(Imt::Pga),
     };
     let statistic = match (values.statistic, rates.statistic) {
         (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => statistic,
         (own, other) if own == other => own,
         _ => return Ok(None),
     };
-    if measure == Measure::Other {
+    if measure == Imt::Other {
         return Ok(None);
     }
     let mut cells = Vec::new();

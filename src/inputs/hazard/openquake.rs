@@ -5,7 +5,7 @@ use std::path::Path;
 use rockfrag_core::units::{CM_PER_M, G_M_S2};
 
 use super::Curve;
-use super::columns::{Frequency, Measure, Statistic};
+use super::columns::{Frequency, Imt, Statistic};
 use crate::inputs::{Grid, Heading, InputError};
 
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
@@ -22,9 +22,9 @@ pub fn name_fields(grid: &mut Grid) {
 /// Reads a curve: the probability of exceedance of each level, in g or cm/s.
 pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
     let (measure, unit) = match exported(grid, "imt")? {
-        "PGA" => (Measure::Pga, G_M_S2),
-        "PGV" => (Measure::Pgv, 1.0 / CM_PER_M),
-        "SA(1.0)" => (Measure::Spectral, G_M_S2),
+        "PGA" => (Imt::Pga, G_M_S2),
+        "PGV" => (Imt::Pgv, 1.0 / CM_PER_M),
+        "SA(1.0)" => (Imt::Spectral, G_M_S2),
         name => return Err(InputError::missing(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
     };
     let unknown =

@@ -6,7 +6,9 @@ use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
 
 use super::ReadOptions;
 use super::error::RecordFileError;
-use super::header::{after, first_number, leading_number, numbers, samples, time_step, unit, unit_of, words};
+use super::header::{
+    after, first_number, leading_number, numbers, samples, single_spaced, time_step, unit, unit_of,
+};
 use crate::inputs::words::is_vertical;
 
 /// Index of the azimuth among the integers.
@@ -111,7 +113,7 @@ impl Channel<'_> {
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let peak = peak.map(|peak| peak.abs() * unit.si);
-        let label = find("Sta Chan").and_then(|rest| words(after(rest, ":")?.split('(').next()?));
+        let label = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
         let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
         // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
         let channel = find("<SCNL>").and_then(|rest| rest.split('.').nth(1));
@@ -123,8 +125,8 @@ impl Channel<'_> {
         let degrees = label.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
         let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
         let origin = Origin {
-            earthquake: find("Record of ").and_then(words),
-            station: find("Code:").and_then(words),
+            earthquake: find("Record of ").and_then(single_spaced),
+            station: find("Code:").and_then(single_spaced),
             azimuth_deg: azimuth.filter(|_| !is_vertical),
             component: if is_vertical { Some("vertical".to_string()) } else { label },
             ..Origin::default()

@@ -6,7 +6,8 @@ use rockfrag_core::units::Unit;
 use super::ReadOptions;
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, field, header_pga, number_field, numbers, samples, time_step, unit, unit_of, words,
+    after, azimuth_of, field, header_pga, number_field, numbers, samples, single_spaced, time_step, unit,
+    unit_of,
 };
 
 /// Largest number of header lines.
@@ -42,7 +43,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         earthquake: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
         mw: number_field(header, "MAGNITUDE_W:").map(|(_, mw)| mw),
         station: joined(header, ["NETWORK:", "STATION_CODE:", "STATION_NAME:"]),
-        component: words(stream),
+        component: single_spaced(stream),
         azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),
         re_km: None,
     };
@@ -61,5 +62,5 @@ fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
 /// Joins the values of keys.
 fn joined(header: &[&str], keys: [&str; 3]) -> Option<String> {
     let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(field(header, key)?.1)).collect();
-    words(&parts.join(" "))
+    single_spaced(&parts.join(" "))
 }

@@ -92,7 +92,7 @@ pub fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
 }
 
 /// Joins the words of a text by single blanks; none without words.
-pub fn words(text: &str) -> Option<String> {
+pub fn single_spaced(text: &str) -> Option<String> {
     let words = text.replace('\0', " ").split_whitespace().collect::<Vec<_>>().join(" ");
     (!words.is_empty()).then_some(words)
 }

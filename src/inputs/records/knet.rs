@@ -8,7 +8,7 @@ use super::ReadOptions;
 use super::error::RecordFileError;
 use super::header::{
     after, azimuth_of, field, first_number, header_pga, leading_number, number_field, numbers, samples,
-    time_step, unit, words,
+    single_spaced, time_step, unit,
 };
 
 /// Largest number of header lines.
@@ -48,10 +48,11 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let is_in_borehole = number.is_some_and(|number| number <= 3);
     let place = number.map_or("", |_| if is_in_borehole { "borehole" } else { "surface" });
     let origin = Origin {
-        earthquake: field(header, "Origin Time").and_then(|(_, time)| words(time)),
+        earthquake: field(header, "Origin Time").and_then(|(_, time)| single_spaced(time)),
         mw: number_field(header, "Mag.").map(|(_, magnitude)| magnitude),
-        station: field(header, "Station Code").and_then(|(_, code)| words(&format!("{code} {place}"))),
-        component: words(component),
+        station: field(header, "Station Code")
+            .and_then(|(_, code)| single_spaced(&format!("{code} {place}"))),
+        component: single_spaced(component),
         azimuth_deg: azimuth_of(component),
         re_km: None,
     };

@@ -34,8 +34,8 @@ use super::{decode, words};
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[expect(missing_docs, reason = "the words say it")]
 #[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Format>)]
-pub enum Format {
+#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<RecordFormat>)]
+pub enum RecordFormat {
     Cosmos,
     Knet,
     Esm,
@@ -49,7 +49,7 @@ pub enum Format {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
     /// None: detected from the content.
-    pub format: Option<Format>,
+    pub format: Option<RecordFormat>,
     /// Time between samples, s.
     pub dt_s: Option<f64>,
     /// Unit of the samples.
@@ -72,21 +72,23 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
-    let recognises = |format: &&Format| match format {
-        Format::Cosmos => cosmos::recognises(&lines),
-        Format::Knet => knet::recognises(&lines),
-        Format::Esm => esm::recognises(&lines),
-        Format::PeerAt2 => peer_at2::recognises(&lines),
-        Format::Csv => true,
+    let recognises = |format: &&RecordFormat| match format {
+        RecordFormat::Cosmos => cosmos::recognises(&lines),
+        RecordFormat::Knet => knet::recognises(&lines),
+        RecordFormat::Esm => esm::recognises(&lines),
+        RecordFormat::PeerAt2 => peer_at2::recognises(&lines),
+        RecordFormat::Csv => true,
     };
-    let format =
-        options.format.or_else(|| Format::VARIANTS.iter().find(recognises).copied()).unwrap_or(Format::Csv);
+    let format = options
+        .format
+        .or_else(|| RecordFormat::VARIANTS.iter().find(recognises).copied())
+        .unwrap_or(RecordFormat::Csv);
     let mut motions = match format {
-        Format::Cosmos => cosmos::parse(&lines, options)?,
-        Format::Knet => vec![knet::parse(&lines, options)?],
-        Format::Esm => vec![esm::parse(&lines, options)?],
-        Format::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
-        Format::Csv => csv::parse(bytes, options)?,
+        RecordFormat::Cosmos => cosmos::parse(&lines, options)?,
+        RecordFormat::Knet => vec![knet::parse(&lines, options)?],
+        RecordFormat::Esm => vec![esm::parse(&lines, options)?],
+        RecordFormat::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
+        RecordFormat::Csv => csv::parse(bytes, options)?,
     };
     for motion in &mut motions {
         motion.format = format.into();

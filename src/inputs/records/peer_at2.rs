@@ -7,8 +7,8 @@ use rockfrag_core::units::Unit;
 use super::ReadOptions;
 use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, time_step, unit, unit_of,
-    words,
+    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, single_spaced, time_step,
+    unit, unit_of,
 };
 
 /// Largest number of lines before the one with NPTS.
@@ -64,9 +64,9 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     let pga = header.iter().find_map(|line| after(line, "PGA"));
     let origin = Origin {
         azimuth_deg: azimuth_of(component),
-        earthquake: words(&event.join(", ")),
-        station: words(&station.join(", ")),
-        component: words(component),
+        earthquake: single_spaced(&event.join(", ")),
+        station: single_spaced(&station.join(", ")),
+        component: single_spaced(component),
         ..Origin::default()
     };
     Ok(RecordedMotion {

@@ -19,7 +19,7 @@ use serde::Serialize;
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
-use crate::inputs::records::{Format, ReadOptions};
+use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods, steps};
 use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
@@ -45,7 +45,7 @@ pub struct ImportMotions {
     out: Output,
     /// Format: at2, cosmos, esm, knet or csv [default: by content]
     #[arg(long)]
-    format: Option<Format>,
+    format: Option<RecordFormat>,
     /// Time step, s, where files do not state it
     #[arg(long, value_name = "S", value_parser = number(1e-6..=10.0, "a time step above 0 s and up to 10 s"))]
     dt: Option<f64>,

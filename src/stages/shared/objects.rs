@@ -8,7 +8,7 @@ use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
 use crate::inputs::Renames;
-use crate::inputs::objects::{self, Common};
+use crate::inputs::objects::{self, ListDefaults};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, StructuresInput};
@@ -186,8 +186,8 @@ impl StructureArgs {
                 all.extend(paper.map(|known| Object::with_parameters(known, Restitution::Number)));
             }
             Some(path) => {
-                let common = Common { ground_floor: self.ground_floor, place: *place };
-                (all, unused) = objects::read(path, renames, &common)?;
+                let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };
+                (all, unused) = objects::read(path, renames, &defaults)?;
             }
             None if self.one != ShapeArgs::default() => {
                 all.push(object(&self.one));

@@ -9,7 +9,7 @@ use rockfrag_core::object::structure_warnings;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use crate::inputs::hazard::motions;
-use crate::inputs::objects::{self, Common};
+use crate::inputs::objects::{self, ListDefaults};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
 use crate::table::file::{Table, is_table};
@@ -51,7 +51,7 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     }
     let earthquake = grid.about("earthquake");
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
-    let (objects, unused) = objects::in_rows(grid, &others, &Common::default())?;
+    let (objects, unused) = objects::in_rows(grid, &others, &ListDefaults::default())?;
     doubts.extend(unused);
     let (mut earthquakes, mut rows, mut read) = (HashMap::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
