@@ -68,7 +68,7 @@ pub fn guarded<T>(read: impl FnOnce() -> T) -> Option<T> {
 }
 
 /// Silences the panics of decoders, which are reported as errors.
-pub fn quiet_damage() {
+pub fn silence_decoder_panics() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if !GUARDED.get() {

@@ -9,7 +9,7 @@
 //! ```
 
 use pyo3::prelude::*;
-use rockfrag::source::quiet_damage;
+use rockfrag::source::silence_decoder_panics;
 
 mod arrays;
 mod error;
@@ -30,7 +30,7 @@ mod _rockfrag {
 
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {
-        quiet_damage();
+        silence_decoder_panics();
         module.add("Error", module.py().get_type::<error::Error>())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }

@@ -17,7 +17,7 @@ use parquet::file::properties::WriterProperties;
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyCapsule};
-use rockfrag::table::file::Table;
+use rockfrag::table::file::ParquetTable;
 use rockfrag::table::frame::{self, Format};
 
 use crate::arrays::{bytes, numbers};
@@ -76,7 +76,7 @@ pub fn read_numbers<'py>(
 ) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
     let mut columns: BTreeMap<String, Vec<f64>> = wanted.into_iter().map(|name| (name, Vec::new())).collect();
     let read = |columns: &mut BTreeMap<String, Vec<f64>>| -> anyhow::Result<()> {
-        for batch in Table::open(&path)?.batches(|_| true) {
+        for batch in ParquetTable::open(&path)?.batches(|_| true) {
             let batch = batch?;
             for (name, values) in columns.iter_mut() {
                 let numbers = batch.numbers(name)?.into_iter();
@@ -127,5 +127,8 @@ fn without_dictionary(column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
 fn write_csv(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {
     let parquet = path.with_extension("parquet");
     write(reader.schema(), reader, &parquet)?;
-    Ok(std::fs::write(path, frame::show(&frame::read(&Table::open(&parquet)?, usize::MAX)?, Format::Csv)?)?)
+    Ok(std::fs::write(
+        path,
+        frame::show(&frame::read(&ParquetTable::open(&parquet)?, usize::MAX)?, Format::Csv)?,
+    )?)
 }

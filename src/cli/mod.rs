@@ -22,7 +22,7 @@ use crate::pipeline::context::{COMMON, Caller, Common, Context, threads_of};
 use crate::pipeline::options::{SeveralErrors, in_one_line};
 use crate::pipeline::paths::{Role, path_kind};
 use crate::pipeline::terminal::{print, tell};
-use crate::source::{quiet_damage, split_sheet};
+use crate::source::{silence_decoder_panics, split_sheet};
 use crate::stages::{Stages, init, inspect, run};
 use crate::table::frame::Format;
 use crate::table::keys::resolved;
@@ -147,7 +147,7 @@ fn words(text: Option<&StyledStr>) -> String {
 
 /// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    quiet_damage();
+    silence_decoder_panics();
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let Err(error) = run(&arguments) else { return 0 };
     match error.downcast_ref::<clap::Error>() {

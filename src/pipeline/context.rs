@@ -17,7 +17,7 @@ use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
-use crate::table::writer::{Existing, TableWriter, Written, persist};
+use crate::table::writer::{Existing, PendingFile, TableWriter, persist};
 
 /// Threads that may be asked for: more than any machine runs at once take minutes to start.
 pub const THREADS: RangeInclusive<usize> = 1..=1024;
@@ -135,7 +135,7 @@ pub struct Context {
     pub plan: Plan,
     warnings: Mutex<Warnings>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
-    written: Mutex<Vec<Written>>,
+    written: Mutex<Vec<PendingFile>>,
     /// Files that go when these get their names.
     former: Mutex<Vec<PathBuf>>,
 }
@@ -222,7 +222,7 @@ impl Context {
     /// Writes a file that is no table.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         self.observed.expect_running()?;
-        let written = Written::new(path, content)?;
+        let written = PendingFile::new(path, content)?;
         locked(&self.written).push(written);
         Ok(())
     }

@@ -8,7 +8,7 @@ use super::answers::{Evaluation, Expected, Rated};
 use super::figure::{Figure, Ink};
 use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
-use super::probabilities::{self, Row, Value};
+use super::probabilities::{self, ProbabilityRow, Value};
 use super::text::literal;
 use crate::number::{self, OF_HUNDRED, PERCENT, TWO_DIGITS};
 
@@ -94,9 +94,9 @@ pub fn figure(pairs: &[Pair], when: &str, target: Option<f64>) -> Figure {
         let sides = [(pair.before, Ink::Muted, "before"), (pair.after, Ink::Data(1), "after")];
         let values = sides.map(|(rated, ink, label)| Value { p: rated.row.p_overturning, ink, label });
         let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
-        Row { name: pair.before.object.marked_name(), values: values.into(), words }
+        ProbabilityRow { name: pair.before.object.marked_name(), values: values.into(), words }
     });
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<ProbabilityRow> = rows.collect();
     let panel = (!rows.is_empty()).then(|| probabilities::panel("", when, &rows, target));
     let caption = format!(
         "Probability of overturning {when} before and after, with 95 % limits; at the right the ratio of the \

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::slice;
 
 use super::axis::Ruler;
-use super::figure::{Dash, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side};
+use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel};
 use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
 use super::text::{escape, html, literal, words};
 use crate::table::provenance::CREATED_BY;
@@ -163,7 +163,7 @@ struct Rooms {
 impl Rooms {
     fn new(panel: &Panel, figure: &Figure, across: f64) -> Rooms {
         let is_to_scale = panel.frame == Frame::ToScale;
-        let has_words_above = panel.words.iter().any(|words| words.side == Side::Above);
+        let has_words_above = panel.words.iter().any(|words| words.position == LabelPosition::Above);
         let title = TITLE * f64::from(!panel.title.is_empty());
         let labels = LABEL * f64::from(!panel.y.label.is_empty()) + LABEL * f64::from(has_words_above);
         let mut rooms = Rooms {
@@ -177,7 +177,7 @@ impl Rooms {
             rooms.height = ROW * panel.names().len() as f64;
             // The names and words of rows have the same room in all panels over the same axis.
             for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
-                let words = peer.words.iter().filter(|words| words.side == Side::Margin);
+                let words = peer.words.iter().filter(|words| words.position == LabelPosition::Margin);
                 rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
                 rooms.left = peer.names().iter().map(|name| room(name)).fold(rooms.left, f64::max);
             }
@@ -239,10 +239,10 @@ impl Pen {
     fn legend_mark(&mut self, layer: &Layer, from: Point) {
         let (colour, y) = ((self.colour)(layer.ink), from.y);
         let [middle, end] = [0.5, 1.0].map(|part| Point::new(from.x + part * MARK, y));
-        match layer.shape {
-            Shape::Points => self.dots(&[middle], 2.0, colour, 1.0),
-            Shape::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
-            Shape::Estimates => {
+        match layer.style {
+            MarkStyle::Points => self.dots(&[middle], 2.0, colour, 1.0),
+            MarkStyle::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
+            MarkStyle::Estimates => {
                 self.interval(Point::new(from.x + 1.0, y), Point::new(end.x - 1.0, y), colour);
                 self.dots(&[middle], 2.2, colour, 1.0);
             }
@@ -257,9 +257,9 @@ impl Pen {
             let longest = (x.length() / width).max(y.length() / height);
             (x, y) = (x.over_length(longest * width), y.over_length(longest * height));
         }
-        let place = Place { x, y, area };
+        let transform = PanelTransform { x, y, area };
         if panel.frame == Frame::Axes {
-            self.axes(panel, &place);
+            self.axes(panel, &transform);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
         let [x, y, wide, high] = [left, top, width, height].map(round);
@@ -268,12 +268,12 @@ impl Pen {
             "<svg x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{high}\" viewBox=\"{x} {y} {wide} {high}\">"
         );
         for layer in &panel.layers {
-            self.marks(layer, !panel.names().is_empty(), &place);
+            self.marks(layer, !panel.names().is_empty(), &transform);
         }
         self.text.push_str("</svg>\n");
         for words in &panel.words {
-            let at = place.at(words.x, words.y);
-            let x = if words.side == Side::Margin { left + width } else { at.x };
+            let at = transform.at(words.x, words.y);
+            let x = if words.position == LabelPosition::Margin { left + width } else { at.x };
             self.beside(Point { x, ..at }, words);
         }
         // Titles stand over the ticks, not over the names of rows.
@@ -285,13 +285,13 @@ impl Pen {
     }
 
     /// The axes; faint lines stand at labelled ticks of y, or along rows.
-    fn axes(&mut self, panel: &Panel, place: &Place) {
-        let Area { left, top, width, height } = place.area;
+    fn axes(&mut self, panel: &Panel, transform: &PanelTransform) {
+        let Area { left, top, width, height } = transform.area;
         let (bottom, right, middle) = (top + height, left + width, " text-anchor=\"middle\"");
         let (room, mut lines) = (left - 4.0, String::new());
-        for tick in place.y.ticks(((height / 18.0) as usize).max(5)) {
+        for tick in transform.y.ticks(((height / 18.0) as usize).max(5)) {
             let Some(words) = tick.label else { continue };
-            let at = place.down(tick.value);
+            let at = transform.down(tick.value);
             lines += &course(&[Point::new(left, at), Point::new(right, at)]);
             let (ink, words) = match panel.names() {
                 [] => (Ink::Muted, words),
@@ -301,8 +301,8 @@ impl Pen {
         }
         self.stroke(&lines, (self.colour)(Ink::Rule), 0.45, "");
         let mut axis = course(&[Point::new(left, bottom), Point::new(right, bottom)]);
-        for tick in place.x.ticks((width / 28.0) as usize) {
-            let at = place.across(tick.value);
+        for tick in transform.x.ticks((width / 28.0) as usize) {
+            let at = transform.across(tick.value);
             let length = if tick.label.is_some() { 3.0 } else { 1.6 };
             axis += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
             if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
@@ -315,11 +315,11 @@ impl Pen {
     }
 
     /// Draws the marks of a layer, each value at its place.
-    fn marks(&mut self, layer: &Layer, has_rows: bool, place: &Place) {
+    fn marks(&mut self, layer: &Layer, has_rows: bool, transform: &PanelTransform) {
         let (colour, marks) = ((self.colour)(layer.ink), &layer.marks);
-        let places: Vec<Point> = marks.iter().map(|mark| place.at(mark.x, mark.y)).collect();
-        match layer.shape {
-            Shape::Points => {
+        let places: Vec<Point> = marks.iter().map(|mark| transform.at(mark.x, mark.y)).collect();
+        match layer.style {
+            MarkStyle::Points => {
                 let (radius, opacity) = match marks.len() {
                     ..6 => (2.2, 1.0),
                     6..FEW_POINTS => (1.3, 0.85),
@@ -327,11 +327,11 @@ impl Pen {
                 };
                 self.dots(&places, radius, colour, opacity);
             }
-            Shape::Line(dash) => {
+            MarkStyle::Line(dash) => {
                 let has_band = |mark: &Mark| mark.is_finite() && mark.low.is_finite();
                 for piece in marks.split(|mark| !has_band(mark)).filter(|piece| !piece.is_empty()) {
-                    let lows = piece.iter().map(|mark| place.at(mark.x, mark.low));
-                    let highs = piece.iter().rev().map(|mark| place.at(mark.x, mark.high));
+                    let lows = piece.iter().map(|mark| transform.at(mark.x, mark.low));
+                    let highs = piece.iter().rev().map(|mark| transform.at(mark.x, mark.high));
                     self.fill(&lows.chain(highs).collect::<Vec<_>>(), colour, 0.16);
                 }
                 let stroke = match marks.len() {
@@ -341,12 +341,12 @@ impl Pen {
                 };
                 self.path(&places, colour, stroke, dash);
             }
-            Shape::Estimates => {
+            MarkStyle::Estimates => {
                 let most = marks.iter().map(|mark| mark.n).fold(1.0, f64::max);
                 for (mark, at) in marks.iter().zip(places) {
                     let [low, high] = [mark.low, mark.high].map(|limit| match has_rows {
-                        true => place.at(limit, mark.y),
-                        false => place.at(mark.x, limit),
+                        true => transform.at(limit, mark.y),
+                        false => transform.at(mark.x, limit),
                     });
                     self.interval(low, high, colour);
                     let radius = if mark.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (mark.n / most).sqrt() };
@@ -358,13 +358,13 @@ impl Pen {
 }
 
 /// Where values stand in a picture.
-struct Place<'a> {
+struct PanelTransform<'a> {
     x: Ruler<'a>,
     y: Ruler<'a>,
     area: Area,
 }
 
-impl Place<'_> {
+impl PanelTransform<'_> {
     fn across(&self, x: f64) -> f64 {
         self.area.left + self.area.width * self.x.fraction(x)
     }

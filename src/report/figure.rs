@@ -70,13 +70,13 @@ pub struct Layer {
     /// Name in the legend, which has each name once; none if empty.
     pub label: String,
     pub ink: Ink,
-    pub shape: Shape,
+    pub style: MarkStyle,
     pub marks: Vec<Mark>,
 }
 
 /// What is drawn of marks.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum MarkStyle {
     Points,
     /// A line, and between the limits of y a band.
     Line(Dash),
@@ -102,13 +102,13 @@ pub struct Words {
     pub y: f64,
     /// Marked text.
     pub text: String,
-    pub side: Side,
+    pub position: LabelPosition,
     pub ink: Ink,
 }
 
 /// Where a text stands, seen from its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+pub enum LabelPosition {
     Right,
     Left,
     Above,
@@ -159,24 +159,24 @@ impl Mark {
 }
 
 impl Layer {
-    pub fn new(label: &str, ink: Ink, shape: Shape, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer { label: label.to_string(), ink, shape, marks: marks.into_iter().collect() }
+    pub fn new(label: &str, ink: Ink, style: MarkStyle, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer { label: label.to_string(), ink, style, marks: marks.into_iter().collect() }
     }
 
     /// Draws points; of too many, some that are spread over all.
     pub fn points(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
         let marks: Vec<Mark> = marks.into_iter().filter(Mark::is_finite).collect();
         let step = marks.len().div_ceil(MOST_POINTS).max(1);
-        Layer::new(label, ink, Shape::Points, marks.into_iter().step_by(step))
+        Layer::new(label, ink, MarkStyle::Points, marks.into_iter().step_by(step))
     }
 
     pub fn line(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer::new(label, ink, Shape::Line(Dash::Solid), marks)
+        Layer::new(label, ink, MarkStyle::Line(Dash::Solid), marks)
     }
 
     /// Draws a thin dashed line.
     pub fn guide(ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer::new("", ink, Shape::Line(Dash::Short), marks)
+        Layer::new("", ink, MarkStyle::Line(Dash::Short), marks)
     }
 }
 

@@ -7,7 +7,7 @@ use super::figure::{Figure, Ink};
 use super::figures::common::by;
 use super::object::facts;
 use super::page::{Page, Table, Tile};
-use super::probabilities::{self, Row};
+use super::probabilities::{self, ProbabilityRow};
 use super::text::literal;
 use crate::number::{self, OF_HUNDRED, PERCENT};
 use crate::table::answers::Answer;
@@ -27,9 +27,9 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
     let rows = drawn.iter().map(|rated| {
         let band = BANDS.iter().filter(|end| rated.severity() > **end).count();
         let name = rated.object.name_and_floor();
-        Row::new(&name, Ink::Band(band), bands[band], &[rated.row.p_overturning])
+        ProbabilityRow::new(&name, Ink::Band(band), bands[band], &[rated.row.p_overturning])
     });
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<ProbabilityRow> = rows.collect();
     let rest = match answered.len() - drawn.len() {
         0 => String::new(),
         rest => format!(" Not drawn: {} that are less likely to overturn.", number::counted(rest, "object")),

@@ -34,6 +34,8 @@ pub mod text;
 mod workbook;
 
 pub use draw::{DPI, png, svg};
-pub use figure::{Axis, Dash, Figure, Frame, Ink, Layer, Mark, Panel, Scale, Shape, Side, Words};
+pub use figure::{
+    Axis, Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Words,
+};
 pub use page::{Page, Section, Table, Tile};
 pub use workbook::workbook;

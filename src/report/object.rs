@@ -7,9 +7,9 @@ use rockfrag_core::object::UncertaintySource;
 use strum::VariantArray;
 
 use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
-use super::figure::{Axis, Figure, Frame, Ink, Layer, Mark, Panel, Shape, Side, Words};
+use super::figure::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use super::page::{Page, Table, Tile};
-use super::probabilities::{self, Row};
+use super::probabilities::{self, ProbabilityRow};
 use super::text::{literal, words};
 use crate::number::{self, PERCENT, RATE};
 use crate::table::answers::ObjectRow;
@@ -76,13 +76,13 @@ pub fn sketch(outline: &Outline, object: &ObjectRow) -> Panel {
     let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
     let y = Axis::linear("").over(-1.1 * room, top + 0.3 * room);
     let words = vec![
-        Words { x: 0.5 * width, y: 0.0, text: width_m, side: Side::Below, ink: Ink::Muted },
-        Words { x: 0.0, y: 0.5 * height, text: height_m, side: Side::Left, ink: Ink::Muted },
+        Words { x: 0.5 * width, y: 0.0, text: width_m, position: LabelPosition::Below, ink: Ink::Muted },
+        Words { x: 0.0, y: 0.5 * height, text: height_m, position: LabelPosition::Left, ink: Ink::Muted },
         Words {
             x: turned[2].x,
             y: turned[2].y,
             text: format!("tips at {degrees}°"),
-            side: Side::Right,
+            position: LabelPosition::Right,
             ink: Ink::Data(1),
         },
     ];
@@ -122,7 +122,8 @@ pub fn fragility_panel(fragility: &Fragility, object: &ObjectRow, hazard: Option
     panel.title = "Fragility".to_string();
     let hazard = hazard.filter(|hazard| hazard.peak == fragility.over);
     for Usual { intensity: x, years: period } in hazard.iter().flat_map(|hazard| hazard.usual()) {
-        let words = Words { x, y: 100.0, text: years(period), side: Side::Along, ink: Ink::Muted };
+        let words =
+            Words { x, y: 100.0, text: years(period), position: LabelPosition::Along, ink: Ink::Muted };
         panel.add_upright(words, 0.0);
     }
     let (what, place) =
@@ -140,9 +141,9 @@ pub fn averaged(over: Peak) -> String {
 fn changes_panel(Evaluation { when, target, portrait, .. }: &Evaluation) -> Panel {
     let rows = portrait.changes.iter().enumerate().map(|(place, Change { words, p, .. })| {
         let ink = if place == 0 { Ink::Data(1) } else { Ink::Data(0) };
-        Row::new(words, ink, "", p)
+        ProbabilityRow::new(words, ink, "", p)
     });
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<ProbabilityRow> = rows.collect();
     let caption = format!(
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
          test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces see ASCE 7, \
@@ -184,7 +185,10 @@ fn hazard_panel(hazard: &SiteHazard) -> Panel {
         let (text, y) = (years(period), 1.0 / period);
         words.push(format!("{} {symbol} once in {text}", number::significant(intensity, 2)));
         dots.push(Mark::new(intensity, y));
-        panel.add_upright(Words { x: intensity, y, text, side: Side::Along, ink: Ink::Muted }, lowest);
+        panel.add_upright(
+            Words { x: intensity, y, text, position: LabelPosition::Along, ink: Ink::Muted },
+            lowest,
+        );
     }
     let curve = hazard.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("", Ink::Text, curve));
@@ -233,9 +237,9 @@ fn unknown(rated: &Rated) -> Option<Panel> {
         let (x, y) = ((Z_95 * sd).exp(), row as f64);
         marks.push(Mark { low: 1.0, high: x, ..Mark::new(x, y) });
         let text = format!("× {}", number::significant(x, 2));
-        words.push(Words { x, y, text, side: Side::Margin, ink: Ink::Text });
+        words.push(Words { x, y, text, position: LabelPosition::Margin, ink: Ink::Text });
     }
-    let layers = vec![Layer::new("", Ink::Data(0), Shape::Estimates, marks)];
+    let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
     let caption = format!(
         "What is not known, and what would narrow it: how far each may raise or lower the {what} of \
          overturning (95 % limits)."

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::figure::{Dash, Ink, Side, Words};
+use super::figure::{Dash, Ink, LabelPosition, Words};
 use super::text::{Level, escape, runs};
 
 /// Height of the letters of titles and legends; and of ticks and words beside data.
@@ -77,12 +77,12 @@ impl Pen {
 
     /// Writes a text beside its place.
     pub fn beside(&mut self, at: Point, words: &Words) {
-        let (right, down, style) = match words.side {
-            Side::Right | Side::Margin => (5.0, 0.35 * SMALL, String::new()),
-            Side::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
-            Side::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
-            Side::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),
-            Side::Along => {
+        let (right, down, style) = match words.position {
+            LabelPosition::Right | LabelPosition::Margin => (5.0, 0.35 * SMALL, String::new()),
+            LabelPosition::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
+            LabelPosition::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
+            LabelPosition::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),
+            LabelPosition::Along => {
                 let (x, y) = (round(at.x - 3.0), round(at.y));
                 (-3.0, 0.0, format!(" text-anchor=\"end\" transform=\"rotate(-90 {x} {y})\""))
             }

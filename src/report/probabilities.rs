@@ -3,11 +3,11 @@
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::Range;
 
-use super::figure::{Axis, Ink, Layer, Mark, Panel, Shape, Side, Words};
+use super::figure::{Axis, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number::{OF_HUNDRED, PERCENT};
 
 /// A row of a panel.
-pub struct Row {
+pub struct ProbabilityRow {
     /// Marked text.
     pub name: String,
     /// One below the other.
@@ -23,16 +23,16 @@ pub struct Value {
     pub label: &'static str,
 }
 
-impl Row {
+impl ProbabilityRow {
     /// A row of probabilities in one colour, with their values at its end.
-    pub fn new(name: &str, ink: Ink, label: &'static str, all: &[Interval<Option<f64>>]) -> Row {
+    pub fn new(name: &str, ink: Ink, label: &'static str, all: &[Interval<Option<f64>>]) -> ProbabilityRow {
         let words = all.iter().map(|p| match (p.value, p.high) {
             (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
             _ => OF_HUNDRED.value(*p),
         });
         let words = words.collect::<Vec<_>>().join(", ") + " %";
         let values = all.iter().map(|&p| Value { p, ink, label }).collect();
-        Row { name: name.to_string(), values, words }
+        ProbabilityRow { name: name.to_string(), values, words }
     }
 }
 
@@ -40,12 +40,18 @@ impl Row {
 const APART: f64 = 0.34;
 
 /// A panel of rows, in percent, over all values and the target.
-pub fn panel(title: &str, when: &str, rows: &[Row], target: Option<f64>) -> Panel {
+pub fn panel(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
     let (mut layers, mut words): (Vec<Layer>, _) = (Vec::new(), Vec::new());
     let mut ends: Vec<f64> = target.into_iter().collect();
     for (at, row) in rows.iter().enumerate() {
         let y = at as f64;
-        words.push(Words { x: 0.0, y, text: row.words.clone(), side: Side::Margin, ink: Ink::Text });
+        words.push(Words {
+            x: 0.0,
+            y,
+            text: row.words.clone(),
+            position: LabelPosition::Margin,
+            ink: Ink::Text,
+        });
         for (place, Value { p, ink, label }) in row.values.iter().enumerate() {
             ends.extend([p.value, p.low, p.high].into_iter().flatten());
             let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
@@ -53,7 +59,7 @@ pub fn panel(title: &str, when: &str, rows: &[Row], target: Option<f64>) -> Pane
             let mark = Mark { low, high, ..Mark::new(x, y) };
             match layers.iter_mut().find(|layer| layer.ink == *ink) {
                 Some(layer) => layer.marks.push(mark),
-                None => layers.push(Layer::new(label, *ink, Shape::Estimates, [mark])),
+                None => layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
             }
         }
     }
@@ -64,7 +70,8 @@ pub fn panel(title: &str, when: &str, rows: &[Row], target: Option<f64>) -> Pane
     let mut panel = Panel::new(title, x, names, Vec::new());
     if let Some(target) = target {
         let text = format!("target {}", PERCENT.one(target));
-        let words = Words { x: 100.0 * target, y: -0.5, text, side: Side::Above, ink: Ink::Muted };
+        let words =
+            Words { x: 100.0 * target, y: -0.5, text, position: LabelPosition::Above, ink: Ink::Muted };
         panel.add_upright(words, rows.len() as f64 - 0.5);
     }
     panel.layers.extend(layers);

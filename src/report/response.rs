@@ -4,7 +4,7 @@ use rockfrag_core::rocking::{SolverEvent, Structure};
 use rockfrag_core::statistics::Range;
 use rockfrag_core::units::G_M_S2;
 
-use super::figure::{Axis, Figure, Ink, Layer, Mark, Panel, Side, Words};
+use super::figure::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Words};
 use super::figures::common::called;
 use super::figures::envelope;
 use super::page::Page;
@@ -136,7 +136,8 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     }
     for (moment, words) in [(response.tipped_at(), "tips"), (response.overturned_at(), "lies")] {
         let Some(x) = moment else { continue };
-        let words = Words { x, y: most, text: words.to_string(), side: Side::Along, ink: Ink::Muted };
+        let words =
+            Words { x, y: most, text: words.to_string(), position: LabelPosition::Along, ink: Ink::Muted };
         panels[0].add_upright(words, -most);
     }
     let [structure, motion] =

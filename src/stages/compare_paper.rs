@@ -43,7 +43,7 @@ pub struct ComparePaper {
 impl Stage for ComparePaper {
     fn inputs(&self) -> Vec<Read> {
         let fits = [("pex", &self.pex), ("pro", &self.pro)].map(|(flag, file)| Read::new(flag, [&**file]));
-        let beside = BEFORE.map(|name| self.pex.with_file_name(name)).to_vec();
+        let beside = UPSTREAM_FILES.map(|name| self.pex.with_file_name(name)).to_vec();
         fits.into_iter().chain([Read { optional: true, ..Read::new("beside", beside) }]).collect()
     }
 
@@ -118,13 +118,13 @@ fn other_structures(demand: &[DemandFit]) -> Vec<String> {
 const NEUTRAL: [&str; 7] = ["seed", "partition", "housner", "sa", "structure", "structures", "trace"];
 
 /// The tables of the stages before the fits, the last first.
-const BEFORE: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.parquet"];
+const UPSTREAM_FILES: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.parquet"];
 
 /// What options of the stages before the fits are not the paper's, which are the defaults; as far as the
 /// files of these stages are beside the fits.
 fn other_options(fits: &Path) -> Vec<String> {
     let (mut differences, mut child) = (Vec::new(), Provenance::read(fits).ok().flatten());
-    for file in BEFORE {
+    for file in UPSTREAM_FILES {
         let made = Provenance::read(&fits.with_file_name(file)).ok().flatten();
         let (Some(made), Some(reader)) = (made, child) else { break };
         if reader.input("in") != Some(made.key()) {

@@ -9,7 +9,7 @@ use rockfrag_core::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
 use rockfrag_core::object::Field;
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::each;
+use super::shared::motions::process_in_order;
 use super::shared::objects::field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -80,7 +80,7 @@ impl Stage for FloorMotions {
         let none = Sampled { columns: none, motions: Vec::new() };
         let schema = self.filter(none)?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
-        each(
+        process_in_order(
             &context.bar(table.rows()),
             parts(&table, |_| true, AT_ONCE),
             |some| self.filter(some),

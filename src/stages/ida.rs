@@ -16,7 +16,7 @@ use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::{Deserialize, Serialize};
 
-use super::shared::motions::{Measures, each, warnings};
+use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
@@ -93,7 +93,7 @@ struct Scanned {
 }
 
 /// A structure under a motion.
-struct Case<'a> {
+struct SingleRecordIda<'a> {
     motion: &'a MotionRow,
     measures: Measures,
     structure: &'a Structure,
@@ -130,7 +130,7 @@ impl Stage for Ida {
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
         let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[])?.schema())?;
         let mut scanned = Vec::new();
-        each(
+        process_in_order(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_motion_column, (ANALYSES / self.steps).clamp(1, MOTIONS)),
             |some| self.analyse(&scan, &structures, some),
@@ -167,12 +167,14 @@ impl Ida {
                     let problem = "above 0 to scale; leave the motion out, or take --measure scale";
                     motion.value_error(&format!("no {} {problem}", self.measure))
                 })?;
-                cases.push(Case { motion, measures, structure, unscaled });
+                cases.push(SingleRecordIda { motion, measures, structure, unscaled });
             }
         }
         let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
         let (mut rows, mut stripes, mut scanned) = (Vec::new(), Vec::new(), Vec::new());
-        for (Case { motion, measures, structure, unscaled, .. }, responses) in cases.iter().zip(&responses) {
+        for (SingleRecordIda { motion, measures, structure, unscaled, .. }, responses) in
+            cases.iter().zip(&responses)
+        {
             let at_levels = responses
                 .iter()
                 .filter(|at| scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok());
@@ -281,18 +283,18 @@ fn side_by_side(responses: &[ResponseRow], stripes: &[StripeRow]) -> anyhow::Res
 }
 
 /// Simulates scaled copies of motions, as many at once as fit.
-fn respond(cases: &[Case], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
+fn respond(cases: &[SingleRecordIda], points: &[ScanPoint]) -> Result<Vec<Response>, TableError> {
     let longest = cases.iter().map(|case| case.motion.acceleration_m_s2.len()).max().unwrap_or(0).max(1);
     let mut responses = Vec::with_capacity(points.len());
     for some in points.chunks((MOST_SAMPLES / longest).max(1)) {
         let scaled = some.iter().map(|point| {
-            let Case { motion, unscaled, .. } = cases[point.case];
+            let SingleRecordIda { motion, unscaled, .. } = cases[point.case];
             let scale = point.intensity / unscaled;
             motion.acceleration_m_s2.iter().map(|sample| scale * sample).collect()
         });
         let scaled: Vec<Vec<f64>> = scaled.collect();
         let problems = some.iter().zip(&scaled).map(|(point, samples)| {
-            let Case { motion, structure, .. } = cases[point.case];
+            let SingleRecordIda { motion, structure, .. } = cases[point.case];
             let record = Record::new(samples, motion.dt_s)
                 .map_err(|problem| motion.value_error(&format!("{problem}; scale less by a lower --to")))?;
             Ok(Problem { structure, record })

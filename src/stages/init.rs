@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 use crate::number;
 use crate::pipeline::UsageError;
-use crate::table::writer::{Existing, Written, persist};
+use crate::table::writer::{Existing, PendingFile, persist};
 
 /// What a folder starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -51,7 +51,7 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     }
     let today = Local::now().date_naive().to_string();
     let written =
-        files.iter().map(|(path, text)| Written::new(path, text.replace("TODAY", &today).as_bytes()));
+        files.iter().map(|(path, text)| PendingFile::new(path, text.replace("TODAY", &today).as_bytes()));
     persist(written.collect::<Result<_, _>>()?, Existing::Kept)?;
     let wrote = |(path, _): &(PathBuf, _)| format!("wrote {}\n", number::path(path));
     let mut text: String = files.iter().map(wrote).collect();

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::number::visible;
-use crate::table::file::Table;
+use crate::table::file::ParquetTable;
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::{dictionary, rows};
@@ -42,7 +42,7 @@ struct ColumnRow {
 impl Inspect {
     /// The text to print.
     pub fn run(&self) -> anyhow::Result<String> {
-        let table = Table::open(&self.file)?;
+        let table = ParquetTable::open(&self.file)?;
         if let Some(head) = self.head {
             let shown = frame::show(&frame::read(&table, head)?, self.format)?;
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });

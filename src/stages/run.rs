@@ -18,14 +18,15 @@ use crate::pipeline::terminal::{print, tell};
 use crate::table::provenance::text_of;
 
 /// Stages whose text is what people make a folder for.
-const ANSWERS: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];
+const STAGES_WITH_ANSWER: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];
 /// Warnings that are printed.
 const SHOWN: usize = 3;
 
 /// Runs the stages that are not up to date, and prints the text of the last answer, or else of the last stage.
 pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<()> {
     let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), HashMap::new());
-    let answer = calls.iter().rposition(|call| ANSWERS.contains(&&*call.name)).unwrap_or(calls.len() - 1);
+    let answer =
+        calls.iter().rposition(|call| STAGES_WITH_ANSWER.contains(&&*call.name)).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
         let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;

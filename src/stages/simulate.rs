@@ -10,7 +10,7 @@ use rockfrag_core::rocking::{Outcome, Problem, Record, Structure, simulate_all, 
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
 
-use super::shared::motions::{Measures, each, warnings};
+use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::number;
 use crate::number::listed;
@@ -18,7 +18,7 @@ use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
-use crate::table::file::{Partition, Table};
+use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
 use crate::table::responses::{ResponseRow, TraceRow};
 use crate::table::rows;
@@ -86,7 +86,7 @@ impl Stage for Simulate {
         if !second.is_empty() {
             warnings.remove(Warning::OneDirection);
         }
-        let plan = Plan { objects, second };
+        let plan = SimulationPlan { objects, second };
         context.warn(warnings);
         self.expect_traced(&motions)?;
         let out = out_of_partition(&self.out, self.partition);
@@ -96,7 +96,7 @@ impl Stage for Simulate {
             false => Some(context.create(&part(&self.out, "trace"), &rows::schema::<TraceRow>())?),
         };
         let mut overturning = vec![Overturning::default(); plan.objects.len()];
-        each(
+        process_in_order(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_motion_column, CHUNK),
             |some| self.respond(some, &plan),
@@ -144,14 +144,14 @@ struct Responded {
 }
 
 /// Which structures each motion shakes.
-struct Plan {
+struct SimulationPlan {
     /// The directions of each object, the weaker first.
     objects: Vec<Vec<Structure>>,
     /// Motions that are the second of a pair, which shakes the other direction.
     second: HashSet<String>,
 }
 
-impl Plan {
+impl SimulationPlan {
     fn structures(&self, motion: &MotionRow) -> impl Iterator<Item = &Structure> {
         let is_second = self.second.contains(&motion.motion_id);
         self.objects
@@ -162,7 +162,7 @@ impl Plan {
 
 impl Simulate {
     /// Checks, before anything is simulated, that the motions to trace are there.
-    fn expect_traced(&self, motions: &Table) -> anyhow::Result<()> {
+    fn expect_traced(&self, motions: &ParquetTable) -> anyhow::Result<()> {
         let mut unknown: Vec<&String> = self.trace.iter().filter(|traced| *traced != ALL).collect();
         if unknown.is_empty() {
             return Ok(());
@@ -178,7 +178,7 @@ impl Simulate {
     }
 
     /// Runs all structures on some motions, while these are at hand.
-    fn respond(&self, some: Sampled, plan: &Plan) -> anyhow::Result<Responded> {
+    fn respond(&self, some: Sampled, plan: &SimulationPlan) -> anyhow::Result<Responded> {
         let motions = some.motions;
         let records = motions.iter().map(MotionRow::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);

@@ -18,7 +18,7 @@ use crate::pipeline::options::{Steps, number, periods};
 use crate::pipeline::paths::{Input, Output, Read, SiteInput, out_of_partition};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
-use crate::table::file::{Partition, Table};
+use crate::table::file::{ParquetTable, Partition};
 use crate::table::{TableError, motions, rows};
 
 /// Scenarios that a thread takes at once.
@@ -114,7 +114,7 @@ impl Stage for SynthesizeMotions {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let table = Table::open(&self.input)?.part(self.partition);
+        let table = ParquetTable::open(&self.input)?.part(self.partition);
         let (scenarios, suites) = (rows::stream::<Scenario>(&table)?, &self.suite);
         let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };

@@ -15,7 +15,7 @@ use strum::VariantArray;
 pub struct Answer<R> {
     pub object: ObjectRow,
     pub row: R,
-    pub doubts: DoubtsRow,
+    pub doubts: UncertaintyRow,
     pub warnings: Vec<Warning>,
     /// Responses that the model was fitted to.
     pub responses: i64,
@@ -151,7 +151,7 @@ impl From<Bases> for TargetBases {
 /// The warnings about an answer, and the parts of the error of overturning: standard deviations of ln of its
 /// annual rate, or of the logit of its probability; none where nothing of a part is unknown.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct DoubtsRow {
+pub struct UncertaintyRow {
     /// Warnings, or why there is no answer.
     pub warnings: Option<String>,
     pub error_fit: Option<f64>,
@@ -165,10 +165,10 @@ pub struct DoubtsRow {
     pub error_largest: Option<UncertaintySource>,
 }
 
-impl DoubtsRow {
-    pub fn new(warnings: &[Warning], budget: &Budget) -> DoubtsRow {
+impl UncertaintyRow {
+    pub fn new(warnings: &[Warning], budget: &Budget) -> UncertaintyRow {
         let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
-        DoubtsRow {
+        UncertaintyRow {
             warnings: (!texts.is_empty()).then(|| texts.join("; ")),
             error_fit: budget.source_sd(UncertaintySource::Fit),
             error_magnitude: budget.source_sd(UncertaintySource::Magnitude),

@@ -82,7 +82,7 @@ impl Partition {
 }
 
 /// A table open for reading, by several threads if needed.
-pub struct Table {
+pub struct ParquetTable {
     files: Vec<TableFile>,
     /// Rows to read; all of them without a partition.
     rows: Range<usize>,
@@ -107,9 +107,9 @@ pub struct RowGroup {
     pub first_row: usize,
 }
 
-impl Table {
+impl ParquetTable {
     /// Opens a file, or a folder with the parts of one table.
-    pub fn open(path: &Path) -> Result<Table, TableError> {
+    pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
         let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
         let mut files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
         files.sort_by_key(|file| file.part.as_ref().map(|(part, _)| part.index));
@@ -119,16 +119,16 @@ impl Table {
             return Err(TableError::table(path, problem));
         }
         let total = files.iter().map(TableFile::rows).sum();
-        Ok(Table { files, rows: 0..total })
+        Ok(ParquetTable { files, rows: 0..total })
     }
 
     /// Opens one partition: a range of rows of a file, or one file of a folder.
-    pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
+    pub fn open_partition(path: &Path, partition: Option<Partition>) -> Result<ParquetTable, TableError> {
         let Some(wanted) = partition.filter(|_| path.is_dir()) else {
-            return Ok(Table::open(path)?.part(partition));
+            return Ok(ParquetTable::open(path)?.part(partition));
         };
         let file = wanted.file_of(path)?;
-        let table = Table::open(&file)?;
+        let table = ParquetTable::open(&file)?;
         match table.files[0].part.as_ref().filter(|(made, _)| *made != wanted) {
             Some((made, _)) => Err(TableError::table(&file, format!("partition {made}; expected {wanted}"))),
             None => Ok(table),
@@ -136,9 +136,9 @@ impl Table {
     }
 
     /// Keeps the rows of a partition.
-    pub fn part(self, partition: Option<Partition>) -> Table {
+    pub fn part(self, partition: Option<Partition>) -> ParquetTable {
         match partition {
-            Some(partition) => Table { rows: partition.rows(self.rows()), ..self },
+            Some(partition) => ParquetTable { rows: partition.rows(self.rows()), ..self },
             None => self,
         }
     }

@@ -8,7 +8,7 @@ use rockfrag_core::spelling::unknown_word;
 use serde_json::Value;
 
 use super::columns::{integers, numbers};
-use super::file::{NARROW_BATCH, Table};
+use super::file::{NARROW_BATCH, ParquetTable};
 use crate::number::{aligned, fixed, significant};
 
 /// Format of a printed table.
@@ -23,7 +23,7 @@ pub enum Format {
 }
 
 /// Reads the first rows of a table, at most this many; a list is shown by its length.
-pub fn read(table: &Table, most: usize) -> anyhow::Result<DataFrame> {
+pub fn read(table: &ParquetTable, most: usize) -> anyhow::Result<DataFrame> {
     let mut whole = DataFrame::default();
     for group in table.row_groups() {
         for batch in table.read(&group, &|_| true, most.clamp(1, NARROW_BATCH)) {

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
-use super::file::{Partition, RowGroup, Table};
+use super::file::{ParquetTable, Partition, RowGroup};
 use super::rows::{self, side_by_side};
 
 /// Column of the samples.
@@ -72,8 +72,8 @@ pub struct Sampled {
 pub type Part<'a> = Box<dyn FnOnce() -> Result<Vec<Sampled>, TableError> + Send + 'a>;
 
 /// Opens a motions table, or a partition of it.
-pub fn open(path: &Path, partition: Option<Partition>) -> Result<Table, TableError> {
-    let table = Table::open_partition(path, partition)?;
+pub fn open(path: &Path, partition: Option<Partition>) -> Result<ParquetTable, TableError> {
+    let table = ParquetTable::open_partition(path, partition)?;
     table.expect(["motion_id", "dt_s", ACCELERATION])?;
     match table.rows() {
         0 if partition.is_none() => Err(TableError::table(path, "no motions; expected at least one")),
@@ -89,7 +89,7 @@ pub fn is_motion_column(column: &str) -> bool {
 /// Returns all motions of a table in parts, with the columns that are `wanted`, `at_once` motions at a time:
 /// a row group, or some motions, already read, of one too large to read at once.
 pub fn parts(
-    table: &Table,
+    table: &ParquetTable,
     wanted: fn(&str) -> bool,
     at_once: usize,
 ) -> impl Iterator<Item = Part<'_>> + Send {
@@ -104,7 +104,7 @@ pub fn parts(
 }
 
 fn read(
-    table: &Table,
+    table: &ParquetTable,
     group: &RowGroup,
     wanted: fn(&str) -> bool,
     at_once: usize,

@@ -18,7 +18,7 @@ use serde_arrow::schema::{SchemaLike, TracingOptions};
 use super::TableError;
 use super::columns::Batch;
 use super::dictionary;
-use super::file::Table;
+use super::file::ParquetTable;
 
 /// A struct of numbers, texts, options of them and lists: each field is a column, and each part of a struct
 /// in it. A value with its limits ([`rockfrag_core::statistics::Interval`]) is named by its field; a part whose name
@@ -105,14 +105,14 @@ fn put_together(field: &FieldRef, columns: &mut impl Iterator<Item = ArrayRef>) 
 
 /// Reads all rows of a table. A column of optional values may be missing.
 pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
-    let table = Table::open(path)?;
+    let table = ParquetTable::open(path)?;
     let batches = stream(&table)?.collect::<Result<Vec<Vec<R>>, _>>()?;
     Ok(batches.into_iter().flatten().collect())
 }
 
 /// Reads the rows of a table some at a time.
 pub fn stream<'a, R: Row>(
-    table: &'a Table,
+    table: &'a ParquetTable,
 ) -> Result<impl Iterator<Item = Result<Vec<R>, TableError>> + Send + use<'a, R>, TableError> {
     let schema = schema::<R>();
     let required = schema.fields().iter().filter(|field| !field.is_nullable());

@@ -30,12 +30,12 @@ const MOST_LINKS: usize = 40;
 
 pub struct TableWriter {
     writer: ArrowWriter<File>,
-    written: Written,
+    written: PendingFile,
 }
 
 impl TableWriter {
     pub fn create(path: &Path, schema: &SchemaRef) -> Result<TableWriter, TableError> {
-        let written = Written::begin(path)?;
+        let written = PendingFile::begin(path)?;
         let file = written.partial.as_file().try_clone().map_err(|source| cannot_write(path, source))?;
         let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(schema)));
         Ok(TableWriter { writer: writer.map_err(|cause| cannot_write(path, cause))?, written })
@@ -55,7 +55,7 @@ impl TableWriter {
     }
 
     /// Ends the table.
-    pub fn finish(mut self, made: &Provenance) -> Result<Written, TableError> {
+    pub fn finish(mut self, made: &Provenance) -> Result<PendingFile, TableError> {
         let checksums = self.checksums().map_err(|cause| cannot_write(self.path(), cause))?;
         self.writer.append_key_value_metadata(checksums);
         self.writer.append_key_value_metadata(made.key_value());
@@ -72,7 +72,7 @@ impl TableWriter {
 }
 
 /// A whole file under its temporary name, which goes with it unless it gets its own.
-pub struct Written {
+pub struct PendingFile {
     partial: NamedTempFile,
     pub path: PathBuf,
     /// Where `path` leads if it is a link.
@@ -86,14 +86,14 @@ pub enum Existing {
     Kept,
 }
 
-impl Written {
-    pub fn new(path: &Path, content: &[u8]) -> Result<Written, TableError> {
-        let mut written = Written::begin(path)?;
+impl PendingFile {
+    pub fn new(path: &Path, content: &[u8]) -> Result<PendingFile, TableError> {
+        let mut written = PendingFile::begin(path)?;
         written.partial.write_all(content).map_err(|source| cannot_write(path, source))?;
         written.synced()
     }
 
-    fn begin(path: &Path) -> Result<Written, TableError> {
+    fn begin(path: &Path) -> Result<PendingFile, TableError> {
         let (target, path) = (linked(path), path.to_path_buf());
         if target.file_name().is_none() {
             return Err(cannot_write(&path, "that is not a file name"));
@@ -104,12 +104,12 @@ impl Written {
         }
         remove_strays(&target);
         match beside(&target, create_locked) {
-            Ok(partial) => Ok(Written { partial, path, target }),
+            Ok(partial) => Ok(PendingFile { partial, path, target }),
             Err(source) => Err(cannot_write(&path, format!("{}: {source}", folder_of(&target).display()))),
         }
     }
 
-    fn synced(self) -> Result<Written, TableError> {
+    fn synced(self) -> Result<PendingFile, TableError> {
         self.partial.as_file().sync_all().map_err(|source| cannot_write(&self.path, source))?;
         Ok(self)
     }
@@ -130,12 +130,12 @@ impl Written {
 }
 
 /// Gives files their names, all or none of them.
-pub fn persist(files: Vec<Written>, existing: Existing) -> Result<(), TableError> {
+pub fn persist(files: Vec<PendingFile>, existing: Existing) -> Result<(), TableError> {
     for file in &files {
         file.take_permissions().map_err(|source| cannot_write(&file.path, source))?;
     }
     let mut named: Vec<(PathBuf, Option<NamedTempFile<()>>)> = Vec::new();
-    for (after, Written { partial, path, target }) in (0..files.len()).rev().zip(files) {
+    for (after, PendingFile { partial, path, target }) in (0..files.len()).rev().zip(files) {
         let former = if after > 0 && target.exists() {
             beside(&target, second_name(&target)).map(Some)
         } else {

@@ -2,7 +2,7 @@
 
 use rockfrag::cli::stage_commands;
 use rockfrag::table::capacities::CapacityFitRow;
-use rockfrag::table::file::Table;
+use rockfrag::table::file::ParquetTable;
 use rockfrag::table::responses::TraceRow;
 use rockfrag::table::rows;
 use rockfrag_core::rocking::SolverEvent;
@@ -141,7 +141,7 @@ fn ida_has_the_clusters_of_fits_and_where_half_overturn() {
     let width = |fit: &CapacityFitRow| (fit.theta.high.unwrap() / fit.theta.low.unwrap()).ln();
     assert!(width(&clustered) > 1.3 * width(&alone), "{clustered:?} {alone:?}");
     // The share of the stripes that overturns passes one half there.
-    let table = Table::open(&folder.path().join("ida.stripes.parquet")).unwrap();
+    let table = ParquetTable::open(&folder.path().join("ida.stripes.parquet")).unwrap();
     let stripes = table.batches(|_| true).next().unwrap().unwrap();
     let (intensity, outcome) =
         (stripes.required_numbers("intensity").unwrap(), stripes.texts("outcome").unwrap());

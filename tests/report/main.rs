@@ -9,7 +9,7 @@ use rockfrag::report::fragility;
 use rockfrag::report::response::{self, Trace};
 use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Table, png, svg};
 use rockfrag::report::{compare, list, object};
-use rockfrag::table::answers::{Answer, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
+use rockfrag::table::answers::{Answer, FragilityRow, ObjectRow, RatesRow, UncertaintyRow};
 use rockfrag::table::motions::MotionRow;
 use rockfrag::table::responses::TraceRow;
 use rockfrag_core::fragility::{
@@ -84,7 +84,11 @@ fn evaluation(count: usize, rate: f64) -> Evaluation {
             p_overturning: limited(50.0 * rate / (1 + row) as f64),
             ..RatesRow::default()
         },
-        doubts: DoubtsRow { error_eta: Some(0.4), error_velocity: Some(0.3), ..DoubtsRow::default() },
+        doubts: UncertaintyRow {
+            error_eta: Some(0.4),
+            error_velocity: Some(0.3),
+            ..UncertaintyRow::default()
+        },
         ..Rated::default()
     };
     let outline =

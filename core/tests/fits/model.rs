@@ -31,7 +31,7 @@ fn calibrated(cases: &Cases) -> Model {
 }
 
 #[derive(serde::Deserialize)]
-struct Point {
+struct ReferencePoint {
     kind: MotionKind,
     p_rad_s: f64,
     alpha_rad: f64,
@@ -50,11 +50,11 @@ struct Point {
 
 #[test]
 fn logits_are_those_of_python() {
-    let rows: Vec<Point> = read("universal_answers.csv");
+    let rows: Vec<ReferencePoint> = read("universal_answers.csv");
     assert!(rows.len() >= 50);
     for row in rows {
         let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
-        let Point { im3, im4, im5, .. } = row;
+        let ReferencePoint { im3, im4, im5, .. } = row;
         let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
         let mw = Some(row.mw).filter(|mw| *mw > 0.0);
         let of = |limit| {

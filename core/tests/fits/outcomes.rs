@@ -9,7 +9,7 @@ use rockfrag_core::warning::Warning;
 use crate::common::{close, read};
 
 #[derive(serde::Deserialize)]
-struct Row {
+struct ListedOutcome {
     width: f64,
     height: f64,
     pga_m_s2: f64,
@@ -37,8 +37,8 @@ struct Answer {
 }
 
 fn outcomes(list: &str) -> Vec<ObservedOutcome> {
-    let rows: Vec<Row> = read("outcomes.csv");
-    let outcome = |row: Row| ObservedOutcome {
+    let rows: Vec<ListedOutcome> = read("outcomes.csv");
+    let outcome = |row: ListedOutcome| ObservedOutcome {
         structure: Structure::rectangular_block("stone", row.width, row.height, None).unwrap(),
         peaks: Peaks { pga_m_s2: row.pga_m_s2, pgv_m_s: row.pgv_m_s },
         mw: Some(row.mw),

@@ -11,7 +11,7 @@ use rockfrag_core::statistics::Range;
 use super::common::{DEMAND, Fits, by, compare, demands, label, name, rocked, short_label};
 use crate::number;
 use crate::report::text::file_words;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::report::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;
@@ -142,7 +142,7 @@ fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
             let row = names.iter().position(|other| other == name)?;
             Some(Mark::new((*value)?, row as f64 + apart))
         });
-        layers.push(Layer::new(&name(cases), Ink::Data(number), Shape::Estimates, marks));
+        layers.push(Layer::new(&name(cases), Ink::Data(number), MarkStyle::Estimates, marks));
     }
     layers.retain(|layer| !layer.marks.is_empty());
     (!layers.is_empty()).then(|| Panel::new("", x, Axis::names(names), layers))

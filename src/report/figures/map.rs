@@ -7,7 +7,7 @@ use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, called, name, rocked};
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 /// The probabilities of which lines are drawn.
 const LEVELS: [(f64, Dash); 4] =
@@ -37,7 +37,7 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
     let pgv = Range { high: 1.5 * pgv.high, ..pgv };
     for (level, dash) in LEVELS {
         let line = line(fits, cases, level, pga, pgv);
-        layers.push(Layer::new(&format!("probability {level}"), Ink::Text, Shape::Line(dash), line));
+        layers.push(Layer::new(&format!("probability {level}"), Ink::Text, MarkStyle::Line(dash), line));
     }
     for (number, other) in (2..).zip(others) {
         let label = format!("{}, 0.5", called(&other.structure));

@@ -7,7 +7,7 @@ use rockfrag_core::rocking::{Record, Structure, simulate, trace};
 
 use super::common::compare;
 use crate::number;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::motions::MotionRow;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
@@ -102,7 +102,7 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
             let marks = envelope(theta_rad, dt_s * time, SMOOTH_VALUES).into_iter();
             let marks = marks.map(|mark| Mark { y: mark.y / angle, ..mark });
             let label = format!("*p* = {p} rad/s, *α* = {alpha} rad");
-            layers.push(Layer::new(&label, ink, Shape::Line(dash), marks));
+            layers.push(Layer::new(&label, ink, MarkStyle::Line(dash), marks));
         }
         panels.push(Panel::new(title, Axis::linear(x), Axis::linear(y), layers));
     }

@@ -9,7 +9,7 @@ use rockfrag_core::statistics::{Interval, Range};
 use super::common::{Fits, by, called, compare, demands, label};
 use super::common::{observed_shares, ratio_bins, rocked};
 use crate::number;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;
@@ -78,18 +78,18 @@ fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
             for (place, ((_, marks), dash)) in curves.iter().zip(DASHES).enumerate() {
                 // The legend names the structure by its first curve.
                 let label = if place == 0 { called(&cases.structure) } else { String::new() };
-                layers.push(Layer::new(&label, ink(cases), Shape::Line(dash), marks.clone()));
+                layers.push(Layer::new(&label, ink(cases), MarkStyle::Line(dash), marks.clone()));
             }
         }
         // Layers of nothing, for the legend: what the dashes and the dots mean.
         let most = structures.iter().map(|structure| &structure.curves[..]).max_by_key(|curves| curves.len());
         let most = most.filter(|curves| curves.len() > 1).unwrap_or_default();
         for ((label, _), dash) in most.iter().zip(DASHES) {
-            layers.push(Layer::new(label, Ink::Muted, Shape::Line(dash), []));
+            layers.push(Layer::new(label, Ink::Muted, MarkStyle::Line(dash), []));
         }
         for Drawn { cases, shares, .. } in structures.iter().filter(|drawn| !drawn.shares.is_empty()) {
-            layers.push(Layer::new("observed fraction", Ink::Muted, Shape::Estimates, []));
-            layers.push(Layer::new("", ink(cases), Shape::Estimates, shares.clone()));
+            layers.push(Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, []));
+            layers.push(Layer::new("", ink(cases), MarkStyle::Estimates, shares.clone()));
         }
         let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
         panels.push(Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers));

@@ -7,7 +7,7 @@ use rockfrag_core::studies::ReliabilityBin;
 
 use super::common::{by, observed_shares, scaled_label, title};
 use crate::report::text::literal;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel, Shape};
+use crate::report::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
 
@@ -60,7 +60,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let layers = vec![
         Layer::line("lognormal curve", Ink::Data(1), curve),
         Layer::line("at or below the intensity", Ink::Muted, steps),
-        Layer::new("at the intensity", Ink::Data(0), Shape::Estimates, shares),
+        Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares),
     ];
     let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::probability("fraction that overturns"));
     Panel::new(&title(&literal(&fit.structure), fit.suite.as_deref()), x, y, layers)
@@ -82,7 +82,7 @@ pub fn validation(bins: &[ReliabilityBin]) -> Figure {
                 let ReliabilityBin { predicted: x, share: y, share_low: low, share_high: high, n, .. } = *bin;
                 Mark { x, y, low, high, n: n as f64 }
             });
-            layers.push(Layer::new(&label, Ink::Data(number), Shape::Estimates, marks));
+            layers.push(Layer::new(&label, Ink::Data(number), MarkStyle::Estimates, marks));
         }
         let (x, y) = (Axis::probability("predicted probability"), Axis::probability("observed fraction"));
         panels.push(Panel::new(&name, x, y, layers));

@@ -10,7 +10,7 @@ use rockfrag_core::warning::Warning;
 
 use crate::pipeline::context::Context;
 use crate::stages::shared::model_args::Models;
-use crate::table::answers::{Answer, DoubtsRow, ObjectRow};
+use crate::table::answers::{Answer, ObjectRow, UncertaintyRow};
 use crate::table::rows::Row;
 
 /// A row of predictions; the default one is that of an object without an answer.
@@ -46,7 +46,7 @@ pub fn answers<R: Predicted>(
     let answer = |object: &Object| -> anyhow::Result<Answer<R>> {
         bar.advance(1)?;
         if let Err(reason) = object.sides() {
-            let doubts = DoubtsRow { warnings: Some(reason.to_string()), ..DoubtsRow::default() };
+            let doubts = UncertaintyRow { warnings: Some(reason.to_string()), ..UncertaintyRow::default() };
             let object = ObjectRow::new(object, None, models.args.limit_state);
             return Ok(Answer { object, doubts, ..Answer::default() });
         }
@@ -60,7 +60,7 @@ pub fn answers<R: Predicted>(
         Ok(Answer {
             object: ObjectRow::new(object, Some(weaker), models.args.limit_state),
             row: predicted.row,
-            doubts: DoubtsRow::new(&warnings, &predicted.errors),
+            doubts: UncertaintyRow::new(&warnings, &predicted.errors),
             warnings,
             responses: match &weaker.model {
                 Model::Calibrated { overturning, .. } => overturning.n,

@@ -23,9 +23,9 @@ use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::stages::shared::model_args::Models;
 use crate::table::TableError;
-use crate::table::answers::DoubtsRow;
+use crate::table::answers::UncertaintyRow;
 use crate::table::columns::Batch;
-use crate::table::file::Table;
+use crate::table::file::ParquetTable;
 use crate::table::rows;
 
 /// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
@@ -115,7 +115,7 @@ fn with_probabilities<'a>(
             vs30_m_s: None,
         };
         let (tree, budget) = TreeRow::new(&motion, rocking_object);
-        (tree, DoubtsRow::new(&warnings, &budget), warnings)
+        (tree, UncertaintyRow::new(&warnings, &budget), warnings)
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, doubts, warnings): (Vec<_>, Vec<_>, Vec<_>) = rows.into_iter().collect();
@@ -123,7 +123,8 @@ fn with_probabilities<'a>(
         let place = format!("row {}", batch.first_row + row + 1);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
     }
-    let own = rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<DoubtsRow>(&doubts)?])?;
+    let own =
+        rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<UncertaintyRow>(&doubts)?])?;
     let fields = batch.rows.schema().fields().clone();
     let mut kept: Vec<usize> = (0..fields.len()).collect();
     kept.retain(|at| own.schema().index_of(fields[*at].name()).is_err());
@@ -164,7 +165,7 @@ fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.
 fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>> {
-    let table = Table::open(path)?;
+    let table = ParquetTable::open(path)?;
     let mut renamed = Vec::new();
     for batch in table.batches(|column| column != "acceleration_m_s2") {
         let batch = batch?;

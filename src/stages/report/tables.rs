@@ -16,8 +16,8 @@ use crate::report::response::Trace;
 use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
 use crate::table::TableError;
-use crate::table::answers::{Answer, CurveRow, DoubtsRow, FragilityRow, ObjectRow, RatesRow};
-use crate::table::file::{self, Table};
+use crate::table::answers::{Answer, CurveRow, FragilityRow, ObjectRow, RatesRow, UncertaintyRow};
+use crate::table::file::{self, ParquetTable};
 use crate::table::keys::key_of;
 use crate::table::motions::{self, MotionRow, is_motion_column};
 use crate::table::provenance::{Provenance, joined};
@@ -100,7 +100,7 @@ pub struct Item {
 
 impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
-        let table = Table::open(path)?;
+        let table = ParquetTable::open(path)?;
         let has = |columns: &str| columns.split(' ').all(|name| table.schema().index_of(name).is_ok());
         let kind = COLUMNS.iter().find(|(_, columns)| has(columns)).map_or(Kind::Other, |(kind, _)| *kind);
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
@@ -295,7 +295,7 @@ fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
     }
     let mut files = file::tables(path)?;
     for folder in file::entries(path)?.into_iter().filter(|entry| entry.is_dir()) {
-        match Table::open(&folder) {
+        match ParquetTable::open(&folder) {
             Ok(_) => files.push(folder),
             Err(TableError::Io { path, cause }) if cause.kind() != ErrorKind::PermissionDenied => {
                 return Err(TableError::io(&path, cause));
@@ -307,7 +307,7 @@ fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
 }
 
 fn read_evaluation(item: &Item) -> Result<Evaluation, TableError> {
-    let (objects, doubts) = (rows::read::<ObjectRow>(&item.path)?, rows::read::<DoubtsRow>(&item.path)?);
+    let (objects, doubts) = (rows::read::<ObjectRow>(&item.path)?, rows::read::<UncertaintyRow>(&item.path)?);
     let mut answers = Vec::new();
     for ((object, row), doubts) in objects.into_iter().zip(rows::read::<RatesRow>(&item.path)?).zip(doubts) {
         let object = ObjectRow { file: item.name(), ..object };

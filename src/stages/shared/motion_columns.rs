@@ -11,7 +11,7 @@ use rockfrag_core::rocking::Structure;
 use crate::number::listed;
 use crate::pipeline::UsageError;
 use crate::table::TableError;
-use crate::table::file::Table;
+use crate::table::file::ParquetTable;
 
 /// The units at the end of the names of columns, the longer ones first.
 const UNITS: [(&str, Dimension); 4] = [
@@ -54,7 +54,7 @@ impl MotionColumns {
     /// Reads the columns that are asked for; none without motions.
     pub fn read(asked: &[Predictors], motions: Option<&Path>) -> anyhow::Result<MotionColumns> {
         let Some(path) = motions else { return Ok(MotionColumns::default()) };
-        let table = Table::open(path)?;
+        let table = ParquetTable::open(path)?;
         let known: Vec<&String> = table.schema().fields().iter().map(|field| field.name()).collect();
         let mut read = MotionColumns { path: path.to_path_buf(), ..MotionColumns::default() };
         for name in names(asked) {

@@ -19,7 +19,7 @@ const PARTS_A_THREAD: usize = 4;
 
 /// Passes the motions of a table, in its parts, through `work` on all threads, and what comes of them in order
 /// to `sink`. They must have distinct names.
-pub fn each<'a, T: Send>(
+pub fn process_in_order<'a, T: Send>(
     bar: &Progress,
     parts: impl Iterator<Item = Part<'a>> + Send,
     work: impl Fn(Sampled) -> anyhow::Result<T> + Sync,

@@ -12,12 +12,12 @@ use crate::inputs::hazard::motions;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
-use crate::table::file::{Table, is_table};
+use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame::{self, Format};
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {
-    Ok(is_text(path) || Table::open(path)?.schema().field_with_name("edp").is_err())
+    Ok(is_text(path) || ParquetTable::open(path)?.schema().field_with_name("edp").is_err())
 }
 
 fn is_text(path: &Path) -> bool {
@@ -29,7 +29,7 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let grid = match is_text(path) {
         true => Grid::read(path),
         false => {
-            let text = frame::show(&frame::read(&Table::open(path)?, usize::MAX)?, Format::Csv)?;
+            let text = frame::show(&frame::read(&ParquetTable::open(path)?, usize::MAX)?, Format::Csv)?;
             Grid::parse(text.as_bytes(), None)
         }
     };

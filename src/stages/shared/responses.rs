@@ -12,7 +12,7 @@ use super::motion_columns::MotionColumns;
 use crate::number::counted;
 use crate::table::TableError;
 use crate::table::columns::Batch;
-use crate::table::file::Table;
+use crate::table::file::ParquetTable;
 use crate::table::responses::OutcomeWord;
 use crate::table::{frame, rows};
 
@@ -28,7 +28,7 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
 
 /// Reads responses with columns of their motions.
 pub fn read_with(path: &Path, columns: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
-    let table = Table::open(path)?;
+    let table = ParquetTable::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     for batch in table.batches(|name| is_measure(name) || COLUMNS.split(' ').any(|one| one == name)) {
