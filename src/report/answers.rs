@@ -1,13 +1,13 @@
 //! Answers of evaluate in a reader's words, for texts and pages; and what pages show of an evaluation.
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
+use rockfrag_core::hazard::{Bases, Fragility, HazardCurve, RateByIntensity, SLENDERNESSES, SearchEnd};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::UNNAMED;
 
 use super::text::literal;
 use crate::number::{self, PERCENT};
-use crate::table::answers::{Answer, ObjectRow, RatesRow, TargetBases};
+use crate::table::answers::{Answer, ObjectRow, RatesRow};
 
 /// An object, and how often it reaches each limit state.
 pub type Rated = Answer<RatesRow>;
@@ -258,13 +258,13 @@ impl Answer<RatesRow> {
 
     /// The base that meets the target, if there is one.
     pub fn base(&self) -> Option<String> {
-        let TargetBases { target_width_m, target_sides_m, .. } = self.row.bases;
+        let Bases { target_width_m, target_sides_m, .. } = self.row.bases;
         base_in_words(&self.object, target_width_m, target_sides_m)
     }
 
     /// The same by the upper limit.
     pub fn base_by_limit(&self) -> Option<String> {
-        let TargetBases { target_width_m_high, target_sides_m_high, .. } = self.row.bases;
+        let Bases { target_width_m_high, target_sides_m_high, .. } = self.row.bases;
         base_in_words(&self.object, target_width_m_high, target_sides_m_high)
     }
 

@@ -2,7 +2,7 @@
 
 use rockfrag_core::fragility::{MotionKind, Peak, RockingDirection};
 use rockfrag_core::hazard::{
-    Base, Bases, Budget, Fragility, Lognormal, SearchEnd, SiteRates, VelocitySource, probability_in_years,
+    Bases, Budget, Fragility, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::object::{Object, UncertaintySource};
 use rockfrag_core::statistics::Interval;
@@ -101,19 +101,7 @@ pub struct RatesRow {
     pub velocity_by: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
     pub share_extrapolated: Option<f64>,
-    pub bases: TargetBases,
-}
-
-/// Bases that meet a target, by the estimate of the rate and by its upper limit: the width beside the depth
-/// that the object has or, where that depth is what is too small, the least of both sides.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct TargetBases {
-    pub target_width_m: Option<f64>,
-    pub target_width_m_high: Option<f64>,
-    pub target_sides_m: Option<f64>,
-    pub target_sides_m_high: Option<f64>,
-    pub target_end: Option<SearchEnd>,
+    pub bases: Bases,
 }
 
 impl RatesRow {
@@ -131,19 +119,7 @@ impl RatesRow {
             is_range: overturning.low.map(|_| overturning.value.is_none()),
             velocity_by: rates.velocity,
             share_extrapolated: rates.beyond,
-            bases: bases.into(),
-        }
-    }
-}
-
-impl From<Bases> for TargetBases {
-    fn from(Bases { by_estimate, by_limit, end }: Bases) -> TargetBases {
-        TargetBases {
-            target_width_m: by_estimate.and_then(Base::width),
-            target_width_m_high: by_limit.and_then(Base::width),
-            target_sides_m: by_estimate.and_then(Base::sides),
-            target_sides_m_high: by_limit.and_then(Base::sides),
-            target_end: end,
+            bases,
         }
     }
 }

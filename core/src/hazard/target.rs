@@ -8,20 +8,13 @@ use crate::object::{Object, RockingObject};
 use crate::spelling::unknown_word;
 use crate::statistics::Interval;
 
-/// The base of an object, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Base {
-    /// Of this width.
-    Width(f64),
-    /// With no side below this.
-    Sides(f64),
-}
-
-/// Bases that meet a target; none of an object without width and height.
+/// Bases that meet a target, m, by the rate and by its upper limit: the width beside the depth that the
+/// object has or, where that depth is what is too small, the least of both sides; none of an object without
+/// width and height.
 ///
 /// ```
 /// use rockfrag_core::fragility::{MotionKind, Peak};
-/// use rockfrag_core::hazard::{Base, Hazard, HazardCurve, Site};
+/// use rockfrag_core::hazard::{Hazard, HazardCurve, Site};
 /// use rockfrag_core::object::{Object, RockingObject};
 ///
 /// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
@@ -31,19 +24,18 @@ pub enum Base {
 /// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).overturning;
 /// // Once in 10,000 years.
 /// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
-/// let width = |base: Option<Base>| base.and_then(Base::width);
-/// let [by_estimate, by_limit] = [bases.by_estimate, bases.by_limit].map(width);
-/// assert!(0.5 < by_estimate.unwrap() && by_estimate < by_limit);
+/// assert!(0.5 < bases.target_width_m.unwrap() && bases.target_width_m < bases.target_width_m_high);
 /// # Ok::<(), rockfrag_core::hazard::HazardError>(())
 /// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
 pub struct Bases {
-    /// At which the rate is the target.
-    pub by_estimate: Option<Base>,
-    /// At which the upper limit of the rate is the target.
-    pub by_limit: Option<Base>,
+    pub target_width_m: Option<f64>,
+    pub target_width_m_high: Option<f64>,
+    pub target_sides_m: Option<f64>,
+    pub target_sides_m_high: Option<f64>,
     /// What ended the search where it found no base.
-    pub end: Option<SearchEnd>,
+    pub target_end: Option<SearchEnd>,
 }
 
 /// Where wider bases have no rate: outside the domain of the model, or beyond the end of the hazard curve.
@@ -80,7 +72,7 @@ impl Site {
         let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
         let mut bases = Bases::default();
         for base in [Base::Width, Base::Sides] {
-            if bases.by_limit.is_none()
+            if bases.target_width_m_high.is_none()
                 && let Some([least, start, most]) = sides(object, base)
             {
                 let search = Search { site: self, object, with_models, base, target, least, most };
@@ -90,29 +82,37 @@ impl Site {
                     let near = (ln_side + ln_margin / FALL).min(most);
                     search.ln_side(search.last_known(ln_side, near), upper_limit)
                 });
-                let [estimate, by_limit] = [estimate, limit].map(|side| side.ok().map(|ln| base(ln.exp())));
-                bases = Bases { by_estimate: bases.by_estimate.or(estimate), by_limit, end: limit.err() };
+                let [estimate, high] = [estimate, limit].map(|side| side.ok().map(f64::exp));
+                bases.target_end = limit.err();
+                match base {
+                    Base::Width => (bases.target_width_m, bases.target_width_m_high) = (estimate, high),
+                    Base::Sides => {
+                        bases.target_sides_m = estimate.filter(|_| bases.target_width_m.is_none());
+                        bases.target_sides_m_high = high;
+                    }
+                }
             }
         }
         bases
     }
 }
 
+/// What of a base is changed.
+#[derive(Clone, Copy)]
+enum Base {
+    /// The width, beside the depth as it is.
+    Width,
+    /// Both sides, where they are smaller.
+    Sides,
+}
+
 impl Base {
-    pub fn width(self) -> Option<f64> {
-        if let Base::Width(width) = self { Some(width) } else { None }
-    }
-
-    pub fn sides(self) -> Option<f64> {
-        if let Base::Sides(side) = self { Some(side) } else { None }
-    }
-
-    /// The object on this base.
-    fn under(self, object: &Object) -> Object {
+    /// The object with this width or least side, m.
+    fn resize(self, object: &Object, side: f64) -> Object {
         let shape = &object.shape;
         match self {
-            Base::Width(width) => object.resized(width, shape.depth),
-            Base::Sides(side) => object
+            Base::Width => object.resized(side, shape.depth),
+            Base::Sides => object
                 .resized(shape.width.unwrap_or(side).max(side), shape.depth.map(|depth| depth.max(side))),
         }
     }
@@ -120,12 +120,12 @@ impl Base {
 
 /// ln of the least side, of the present side or the nearest possible, and of the largest; none of both sides
 /// without a depth.
-fn sides(object: &Object, base: fn(f64) -> Base) -> Option<[f64; 3]> {
+fn sides(object: &Object, base: Base) -> Option<[f64; 3]> {
     let shape = &object.shape;
     let (width, height) = shape.width.zip(shape.height)?;
-    let side = match base(width) {
-        Base::Width(width) => width,
-        Base::Sides(width) => shape.depth?.min(width),
+    let side = match base {
+        Base::Width => width,
+        Base::Sides => shape.depth?.min(width),
     };
     let centre_height = shape.centre_height.unwrap_or(0.5 * height);
     let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
@@ -138,7 +138,7 @@ struct Search<'a> {
     site: &'a Site,
     object: &'a Object,
     with_models: &'a dyn Fn(&Object) -> Option<RockingObject>,
-    base: fn(f64) -> Base,
+    base: Base,
     target: f64,
     least: f64,
     most: f64,
@@ -155,7 +155,7 @@ fn upper_limit(site: &Site, object: &RockingObject) -> Option<f64> {
 impl Search<'_> {
     /// ln of a rate over the target.
     fn excess(&self, ln_side: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
-        let resized = (self.base)(ln_side.exp()).under(self.object);
+        let resized = self.base.resize(self.object, ln_side.exp());
         let object = (self.with_models)(&resized).ok_or(SearchEnd::Model)?;
         let rate = rate(self.site, &object).ok_or(SearchEnd::Hazard)?;
         Ok((rate.max(LEAST) / self.target).ln())

@@ -261,8 +261,8 @@ impl Evaluate {
         let all = object::answers(&objects, models, context, |object, rocking_object| {
             let rates = site.rates(rocking_object);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years);
-            let joined = |object: &Object| Some(models.rocking_object(object).ok()?.0);
-            let bases = target.map(|target| site.bases(object, &joined, rates.overturning, target));
+            let with_models = |object: &Object| Some(models.rocking_object(object).ok()?.0);
+            let bases = target.map(|target| site.bases(object, &with_models, rates.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
         })?;
