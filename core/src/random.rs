@@ -3,13 +3,9 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-use crate::spelling::unknown_word;
-
 /// Purpose of random numbers. Streams of different purposes are independent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Purpose>)]
+#[derive(Clone, Copy, strum::Display)]
+#[strum(serialize_all = "snake_case")]
 pub enum Purpose {
     /// Order of the strata of a Latin hypercube; the row is the cell times the dimensions plus the
     /// dimension.
@@ -18,8 +14,6 @@ pub enum Purpose {
     Sample,
     /// Noise of the stochastic motion; the row is the scenario, whatever file it is in.
     Noise,
-    /// Rows of a resample; the row is the replicate.
-    Bootstrap,
 }
 
 /// ChaCha with 8 rounds, its key from seed and purpose, its stream number the row.

@@ -5,7 +5,6 @@
 //! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
 //! rates     annual rates of the limit states of a structure, over a curve or over pairs of PGA and PGV
 //! budget    the sources of uncertainty, and the limits by them
-//! count     the rate counted among motions that are weighted to have the hazard's rates, without a fragility
 //! motion    the limit states under one motion, with limits
 //! motions   the motions of which one peak is given, and their uncertainty
 //! ratio     the rate after a change over that before
@@ -16,7 +15,6 @@
 //! ```
 
 mod budget;
-mod count;
 mod curve;
 mod fragility;
 mod motion;
@@ -29,7 +27,6 @@ mod site;
 mod target;
 
 pub use budget::Budget;
-pub use count::{CountedMotion, CountedRate, counted_rate};
 pub use curve::{HazardCurve, HazardError};
 pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
 pub use motion::{GroundMotion, MotionProbabilities};

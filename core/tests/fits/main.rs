@@ -4,7 +4,6 @@ mod at_site;
 mod capacity;
 mod cases;
 mod common;
-mod counted_rates;
 mod coverage;
 mod demand;
 mod hazard;
