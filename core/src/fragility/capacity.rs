@@ -10,7 +10,6 @@ use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::ln_cdf_and_slope;
 use crate::statistics::{FitStatus, Interval};
 
-/// A capacity: known exactly, or only to lie below or above an intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KnownCapacity {
     At(f64),

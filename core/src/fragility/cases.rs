@@ -83,7 +83,6 @@ impl Case {
     }
 }
 
-/// The responses of one structure to one suite of motions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cases {
     pub suite: Option<String>,

@@ -48,9 +48,9 @@ impl Measure {
         }
     }
 
-    /// None where the measure is missing, as a further measure is.
-    pub fn raw_value_of(&self, measures: &IntensityMeasures) -> Option<f64> {
-        match self {
+    /// None where the measure is missing, as a further measure is, or has no logarithm.
+    pub fn value_of(&self, measures: &IntensityMeasures) -> Option<f64> {
+        let value = match self {
             Measure::Im1 => measures.im1,
             Measure::Im2 => measures.im2,
             Measure::Im3 => measures.im3,
@@ -59,12 +59,8 @@ impl Measure {
             Measure::Im6 => measures.im6,
             Measure::Im3Inverse => measures.im3.map(|im3| 1.0 / im3),
             Measure::Column(_) => None,
-        }
-    }
-
-    /// None where the measure is missing or has no logarithm.
-    pub fn value_of(&self, measures: &IntensityMeasures) -> Option<f64> {
-        self.raw_value_of(measures).filter(has_logarithm)
+        };
+        value.filter(has_logarithm)
     }
 }
 

@@ -15,7 +15,6 @@ const SD_OF_MEAN: f64 = 0.2;
 const ABOVE_MEAN_OF_PGA: f64 = 0.25;
 const SD_ABOVE_MEAN_OF_PGA: f64 = 0.3;
 
-/// Motions of which one peak is given.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ConditionalMotions {
     pub peak: Peak,

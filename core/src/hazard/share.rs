@@ -1,5 +1,3 @@
-//! The shares of a rate by intensity.
-
 use super::site::{Hazard, Site};
 use crate::fragility::{QuantileLevel, ReadyObject};
 use crate::object::RockingObject;

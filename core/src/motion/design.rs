@@ -45,7 +45,7 @@ impl ScenarioGrid {
         self.mw.len() * self.re_km.len()
     }
 
-    /// Prepares to sample a cell, independently of other cells. The cells of a magnitude are adjacent.
+    /// The cells of a magnitude are adjacent.
     pub fn cell(&self, cell: usize) -> Cell<'_> {
         let strata = |dimension: usize| {
             let mut strata: Vec<u32> = (0..self.samples as u32).collect();

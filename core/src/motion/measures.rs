@@ -165,7 +165,7 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// Makes an oscillator at rest. The damping ratio is in [0, 1); samples are `dt_s` apart.
+    /// The damping ratio is in [0, 1).
     pub fn new(period_s: f64, damping: f64, dt_s: f64) -> Oscillator {
         let w = 2.0 * PI / period_s;
         let wd = w * (1.0 - damping * damping).sqrt();

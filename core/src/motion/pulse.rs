@@ -82,7 +82,6 @@ impl Pulse {
     }
 }
 
-/// Computes v / A (Eq. 1) from x = wp (t - t0).
 fn unit_velocity(x: f64, gamma: f64, nu: f64) -> f64 {
     0.5 * (1.0 + (x / gamma).cos()) * (x + nu).cos()
 }

@@ -63,7 +63,7 @@ pub fn mean_log10_vp_cm_s(mw: f64, re_km: f64) -> f64 {
     -5.17 + 1.98 * m - 0.14 * m * m - 0.10 * (re_km * re_km + 0.562).log10()
 }
 
-/// Computes the mean of log10 Tp, Tp in s (Eq. 3), from magnitude.
+/// Eq. 3.
 pub fn mean_log10_tp_s(mw: f64) -> f64 {
     -2.87 + 0.47 * mw
 }

@@ -46,8 +46,6 @@ impl SiteAmplification {
         SiteAmplification(GENERIC.map(|(f, _, soil)| (f, soil)).to_vec())
     }
 
-    /// Makes a table of frequencies (Hz) and factors.
-    ///
     /// # Errors
     /// If there are fewer than two rows, frequencies do not rise, or a number is not positive.
     pub fn table(rows: Vec<(f64, f64)>) -> Result<SiteAmplification, SiteTableError> {

@@ -1,5 +1,3 @@
-//! A record as in its file.
-
 use crate::units::Unit;
 
 /// Where a record is from, as named in its file.
@@ -29,7 +27,6 @@ pub struct RecordedMotion {
 }
 
 impl RecordedMotion {
-    /// Makes a record of samples in a unit of acceleration, `dt_s` apart.
     pub fn new(dt_s: f64, samples: Vec<f64>, unit: Unit, origin: Origin) -> RecordedMotion {
         RecordedMotion {
             dt_s,

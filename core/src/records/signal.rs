@@ -118,7 +118,7 @@ pub enum Scaling {
 }
 
 impl Scaling {
-    /// Computes the factors of an acceleration (m/s2) at steps of `dt_s`; none without a peak to scale.
+    /// Empty without a peak to scale.
     pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
         let factor = match self {
             Scaling::Factors(factors) => return factors.clone(),

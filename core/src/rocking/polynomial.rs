@@ -16,7 +16,6 @@ pub fn value(c: &Polynomial, x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// Computes the derivative, as a polynomial of the same length.
 #[inline]
 pub fn derivative(c: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| if k < ORDER { (k + 1) as f64 * c[k + 1] } else { 0.0 })

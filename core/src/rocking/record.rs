@@ -37,8 +37,6 @@ pub enum RecordError {
 }
 
 impl<'a> Record<'a> {
-    /// Makes a record of samples (m/s2), `dt_s` seconds apart.
-    ///
     /// # Errors
     /// If the time step is not in [1e-6, 10] s, or samples are fewer than 2, not finite or above 1e4 m/s2.
     pub fn new(acceleration_m_s2: &'a [f64], dt_s: f64) -> Result<Record<'a>, RecordError> {

@@ -48,8 +48,6 @@ impl StructureError {
 }
 
 impl Structure {
-    /// Makes a structure from p (rad/s), alpha (rad) and eta.
-    ///
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
