@@ -34,9 +34,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The limits account for the uncertainty of the model, magnitude, PGV, restitution, object and floor. An
-//! [`Object`](object::Object) can carry more detail: depth, floor, what was measured. A
-//! [`GroundMotion`](hazard::GroundMotion) in place of a site gives probabilities.
+//! The limits account for the uncertainty of the model, PGV, restitution, object and floor, and for that of
+//! the magnitude unless this is inferred from PGV / PGA, as here. An [`Object`](object::Object) can carry
+//! more detail: depth, floor, what was measured. A [`GroundMotion`](hazard::GroundMotion) in place of a site
+//! gives probabilities.
 //!
 //! # The response to a record
 //!
@@ -73,11 +74,12 @@
 //!
 //! # Conventions
 //!
-//! Names end in their unit: `pga_m_s2`, `p_rad_s`. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
+//! Names end in their unit: `pga_m_s2`, `p_rad_s`; those of an object, and of the numbers of a formula, are
+//! in SI units without this ending. Demands are |*θ*|max / *α*, and IM1 to IM6 are those of
 //! Eq. 13. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
 //! numbers for any number of threads.
 //!
-//! Nothing here reads a file, asks the time or prints. The crate `rockfrag` reads the files of agencies and
+//! Nothing here opens a file, asks the time or prints: `data` is compiled in. The crate `rockfrag` reads the files of agencies and
 //! runs these steps over Parquet files: `rockfrag --help`.
 
 pub mod fragility;

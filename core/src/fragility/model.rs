@@ -22,7 +22,7 @@ pub enum Model {
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
 
-/// A direction in which an object falls.
+/// A direction in which an object rocks, with its model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingDirection {
     pub structure: Structure,

@@ -69,7 +69,8 @@ pub fn strongest(peak: Peak) -> f64 {
 pub struct Site {
     pub hazard: Hazard,
     /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used
-    /// with PGV alone. Where it is not known, the median is 6.35 and its standard deviation 0.6.
+    /// with PGV alone. Without it, magnitudes have a median of 6.35 and a standard deviation of 0.6 where
+    /// PGV / PGA is of generic sites or given, and are inferred from PGV / PGA elsewhere.
     pub mw: Option<f64>,
     pub vs30_m_s: Option<f64>,
     /// Whether to extrapolate a curve that ends too early.

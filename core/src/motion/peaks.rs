@@ -47,7 +47,7 @@ pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(),
     let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));
     let refuse = |name: &str, value: f64, expected: &str| {
         let value = significant(value, 3);
-        Err(format!("half of the rows have {name} above {value}; {expected}"))
+        Err(format!("the median {name} is {value}; {expected}"))
     };
     match (pga_g, pgv, ratio_s) {
         (Some(pga), ..) if pga > STRONGEST_MEDIAN => {

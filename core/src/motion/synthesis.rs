@@ -61,7 +61,8 @@ impl MotionModel {
     }
 }
 
-/// The motions of one scenario on one time axis: accelerations, m/s2, empty for suites not asked for.
+/// The motions of one scenario on one time axis: accelerations, m/s2. The pulse is always there; others
+/// that were not needed are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Synthetic {
     pub dt_s: f64,

@@ -71,7 +71,7 @@ pub enum Implausibility {
 }
 
 impl Implausibility {
-    /// Returns whether no record was ever like this; otherwise it is only rare.
+    /// Returns whether no record was ever like this; a few are weak, strong, cut off or clipped.
     pub fn is_impossible(&self) -> bool {
         !matches!(
             self,

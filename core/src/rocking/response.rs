@@ -26,7 +26,7 @@ impl Outcome {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     pub outcome: Outcome,
-    /// Number of impacts during the record.
+    /// Number of impacts during the record and, where one is traced, the still time after it.
     pub impacts: u32,
 }
 
@@ -34,8 +34,8 @@ impl Response {
     pub(super) const NO_ROCKING: Response = Response { outcome: Outcome::NoRocking, impacts: 0 };
 
     /// Computes the response of a structure of slenderness `alpha` (rad) that rocks, from the largest
-    /// rotation `peak` (rad) and the number of impacts during the record, and the largest rotation `later`
-    /// (rad) in the free rocking after it; none if it overturns.
+    /// rotation `peak` (rad) and the number of impacts, and the largest rotation `later` (rad) in the
+    /// free rocking after the record; none if it overturns.
     pub(super) fn after_rocking(later: Option<f64>, peak: f64, alpha: f64, impacts: u32) -> Response {
         let safe = later.map(|later| Outcome::SafeRocking(peak.max(later) / alpha));
         Response { outcome: safe.unwrap_or(Outcome::Overturned), impacts }

@@ -17,7 +17,7 @@ pub enum FitStatus {
     WrongSign,
     /// The predictors separate events from the other cases: the likelihood has no maximum.
     Separated,
-    /// Fewer than five events, or fewer than five other cases.
+    /// Fewer than five events or other cases, or fewer than two known capacities.
     TooFewEvents,
     /// A measure is constant, or a combination of others, or there are fewer cases than coefficients.
     Degenerate,

@@ -1,4 +1,4 @@
-//! Statistics, independent of rocking.
+//! Regressions and distributions.
 //!
 //! ```text
 //! linear         least squares (Eqs. 16 and 17)
