@@ -69,7 +69,7 @@ fn the_row_of_the_same_structure_answers_by_either_model() {
     let args = args(&folder);
     let near = Structure::new("mine", 2.51, 0.201, 0.925).unwrap();
     let (model, warnings) = args.read().unwrap().model(&near).unwrap();
-    let Model::Calibrated { overturning, exceeding, .. } = model else { panic!() };
+    let Model::Surface { overturning, exceeding, .. } = model else { panic!() };
     assert_eq!((overturning, exceeding.limit_state), (Calibration::fit(&rocking(600), None), Some(0.1)));
     assert_eq!(warnings, []);
     let paper = ModelArgs { model: ModelName::Paper, ..args };
@@ -84,9 +84,12 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     let folder = folder(&["csgm"]);
     let other = Structure::new("other", 1.0, 0.15, 0.92).unwrap();
     let (model, warnings) = args(&folder).read().unwrap().model(&other).unwrap();
-    assert_eq!((model, warnings), (Model::shipped(MotionKind::Csgm, &other, 0.1), vec![Warning::NotFitted]));
+    assert_eq!(
+        (model, warnings),
+        (Model::uncalibrated(MotionKind::Csgm, &other, 0.1), vec![Warning::NotFitted])
+    );
     let named = ModelArgs { name: Some("equipment".to_string()), ..args(&folder) };
-    let (Model::Calibrated { overturning, .. }, _) = named.read().unwrap().model(&other).unwrap() else {
+    let (Model::Surface { overturning, .. }, _) = named.read().unwrap().model(&other).unwrap() else {
         panic!()
     };
     assert_eq!(overturning.structure, "equipment");
@@ -94,7 +97,7 @@ fn a_structure_that_is_not_there_gets_the_surface_unless_it_is_named() {
     assert!(error(&unknown).contains("no structure 'shelf'; expected one of equipment"));
     let without = ModelArgs { fits: None, ..args(&folder) };
     let (model, warnings) = without.read().unwrap().model(&other).unwrap();
-    assert_eq!((model, warnings), (Model::shipped(MotionKind::Recorded, &other, 0.1), vec![]));
+    assert_eq!((model, warnings), (Model::uncalibrated(MotionKind::Recorded, &other, 0.1), vec![]));
 }
 
 #[test]
@@ -102,8 +105,7 @@ fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     let folder = folder(&["csgm", "pulse"]);
     assert!(error(&args(&folder)).ends_with("fits of csgm, pulse; expected --suite with one of them"));
     let pulses = ModelArgs { suite: Some(MotionKind::Pulse), ..args(&folder) };
-    let (Model::Calibrated { overturning, .. }, _) = pulses.read().unwrap().model(&equipment()).unwrap()
-    else {
+    let (Model::Surface { overturning, .. }, _) = pulses.read().unwrap().model(&equipment()).unwrap() else {
         panic!()
     };
     assert_eq!(overturning.kind, MotionKind::Pulse);

@@ -22,12 +22,12 @@
 //!
 //! // 0.5 m wide and 1.9 m high. Failure: |theta|max above 0.10 alpha, or overturning.
 //! let cabinet = Object::block("cabinet", 0.5, 1.9);
-//! let object = RockingObject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
+//! let object = RockingObject::uncalibrated(&cabinet, MotionKind::Recorded, 0.10)?;
 //! // PGA and spectral acceleration at 1 s (m/s2), and how often a year each is exceeded.
 //! let pga = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 //! let sa_1s = HazardCurve::new(vec![(0.5, 2e-2), (4.0, 5e-4), (15.0, 8e-6), (32.0, 4e-7)])?;
 //! let rates = Site::new(Hazard::with_spectrum(pga, &sa_1s)?).rates(&object);
-//! let Some(rate) = rates.overturning.estimate() else { panic!("the curve ends early") };
+//! let Some(rate) = rates.states.overturning.estimate() else { panic!("the curve ends early") };
 //! let p = rate.map(|rate| 100.0 * probability_in_years(rate, 50.0));
 //! println!("{:.1} % in 50 years ({:.1} to {:.1} %)", p.value, p.low, p.high);
 //! # assert!(0.0 < rate.low && rate.low < rate.value && rate.value < rate.high && rate.high < 0.1);
@@ -79,8 +79,8 @@
 //! Eq. 13. Limits are 95 % confidence limits unless a confidence is given. The same seed gives the same
 //! numbers for any number of threads.
 //!
-//! Nothing here opens a file, asks the time or prints: `data` is compiled in. The crate `rockfrag` reads the files of agencies and
-//! runs these steps over Parquet files: `rockfrag --help`.
+//! Nothing here opens a file, asks the time or prints: `data` is compiled in. The crate `rockfrag` reads the
+//! files of agencies and runs these steps over Parquet files: `rockfrag --help`.
 
 pub mod fragility;
 pub mod hazard;

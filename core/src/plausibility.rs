@@ -80,9 +80,9 @@ const MOST_FREQUENT: (f64, f64) = (0.008, 1.7);
 /// PGA, g, that the hazard of any site reaches; PGV, m/s, and SA(1.0 s), g, reach a third of it.
 const REACHED_PGA_G: f64 = 0.03;
 
-/// Judges annual rates of exceedance of PGV (m/s), or of PGA or a spectral acceleration (g), and guesses what
+/// Checks annual rates of exceedance of PGV (m/s), or of PGA or a spectral acceleration (g), and guesses what
 /// implausible ones are instead.
-pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), String> {
+pub fn validate_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), String> {
     let is_velocity = measure == "PGV";
     let excess = |(value, rate): (f64, f64)| rate / (MOST_FREQUENT.0 * value.powf(-MOST_FREQUENT.1));
     let (unit, strongest) = if is_velocity { ("m/s", STRONGEST_PGV_M_S) } else { ("g", STRONGEST_PGA_G) };
@@ -115,8 +115,8 @@ pub fn judge_hazard(measure: &str, points: &[(f64, f64)]) -> Result<(), String> 
 /// Spectral acceleration at 1 s over PGA, each exceeded as often, of any site.
 const SPECTRAL_OVER_PGA: RangeInclusive<f64> = 0.1..=3.0;
 
-/// Judges spectral accelerations at 1 s over PGA, each exceeded as often, by their median.
-pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), String> {
+/// Checks spectral accelerations at 1 s over PGA, each exceeded as often, by their median.
+pub fn validate_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), String> {
     let unit = match median(ratios) {
         Some(ratio) if ratio > *SPECTRAL_OVER_PGA.end() => "is it in m/s2 or cm/s2, beside PGA in g?",
         Some(ratio) if ratio < *SPECTRAL_OVER_PGA.start() => "is it in g, beside PGA in m/s2 or cm/s2?",
@@ -129,8 +129,8 @@ pub fn judge_spectrum(ratios: impl Iterator<Item = f64>) -> Result<(), String> {
 const LEAST_SIDE_M: f64 = 0.01;
 const LEAST_HEIGHT_M: f64 = 0.03;
 
-/// Judges the lengths in a column of a list, which are in a unit: what is expected if none can be right.
-pub fn judge_lengths(
+/// Checks the lengths in a column of a list, which are in a unit: what is expected if none can be right.
+pub fn validate_lengths(
     is_height: bool,
     unit: Unit,
     lengths: impl Iterator<Item = f64>,

@@ -51,7 +51,7 @@ impl Warning {
         match self {
             UnusualScenario => "outside the paper's earthquakes: magnitude 5.5 to 7.5, distance up to 20 km",
             ImplausibleRecord => "this is not a plausible earthquake record",
-            AtRim => "beyond 4.5 g, 5 m/s or PGV/PGA 0.005 to 3 s: answered at that rim",
+            AtRim => "beyond 4.5 g, 5 m/s or PGV/PGA 0.005 to 3 s: answered at that limit",
             OtherPeak => "pga_m_s2 or pgv_m_s differs from the peak of the samples: unit or component?",
             LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
             ImplausibleSize => "taller or more slender than all but a few monuments: a wrong unit?",

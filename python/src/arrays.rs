@@ -4,12 +4,12 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rockfrag::pipeline::UsageError;
 use rockfrag::table::responses::OutcomeWord;
-use rockfrag_core::fragility::{beta, mu};
+use rockfrag_core::fragility::{DeltaEstimate, beta, mu};
 use rockfrag_core::object::{Object, structure_warnings};
 use rockfrag_core::records::implausibility::implausibility;
 use rockfrag_core::rocking::{Ground, Record, TracePoint, simulate, trace};
 use rockfrag_core::statistics::distributions::t_quantile;
-use rockfrag_core::statistics::{FitStatus, Interval, normal, tested_probit, variance};
+use rockfrag_core::statistics::{FitStatus, Interval, delta_variance, normal, tested_probit};
 use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
@@ -125,8 +125,8 @@ pub fn fit_curve<'py>(
     };
     let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
     let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
-    let estimate = |(value, gradient): (f64, Vec<f64>)| {
-        Interval::around(value, quantile * variance(covariance, &gradient).sqrt())
+    let estimate = |DeltaEstimate { value, gradient }| {
+        Interval::around(value, quantile * delta_variance(covariance, &gradient).sqrt())
     };
     let three = |Interval { value, low, high }: Interval| [value, low, high];
     let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use rockfrag_core::object::{Field, Object, Place, Reason};
-use rockfrag_core::plausibility::judge_lengths;
+use rockfrag_core::object::{Field, Object, ObjectError, Place};
+use rockfrag_core::plausibility::validate_lengths;
 use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
 use strum::VariantArray;
@@ -200,7 +200,7 @@ impl List<'_> {
             };
             if let Some(unit) = heading.unit {
                 let lengths = (0..grid.lines.len()).filter_map(|row| grid.number(row, at).ok());
-                judge_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
+                validate_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
                     InputError::missing(format!("column '{}'", heading.text), expected)
                 })?;
             } else if let Some(note) = grid.notes.iter().find(|note| names_unit_of_length(note)) {
@@ -268,7 +268,7 @@ impl List<'_> {
                 }
                 given => given,
             };
-            let refused = self.held(row).or(object.as_ref().err().cloned().map(Reason::Implausible));
+            let refused = self.held(row).or(object.as_ref().err().cloned().map(ObjectError::Implausible));
             let is_unique = uses[name.as_str()] == 1;
             let name = if is_unique { name.clone() } else { format!("{name} (line {})", grid.lines[row]) };
             objects.push(Object { name, refused, ..object.unwrap_or_default() });
@@ -382,7 +382,7 @@ impl List<'_> {
     }
 
     /// Why the object of a row is not free to rock.
-    fn held(&self, row: usize) -> Option<Reason> {
+    fn held(&self, row: usize) -> Option<ObjectError> {
         let held = self.columns.iter().enumerate().filter(|(_, column)| **column == ColumnRole::Held);
         held.filter_map(|(at, _)| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?)).next()
     }
@@ -404,7 +404,7 @@ fn names_unit_of_length(note: &str) -> bool {
 }
 
 /// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.
-fn held_by(heading: &str, cell: &str) -> Option<Reason> {
+fn held_by(heading: &str, cell: &str) -> Option<ObjectError> {
     let (heading, text) = (heading.to_lowercase(), joined(cell));
     let has = |text: &str, meaning: &str| synonyms(meaning).any(|part| text.contains(part));
     let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
@@ -412,10 +412,10 @@ fn held_by(heading: &str, cell: &str) -> Option<Reason> {
     if means(cell, "free") || is_loose {
         None
     } else if text.starts_with("no-") || !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
-        Some(Reason::Implausible(format!("{heading}: '{cell}'; expected yes or no")))
+        Some(ObjectError::Implausible(format!("{heading}: '{cell}'; expected yes or no")))
     } else if has(&heading, "rolls") || has(&text, "rolls") {
-        Some(Reason::NotRocking("on castors: it rolls, and does not rock".to_string()))
+        Some(ObjectError::NotRocking("on castors: it rolls, and does not rock".to_string()))
     } else {
-        Some(Reason::NotRocking(format!("{heading}: {}; it is not free to rock", cell.to_lowercase())))
+        Some(ObjectError::NotRocking(format!("{heading}: {}; it is not free to rock", cell.to_lowercase())))
     }
 }

@@ -1,6 +1,6 @@
 //! The page of two evaluations, before and after: joined by the names of the objects.
 
-use rockfrag_core::hazard::{RateByParts, ratio_of_rates};
+use rockfrag_core::hazard::{RateBySource, ratio_of_rates};
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
@@ -42,7 +42,7 @@ pub fn pairs<'a>(before: &'a Evaluation, after: &'a Evaluation) -> Vec<Pair<'a>>
 fn ratio(before: &Rated, after: &Rated, same_hazard: bool) -> Interval<Option<f64>> {
     let [before, after] = [before, after].map(|rated| {
         let rate = rated.row.overturning_per_year.value.filter(|rate| *rate > 0.0);
-        rate.map(|rate| RateByParts { rate, sds: rated.doubts.source_sds() })
+        rate.map(|rate| RateBySource { rate, sds: rated.doubts.source_sds() })
     });
     let Some((before, after)) = before.zip(after) else { return Interval::default() };
     let is_shared = |part: UncertaintySource| {

@@ -1,7 +1,7 @@
 //! The page of fragilities: the intensities of one peak at which half of the motions overturn each object.
 
 use rockfrag_core::fragility::{LimitState, Peak};
-use rockfrag_core::hazard::{Fragility, Lognormal, intensity_in_words};
+use rockfrag_core::hazard::{Fragility, Lognormal, format_intensity};
 
 use super::answers::Outline;
 use super::figure::{Figure, Ink, Layer};
@@ -77,14 +77,14 @@ pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Opti
 /// The intensity at which half of the motions overturn an object: `PGA of 0.83 g`.
 pub fn half_in_words(over: Peak, Lognormal { theta, .. }: &Lognormal) -> String {
     let of = if theta.value.is_some() { "of " } else { "" };
-    format!("{} {of}{}", over.name_and_unit().0, intensity_in_words(over, theta.value))
+    format!("{} {of}{}", over.name_and_unit().0, format_intensity(over, theta.value))
 }
 
 /// The intensity of one half, its limits after words, and those of 16 and 84 %.
 pub fn cells(over: Peak, Lognormal { at_16, theta, at_84, .. }: &Lognormal, words: &str) -> Vec<String> {
-    let [low, high] = [theta.low, theta.high].map(|limit| intensity_in_words(over, limit));
+    let [low, high] = [theta.low, theta.high].map(|limit| format_intensity(over, limit));
     let limits = theta.low.map_or(String::new(), |_| format!("({words}{low} to {high})"));
-    let [theta, at_16, at_84] = [theta, at_16, at_84].map(|at| intensity_in_words(over, at.value));
+    let [theta, at_16, at_84] = [theta, at_16, at_84].map(|at| format_intensity(over, at.value));
     vec![theta, limits, at_16, at_84]
 }
 
@@ -99,7 +99,7 @@ fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
             Some(Fragility { over, overturning, failure, .. }) => {
                 row.extend(cells(*over, overturning, "").iter().map(|cell| cell.replace(['(', ')'], "")));
                 row.push(overturning.beta.map_or(String::new(), |beta| significant(beta, 2)));
-                row.push(intensity_in_words(*over, failure.theta.value));
+                row.push(format_intensity(*over, failure.theta.value));
             }
         }
         rows.push(row);

@@ -1,9 +1,10 @@
 //! The page of one object: to scale, its fragility, the hazard, what would change the answer, what is not
 //! known.
 
-use rockfrag_core::fragility::{LimitState, Peak, Z_95};
-use rockfrag_core::hazard::{Fragility, intensity_in_words};
+use rockfrag_core::fragility::{LimitState, Peak};
+use rockfrag_core::hazard::{Fragility, format_intensity};
 use rockfrag_core::object::UncertaintySource;
+use rockfrag_core::statistics::normal::Z_95;
 use strum::VariantArray;
 
 use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
@@ -304,7 +305,7 @@ fn tiles(Evaluation { when, portrait, .. }: &Evaluation) -> Vec<Tile> {
         });
         let words =
             format!("{} at which half of the motions overturn it{site}", fragility.over.name_and_unit().0);
-        tiles.push(Tile::new(intensity_in_words(fragility.over, fragility.overturning.theta.value), words));
+        tiles.push(Tile::new(format_intensity(fragility.over, fragility.overturning.theta.value), words));
     }
     tiles
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use rockfrag_core::fragility::DemandFit;
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::studies::paper::{Comparison, compare};
+use rockfrag_core::studies::comparison::{Comparison, compare};
 use serde::Serialize;
 
 use super::Stages;

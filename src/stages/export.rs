@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rockfrag_core::fragility::{LimitStates, Peak};
-use rockfrag_core::hazard::{SitesInGeneral, strongest};
+use rockfrag_core::hazard::{GenericSites, strongest};
 use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
@@ -142,7 +142,7 @@ impl Export {
         rocking_object: &RockingObject,
     ) -> anyhow::Result<Function> {
         let model = &rocking_object.directions[0].model;
-        let general = SitesInGeneral { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
+        let general = GenericSites { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
         let given_peak = general.given_peak(&rocking_object.directions);
         let reaching = |intensity: f64| {
             given_peak.limit_states(intensity).map(|p| p.unwrap_or_default().clamp(0.0, 1.0))

@@ -187,7 +187,7 @@ fn together(
 
 /// How many samples the motions of a scenario have, which must not be too many.
 fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
-    let samples = model.samples(scenario);
+    let samples = model.sample_count(scenario);
     anyhow::ensure!(
         samples <= LONGEST_MOTION,
         "scenario {}: a motion of {} samples; expected {} at most: choose a larger --dt",

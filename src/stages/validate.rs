@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use rockfrag_core::fragility::{Case, Cases, Event, Model, MotionKind, Scenarios};
+use rockfrag_core::fragility::{Case, Cases, Event, Model, MotionKind, Tau};
 use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::Serialize;
@@ -97,7 +97,7 @@ fn validate(
     let mut outside = false;
     for Case { outcome, measures, mw, cluster, .. } in &cases.all {
         let Some(has_happened) = event.happened(*outcome, limit_state) else { continue };
-        let predicted = model.probabilities(&cases.structure, measures, *mw, Scenarios::Many).given_rocking;
+        let predicted = model.probabilities(&cases.structure, measures, *mw, Tau::Averaged).given_rocking;
         let p = predicted.and_then(|given| match event {
             Event::Overturning => Some(given.p_ro),
             Event::Exceeding => given.p_ex,
@@ -114,8 +114,8 @@ fn validate(
         structure: &cases.structure.name,
         event,
         model: match model {
-            Model::Calibrated { overturning, .. } if overturning.n == 0 => "surface",
-            Model::Calibrated { .. } => "calibrated",
+            Model::Surface { overturning, .. } if overturning.n == 0 => "surface",
+            Model::Surface { .. } => "calibrated",
             Model::Paper { .. } => "paper",
         },
         probabilities: &probabilities,

@@ -106,7 +106,8 @@ pub struct RatesRow {
 
 impl RatesRow {
     pub fn new(rates: &SiteRates, years: f64, bases: Bases) -> RatesRow {
-        let (rocking, failure, overturning) = (rates.rocking.value, rates.failure, rates.overturning);
+        let (rocking, failure, overturning) =
+            (rates.states.rocking.value, rates.states.failure, rates.states.overturning);
         RatesRow {
             rocking_per_year: rocking,
             failure_per_year: failure,
@@ -117,7 +118,7 @@ impl RatesRow {
             p_failure: failure.map(|rate| probability_in_years(rate, years)),
             p_overturning: overturning.map(|rate| probability_in_years(rate, years)),
             is_range: overturning.low.map(|_| overturning.value.is_none()),
-            velocity_by: rates.velocity,
+            velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,
             bases,
         }

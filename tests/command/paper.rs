@@ -62,8 +62,8 @@ fn number(name: &str, suite: &str, structure: &str) -> f64 {
     };
     let curve = curves.into_iter().find(is_it).unwrap();
     match column {
-        "mu" => mu(&curve.coefficients).0,
-        "lambda" => lambda(&curve.coefficients).0,
+        "mu" => mu(&curve.coefficients).value,
+        "lambda" => lambda(&curve.coefficients).value,
         "log_likelihood" => curve.log_likelihood.unwrap(),
         "auc" => curve.auc.unwrap(),
         "brier" => curve.brier.unwrap(),

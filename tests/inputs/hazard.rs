@@ -113,7 +113,7 @@ fn a_table_of_one_motion_and_several_measures_has_their_curves() {
         format!("{a},{},{},{}", rate(a), 4.0 * rate(a), 0.8 * rate(a))
     });
     let hazard = curves(&[text.as_bytes()], "", "");
-    assert!(hazard.velocity.is_some());
+    assert!(hazard.pgv_pga.is_some());
     assert!((hazard.curve.points()[0].1 / rate(0.1) - 1.0).abs() < 1e-9);
 }
 
@@ -214,7 +214,7 @@ fn curves_given_together_are_of_one_site_and_in_their_units() {
         assert!(refusal.contains(named), "{named}: {refusal}");
     }
     let same = with("# vs30=760.0\n", "SA(1.0) (g),AFE", 0.5);
-    assert!(curves(&[pga.as_bytes(), same.as_bytes()], "", "").velocity.is_some());
+    assert!(curves(&[pga.as_bytes(), same.as_bytes()], "", "").pgv_pga.is_some());
 }
 
 #[test]

@@ -6,16 +6,16 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::cases::{Case, Cases, Event, Group};
-use super::level::{QuantileLevel, Scenarios};
+use super::joint_peaks::{JointPeaks, RatioGiven};
 use super::measure_names::Measure;
-use super::peaks::{JointPeaks, RatioGiven};
+use super::model_point::{ModelPoint, Tau};
 use super::surface::{self, Im4Terms, MotionKind, Prior, StructureSurface, SurfaceAtIm4};
-use super::tree::Z_95;
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::{Bounds, Interval, independent_errors, variance};
+use crate::statistics::normal::Z_95;
+use crate::statistics::{Bounds, Interval, delta_variance, independent_errors};
 use crate::warning::Warning;
 
 /// The universal surface, calibrated for one structure and suite.
@@ -52,15 +52,15 @@ pub struct Calibration {
 
 /// The terms of the logit for one case.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Predictor {
+pub struct LogitTerms {
     /// L, the logit of the surface.
     pub logit: f64,
     /// M - 6.9, M within the magnitudes of the kind of motion; an unknown M is inferred from PGV / PGA.
     pub magnitude: f64,
     /// Standard deviation of M where it is not known, else 0.
     pub magnitude_sd: f64,
-    /// The uplift term g = -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift.
-    pub added: f64,
+    /// g = -(d / ((IM4 - 1) IM5^k))^n, minus infinity at uplift; on a floor with its shift.
+    pub uplift_term: f64,
 }
 
 /// An object that stood or fell in an earthquake.
@@ -87,7 +87,7 @@ impl Calibration {
     }
 
     /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.
-    pub fn shipped(kind: MotionKind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
+    pub fn uncalibrated(kind: MotionKind, structure: &Structure, limit_state: Option<f64>) -> Calibration {
         let Prior { mean: [c, ln_s, m], sd, tau, .. } = surface::prior(kind, limit_state);
         let variances = DVector::from_vec(sd.map(|sd| sd * sd).to_vec());
         let peaks = surface::peaks(kind);
@@ -113,29 +113,30 @@ impl Calibration {
     /// of motion.
     pub fn fit(cases: &Cases, limit_state: Option<f64>) -> Calibration {
         let kind = MotionKind::from_suite(cases.suite.as_deref());
-        let shipped = Calibration::shipped(kind, &cases.structure, limit_state);
+        let uncalibrated = Calibration::uncalibrated(kind, &cases.structure, limit_state);
         let peaks = JointPeaks::fit(cases.all.iter().map(|case| case.peaks)).unwrap_or(surface::peaks(kind));
         Calibration {
             suite: cases.suite.clone(),
             ratio_given_pga: peaks.given_pga.to_numbers(),
             ratio_given_pgv: peaks.given_pgv.to_numbers(),
-            ..shipped.fitted(&observed(cases, &shipped))
+            ..uncalibrated.fitted(&observed(cases, &uncalibrated))
         }
     }
 
     /// Fits c, ln s and m of P_ro to observed outcomes. Objects that the motion does not uplift do not count;
     /// p, alpha and eta are those of the first object.
     pub fn fit_outcomes(outcomes: &[ObservedOutcome]) -> Option<Calibration> {
-        let shipped = Calibration::shipped(MotionKind::Recorded, &outcomes.first()?.structure, None);
+        let uncalibrated =
+            Calibration::uncalibrated(MotionKind::Recorded, &outcomes.first()?.structure, None);
         let observed = outcomes.iter().filter_map(|outcome| {
             let ObservedOutcome { structure, peaks, mw, earthquake: cluster, fell } = outcome.clone();
             let measures = IntensityMeasures::new(&structure, peaks, None, None);
-            let (predictor, expected) = shipped.prediction(&structure, &measures, mw)?;
-            Some(Observation { predictor, happened: fell, expected, peaks, cluster })
+            let (terms, expected) = uncalibrated.prediction(&structure, &measures, mw)?;
+            Some(Observation { terms, happened: fell, expected, peaks, cluster })
         });
         let observed: Vec<Observation> = observed.collect();
         let name = OUTCOMES.to_string();
-        Some(Calibration { suite: Some(name.clone()), structure: name, ..shipped.fitted(&observed) })
+        Some(Calibration { suite: Some(name.clone()), structure: name, ..uncalibrated.fitted(&observed) })
     }
 
     /// Whether it was fitted to observed outcomes, and so applies to other objects too.
@@ -163,31 +164,31 @@ impl Calibration {
     }
 
     /// The terms of the logit of a motion, of magnitude `mw` if known; none where a measure is missing.
-    pub fn predictor(
+    pub fn terms(
         &self,
         structure: &Structure,
         measures: &IntensityMeasures,
         mw: Option<f64>,
-    ) -> Option<Predictor> {
-        self.branch(structure, mw).predictor_of(structure, measures)
+    ) -> Option<LogitTerms> {
+        self.branch(structure, mw).terms_of(structure, measures)
     }
 
-    /// The predictor with its probability; none at uplift, or where a measure is missing.
+    /// The terms with its probability; none at uplift, or where a measure is missing.
     fn prediction(
         &self,
         structure: &Structure,
         measures: &IntensityMeasures,
         mw: Option<f64>,
-    ) -> Option<(Predictor, f64)> {
+    ) -> Option<(LogitTerms, f64)> {
         let branch = self.branch(structure, mw);
-        let predictor = branch.predictor_of(structure, measures)?;
-        let p = branch.probability(&predictor, QuantileLevel::Estimate);
-        (predictor.logit.is_finite() && predictor.added.is_finite()).then_some((predictor, p))
+        let terms = branch.terms_of(structure, measures)?;
+        let p = branch.probability(&terms, ModelPoint::Estimate);
+        (terms.logit.is_finite() && terms.uplift_term.is_finite()).then_some((terms, p))
     }
 
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
         let surface = StructureSurface::new(self.kind, structure, self.limit_state, mw);
-        let errors = self.errors().map(|ends| ends.map(Parameters::new)).collect();
+        let errors = self.errors().map(|at_quantiles| at_quantiles.map(Parameters::new)).collect();
         Branch {
             calibration: self,
             surface,
@@ -202,24 +203,23 @@ impl Calibration {
         structure: &Structure,
         measures: &IntensityMeasures,
         mw: Option<f64>,
-        scenarios: Scenarios,
+        tau: Tau,
     ) -> Option<Interval> {
         let branch = self.branch(structure, mw);
-        let predictor = branch.predictor_of(structure, measures)?;
-        let [value, low, high] =
-            QuantileLevel::with_limits(scenarios).map(|level| branch.probability(&predictor, level));
+        let terms = branch.terms_of(structure, measures)?;
+        let [value, low, high] = ModelPoint::at_limits(tau).map(|point| branch.probability(&terms, point));
         Some(Interval { value, low, high })
     }
 
     /// c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
     fn errors(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
         let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
-        errors.into_iter().map(|ends| ends.map(|b| [b[0], b[1], b[2]]))
+        errors.into_iter().map(|at_quantiles| at_quantiles.map(|b| [b[0], b[1], b[2]]))
     }
 
-    pub(super) fn ends(&self) -> Vec<[Calibration; 2]> {
+    pub(super) fn at_quantiles(&self) -> Vec<[Calibration; 2]> {
         let with = |[c, ln_s, m]: [f64; 3]| Calibration { c, ln_s, m, ..self.clone() };
-        self.errors().map(|ends| ends.map(with)).collect()
+        self.errors().map(|at_quantiles| at_quantiles.map(with)).collect()
     }
 
     pub fn peaks(&self) -> JointPeaks {
@@ -277,55 +277,55 @@ impl Parameters {
 }
 
 impl Branch<'_> {
-    fn predictor_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<Predictor> {
-        let ln_seconds = ln_seconds(structure, measures)?;
+    fn terms_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<LogitTerms> {
+        let ln_pgv_pga = ln_pgv_pga(structure, measures)?;
         let at_im4 = self.surface.at(&Im4Terms::new(measures.im4, measures.im4.ln()));
-        Some(self.predictor(&at_im4, ln_seconds, self.surface.magnitude(ln_seconds + at_im4.excess)))
+        Some(self.terms(&at_im4, ln_pgv_pga, self.surface.magnitude(ln_pgv_pga + at_im4.excess)))
     }
 
     /// For motions with this ln(PGV / PGA), s, and M - 6.9.
-    pub fn predictor(&self, at_im4: &SurfaceAtIm4, ln_seconds: f64, magnitude: f64) -> Predictor {
-        Predictor {
-            logit: at_im4.logit(ln_seconds),
+    pub fn terms(&self, at_im4: &SurfaceAtIm4, ln_pgv_pga: f64, magnitude: f64) -> LogitTerms {
+        LogitTerms {
+            logit: at_im4.logit(ln_pgv_pga),
             magnitude,
             magnitude_sd: self.surface.magnitude_sd,
-            added: at_im4.gain(ln_seconds),
+            uplift_term: at_im4.uplift_term(ln_pgv_pga),
         }
     }
 
-    pub fn probability(&self, predictor: &Predictor, level: QuantileLevel) -> f64 {
-        logistic(self.logit(predictor, level))
+    pub fn probability(&self, terms: &LogitTerms, point: ModelPoint) -> f64 {
+        logistic(self.logit(terms, point))
     }
 
     /// The logit c + s L + m (M - 6.9) + g. Its 95 % limits are by the delta method, J V J', without g; those
     /// of one scenario add tau and the spread of an unknown magnitude.
-    pub fn logit(&self, predictor: &Predictor, level: QuantileLevel) -> f64 {
-        let Parameters { c, s, m } = match level {
-            QuantileLevel::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+    pub fn logit(&self, terms: &LogitTerms, point: ModelPoint) -> f64 {
+        let Parameters { c, s, m } = match point {
+            ModelPoint::Error { number, is_high } => self.errors[number][usize::from(is_high)],
             _ => self.parameters,
         };
         // P must not fall as PGV rises: where it would, a magnitude inferred from PGV / PGA does not count.
-        let is_told = predictor.magnitude_sd > 0.0;
+        let is_inferred = terms.magnitude_sd > 0.0;
         let magnitude =
-            if is_told && m < 0.0 { self.surface.middle_magnitude() } else { predictor.magnitude };
-        let scaled = s * predictor.logit;
-        let logit = c + scaled + m * magnitude + predictor.added;
-        let (sign, scenarios) = match level {
-            QuantileLevel::Estimate | QuantileLevel::Error { .. } => return logit,
-            QuantileLevel::Low(scenarios) => (-1.0, scenarios),
-            QuantileLevel::High(scenarios) => (1.0, scenarios),
+            if is_inferred && m < 0.0 { self.surface.middle_magnitude() } else { terms.magnitude };
+        let scaled = s * terms.logit;
+        let logit = c + scaled + m * magnitude + terms.uplift_term;
+        let (sign, tau) = match point {
+            ModelPoint::Estimate | ModelPoint::Error { .. } => return logit,
+            ModelPoint::Low(tau) => (-1.0, tau),
+            ModelPoint::High(tau) => (1.0, tau),
         };
-        let between = match scenarios {
-            Scenarios::One => self.calibration.tau.hypot(m * predictor.magnitude_sd),
-            Scenarios::Many => 0.0,
+        let between = match tau {
+            Tau::Included => self.calibration.tau.hypot(m * terms.magnitude_sd),
+            Tau::Averaged => 0.0,
         };
-        let variance = variance(&self.calibration.covariance, &[1.0, scaled, magnitude]);
+        let variance = delta_variance(&self.calibration.covariance, &[1.0, scaled, magnitude]);
         logit + sign * Z_95 * variance.sqrt().hypot(between)
     }
 }
 
 /// ln(PGV / PGA), s; none where a measure is missing.
-fn ln_seconds(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
+fn ln_pgv_pga(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
     let im5 = Measure::Im5.value_of(measures)?;
     Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
 }
@@ -336,7 +336,7 @@ fn logistic(z: f64) -> f64 {
 
 /// A case of the likelihood.
 struct Observation {
-    predictor: Predictor,
+    terms: LogitTerms,
     happened: bool,
     /// The probability by the uncalibrated surface.
     expected: f64,
@@ -345,15 +345,15 @@ struct Observation {
     cluster: u32,
 }
 
-fn observed(cases: &Cases, shipped: &Calibration) -> Vec<Observation> {
-    let (event, limit_state) = match shipped.limit_state {
+fn observed(cases: &Cases, uncalibrated: &Calibration) -> Vec<Observation> {
+    let (event, limit_state) = match uncalibrated.limit_state {
         Some(limit_state) => (Event::Exceeding, limit_state),
         None => (Event::Overturning, f64::INFINITY),
     };
     let counts = cases.all.iter().filter_map(|&Case { outcome, measures, peaks, mw, cluster }| {
         let happened = event.happened(outcome, limit_state)?;
-        let (predictor, expected) = shipped.prediction(&cases.structure, &measures, mw)?;
-        Some(Observation { predictor, happened, expected, peaks, cluster })
+        let (terms, expected) = uncalibrated.prediction(&cases.structure, &measures, mw)?;
+        Some(Observation { terms, happened, expected, peaks, cluster })
     });
     counts.collect()
 }
@@ -366,10 +366,10 @@ fn maximum(cases: &[Observation], prior: &Prior) -> (DVector<f64>, DMatrix<f64>,
     let found = maximise(|at| log_posterior(cases, prior, at), DVector::from_vec(prior.mean.to_vec()));
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
     let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
-    let slopes: Vec<f64> = cases.iter().map(|case| s * case.predictor.logit).collect();
-    let magnitudes: Vec<f64> = cases.iter().map(|case| case.predictor.magnitude).collect();
-    let scores = cases.iter().map(|Observation { predictor, happened, .. }| {
-        let z = c + s * predictor.logit + m * predictor.magnitude + predictor.added;
+    let slopes: Vec<f64> = cases.iter().map(|case| s * case.terms.logit).collect();
+    let magnitudes: Vec<f64> = cases.iter().map(|case| case.terms.magnitude).collect();
+    let scores = cases.iter().map(|Observation { terms, happened, .. }| {
+        let z = c + s * terms.logit + m * terms.magnitude + terms.uplift_term;
         f64::from(*happened) - logistic(z)
     });
     let (scores, clusters): (Vec<f64>, Vec<u32>) = scores.zip(cases.iter().map(|case| case.cluster)).unzip();
@@ -385,9 +385,9 @@ fn maximum(cases: &[Observation], prior: &Prior) -> (DVector<f64>, DMatrix<f64>,
 fn log_posterior(cases: &[Observation], prior: &Prior, at: &DVector<f64>) -> Objective {
     let s = at[1].exp();
     let mut sum = Objective::sum(cases.len(), 3, |case, sum| {
-        let Observation { predictor, happened, .. } = &cases[case];
-        let by = [1.0, s * predictor.logit, predictor.magnitude];
-        let z = at[0] + by[1] + at[2] * by[2] + predictor.added;
+        let Observation { terms, happened, .. } = &cases[case];
+        let by = [1.0, s * terms.logit, terms.magnitude];
+        let z = at[0] + by[1] + at[2] * by[2] + terms.uplift_term;
         let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });
         let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
         sum.value -= softplus(-sign * z);

@@ -3,10 +3,10 @@
 
 use nalgebra::DVector;
 
-use super::tree::Z_95;
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
 use crate::statistics::newton::{Objective, maximise};
+use crate::statistics::normal::Z_95;
 use crate::statistics::normal::ln_cdf_and_slope;
 use crate::statistics::{FitStatus, Interval};
 

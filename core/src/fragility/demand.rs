@@ -15,7 +15,7 @@ use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::spelling::unknown_word;
 use crate::statistics::{FitStatus, Interval, LinearFit, held_out_log_score, least_squares};
-use crate::statistics::{independent_errors, normal, tested_least_squares, variance};
+use crate::statistics::{delta_variance, independent_errors, normal, tested_least_squares};
 
 /// P_ex from the logarithm of the median demand Dm and the dispersion beta: Phi((ln Dm - ln c) / beta)
 /// (Eq. 14, which prints the argument with the other sign, by which P_ex would fall with demand).
@@ -318,17 +318,18 @@ impl DemandFit {
         let beta = self.beta?;
         let ims = values(&self.im_x, self.im_y.as_ref(), measures)?;
         let ln_median = ln_median_demand(&self.coefficients, &ims);
-        let by_median = variance(&self.covariance, &design_row(&ims));
+        let by_median = delta_variance(&self.covariance, &design_row(&ims));
         let by_beta = (ln_median - limit_state.ln()).powi(2) / (2.0 * self.residual_degrees());
         let half_width = quantile(confidence, self.degrees) * (by_median + by_beta).sqrt();
         Some(Interval::shifted(half_width, |shift| p_exceeding(ln_median + shift, limit_state, beta)))
     }
 
     /// The fit with each independent error of its coefficients, and of beta, at the limits of confidence.
-    pub(super) fn ends(&self, confidence: f64) -> Vec<[DemandFit; 2]> {
+    pub(super) fn at_quantiles(&self, confidence: f64) -> Vec<[DemandFit; 2]> {
         let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
-        let errors = errors.map(|ends| ends.map(|coefficients| DemandFit { coefficients, ..self.clone() }));
+        let errors = errors
+            .map(|at_quantiles| at_quantiles.map(|coefficients| DemandFit { coefficients, ..self.clone() }));
         let off = away / (2.0 * self.residual_degrees()).sqrt();
         let by_beta =
             [-off, off].map(|off| DemandFit { beta: self.beta.map(|beta| beta * off.exp()), ..self.clone() });

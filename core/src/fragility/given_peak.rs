@@ -1,9 +1,9 @@
 //! Probabilities given one peak, PGA or PGV: averaged over PGV / PGA of the motions that have it.
 
-use super::level::{QuantileLevel, Scenarios};
+use super::joint_peaks::{Peak, RatioGiven};
 use super::model::{Model, RockingDirection};
+use super::model_point::{ModelPoint, Tau};
 use super::on_floor::UpliftIntensities;
-use super::peaks::{Peak, RatioGiven};
 use super::ready::ReadyObject;
 use super::surface;
 use super::tree::LimitStates;
@@ -39,7 +39,7 @@ pub struct GivenPeak<'a> {
 /// Where the prediction for a direction bends.
 struct Bend {
     /// ln(PGV / PGA), s.
-    ln_seconds: f64,
+    ln_pgv_pga: f64,
     /// ln of the PGA (m/s2) beyond which PGV alone counts.
     ln_held_pga: f64,
 }
@@ -55,7 +55,7 @@ impl<'a> GivenPeak<'a> {
         let mut bends = Vec::new();
         for RockingDirection { structure, model } in directions {
             let ln_held_pga = surface::held_pga_m_s2(structure).ln();
-            bends.extend(model.bends(mw).into_iter().map(|ln_seconds| Bend { ln_seconds, ln_held_pga }));
+            bends.extend(model.bends(mw).into_iter().map(|ln_pgv_pga| Bend { ln_pgv_pga, ln_held_pga }));
         }
         GivenPeak { directions, ready: ReadyObject::new(directions, mw), peak, ratio, bends }
     }
@@ -70,30 +70,26 @@ impl<'a> GivenPeak<'a> {
     }
 
     pub fn limit_states(&self, intensity: f64) -> LimitStates<Option<f64>> {
-        self.at_levels(intensity, &[QuantileLevel::Estimate])[0]
+        self.at_points(intensity, &[ModelPoint::Estimate])[0]
     }
 
-    pub fn estimates(&self, intensity: f64, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
-        LimitStates::from_levels(&self.at_levels(intensity, &QuantileLevel::with_limits(scenarios)))
+    pub fn estimates(&self, intensity: f64, tau: Tau) -> LimitStates<Option<Interval>> {
+        LimitStates::from_points(&self.at_points(intensity, &ModelPoint::at_limits(tau)))
     }
 
-    pub(crate) fn at_levels(
-        &self,
-        intensity: f64,
-        levels: &[QuantileLevel],
-    ) -> Vec<LimitStates<Option<f64>>> {
-        let mut means = vec![LimitStates::all(Some(0.0)); levels.len()];
+    pub(crate) fn at_points(&self, intensity: f64, points: &[ModelPoint]) -> Vec<LimitStates<Option<f64>>> {
+        let mut means = vec![LimitStates::all(Some(0.0)); points.len()];
         if self.peak == Peak::Pga && intensity < self.least_uplift_m_s2() {
             return means;
         }
         let mut states = means.clone();
         let at_pga = (self.peak == Peak::Pga).then(|| self.ready.at(intensity));
-        self.for_each_node(intensity, |ln_seconds, weight| {
+        self.for_each_node(intensity, |ln_pgv_pga, weight| {
             match &at_pga {
-                Some(at_pga) => at_pga.limit_states(ln_seconds, levels, &mut states),
+                Some(at_pga) => at_pga.limit_states(ln_pgv_pga, points, &mut states),
                 None => {
-                    let at_pga = self.ready.at(intensity * (-ln_seconds).exp());
-                    at_pga.limit_states(ln_seconds, levels, &mut states);
+                    let at_pga = self.ready.at(intensity * (-ln_pgv_pga).exp());
+                    at_pga.limit_states(ln_pgv_pga, points, &mut states);
                 }
             }
             for (mean, state) in means.iter_mut().zip(&states) {
@@ -200,8 +196,8 @@ impl<'a> GivenPeak<'a> {
     /// Edges, in standard deviations, between which probabilities are smooth in PGV / PGA.
     fn edges(&self, ln_intensity: f64) -> Vec<f64> {
         let median = self.ratio.ln_ratio(ln_intensity, 0.0);
-        let deviations = |ln_seconds: f64| {
-            let above = ln_seconds - median;
+        let deviations = |ln_pgv_pga: f64| {
+            let above = ln_pgv_pga - median;
             above / (self.ratio.ln_ratio(ln_intensity, above.signum()) - median).abs()
         };
         let first = if self.peak == Peak::Pga { -FARTHEST_BELOW } else { -FARTHEST };
@@ -209,9 +205,9 @@ impl<'a> GivenPeak<'a> {
         if self.ratio.sd_below != self.ratio.sd_above {
             edges.push(0.0);
         }
-        for Bend { ln_seconds, ln_held_pga } in &self.bends {
+        for Bend { ln_pgv_pga, ln_held_pga } in &self.bends {
             let excess = (ln_intensity - ln_held_pga).max(0.0);
-            edges.push(deviations(if self.peak == Peak::Pga { ln_seconds - excess } else { *ln_seconds }));
+            edges.push(deviations(if self.peak == Peak::Pga { ln_pgv_pga - excess } else { *ln_pgv_pga }));
         }
         let mut last = FARTHEST;
         if self.peak == Peak::Pgv {

@@ -7,10 +7,10 @@
 //! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: their parameters
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
-//! level        the estimate, a limit, or the value with one error of the model
+//! model_point  the estimate, a limit, or the value with one error of the model
 //! model        the model that predicts: the calibrated surface, or the paper's fits
 //! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
-//! peaks        PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
+//! joint_peaks  PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
 //! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
 //! ```
 
@@ -19,18 +19,18 @@ mod capacity;
 mod cases;
 mod demand;
 mod given_peak;
-mod level;
+mod joint_peaks;
 mod measure_names;
 mod model;
+mod model_point;
 mod on_floor;
 mod overturning;
 mod parameter;
-mod peaks;
 mod ready;
 mod surface;
 mod tree;
 
-pub use calibration::{Calibration, ObservedOutcome, Predictor};
+pub use calibration::{Calibration, LogitTerms, ObservedOutcome};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::MOST_CASES;
 pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
@@ -38,16 +38,16 @@ pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding, sd_of_one_plane};
 pub use given_peak::GivenPeak;
-pub(crate) use level::QuantileLevel;
-pub use level::Scenarios;
+pub use joint_peaks::{JointPeaks, Peak, RatioGiven};
 pub use measure_names::{Measure, Predictors};
 pub use model::{Model, RockingDirection, paper_probabilities};
+pub(crate) use model_point::ModelPoint;
+pub use model_point::Tau;
 pub use on_floor::UpliftIntensities;
 pub use overturning::{CurveFit, fit_curve, fit_curves};
-pub use overturning::{beta, hybrid_measure, lambda, mu, p_overturning};
+pub use overturning::{DeltaEstimate, beta, hybrid_measure, lambda, mu, p_overturning};
 pub use parameter::{Parameter, ParameterRow};
-pub use peaks::{JointPeaks, Peak, RatioGiven};
 pub(crate) use ready::ReadyObject;
 pub use surface::MotionKind;
-pub use tree::{GivenRocking, LimitState, LimitStates, Probabilities, Z_95};
+pub use tree::{GivenRocking, LimitState, LimitStates, Probabilities};
 pub use tree::{independent_failure, p_failure, p_failure_given_rocking, p_no_rocking};

@@ -2,9 +2,9 @@
 
 use super::calibration::Calibration;
 use super::demand::DemandFit;
+use super::joint_peaks::JointPeaks;
 use super::on_floor::{self, UpliftIntensities};
 use super::overturning::CurveFit;
-use super::peaks::JointPeaks;
 use super::surface::{self, MotionKind};
 use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
 use crate::motion::{Floor, IntensityMeasures, Suite};
@@ -17,7 +17,7 @@ use crate::warning::Warning;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Model {
     /// The universal surface.
-    Calibrated { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
+    Surface { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
     Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
@@ -44,10 +44,10 @@ pub(super) const CONFIDENCE: f64 = 0.95;
 
 impl Model {
     /// The uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure, such as 0.10.
-    pub fn shipped(kind: MotionKind, structure: &Structure, limit_state: f64) -> Model {
-        Model::Calibrated {
-            overturning: Calibration::shipped(kind, structure, None),
-            exceeding: Calibration::shipped(kind, structure, Some(limit_state)),
+    pub fn uncalibrated(kind: MotionKind, structure: &Structure, limit_state: f64) -> Model {
+        Model::Surface {
+            overturning: Calibration::uncalibrated(kind, structure, None),
+            exceeding: Calibration::uncalibrated(kind, structure, Some(limit_state)),
             floor: None,
         }
     }
@@ -55,7 +55,7 @@ impl Model {
     /// `None` for the paper's model, which is fitted to the ground.
     pub fn on(mut self, on: Option<Floor>) -> Option<Model> {
         match &mut self {
-            Model::Calibrated { floor, .. } => *floor = on,
+            Model::Surface { floor, .. } => *floor = on,
             Model::Paper { .. } if on.is_some() => return None,
             Model::Paper { .. } => {}
         }
@@ -64,12 +64,12 @@ impl Model {
 
     /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. An error of
     /// one calibration of the surface has the same cause as that of the other.
-    pub fn ends(&self) -> Vec<[Model; 2]> {
+    pub fn at_quantiles(&self) -> Vec<[Model; 2]> {
         match *self {
-            Model::Calibrated { ref overturning, ref exceeding, floor } => {
-                let pairs = overturning.ends().into_iter().zip(exceeding.ends());
+            Model::Surface { ref overturning, ref exceeding, floor } => {
+                let pairs = overturning.at_quantiles().into_iter().zip(exceeding.at_quantiles());
                 let models = pairs.map(|([low, high], [low_ex, high_ex])| {
-                    [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Calibrated {
+                    [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Surface {
                         overturning,
                         exceeding,
                         floor,
@@ -79,12 +79,13 @@ impl Model {
             }
             Model::Paper { ref demand, ref overturning, limit_state, peaks } => {
                 let with = |demand, overturning| Model::Paper { demand, overturning, limit_state, peaks };
-                let curves = overturning.ends(CONFIDENCE).into_iter();
-                let mut all: Vec<[Model; 2]> =
-                    curves.map(|ends| ends.map(|curve| with(demand.clone(), curve))).collect();
+                let curves = overturning.at_quantiles(CONFIDENCE).into_iter();
+                let mut all: Vec<[Model; 2]> = curves
+                    .map(|at_quantiles| at_quantiles.map(|curve| with(demand.clone(), curve)))
+                    .collect();
                 for (at, plane) in demand.iter().enumerate() {
-                    all.extend(plane.ends(CONFIDENCE).into_iter().map(|ends| {
-                        ends.map(|plane| {
+                    all.extend(plane.at_quantiles(CONFIDENCE).into_iter().map(|at_quantiles| {
+                        at_quantiles.map(|plane| {
                             let mut planes = demand.clone();
                             planes[at] = plane;
                             with(planes, overturning.clone())
@@ -98,7 +99,7 @@ impl Model {
 
     pub fn kind(&self) -> MotionKind {
         match self {
-            Model::Calibrated { overturning, .. } => overturning.kind,
+            Model::Surface { overturning, .. } => overturning.kind,
             Model::Paper { overturning, .. } => MotionKind::from_suite(overturning.suite.as_deref()),
         }
     }
@@ -106,14 +107,14 @@ impl Model {
     /// `None` on the ground.
     pub fn floor(&self) -> Option<Floor> {
         match self {
-            Model::Calibrated { floor, .. } => *floor,
+            Model::Surface { floor, .. } => *floor,
             Model::Paper { .. } => None,
         }
     }
 
     pub fn description(&self) -> String {
         match self {
-            Model::Calibrated { overturning, .. } => {
+            Model::Surface { overturning, .. } => {
                 let Calibration { n, structure, kind, suite, .. } = overturning;
                 let (n, motions) = (*n as usize, kind.description());
                 let place = if Suite::is_floor(suite.as_deref()) { " of a floor" } else { "" };
@@ -138,20 +139,20 @@ impl Model {
     }
 
     pub fn depends_on_magnitude(&self) -> bool {
-        matches!(self, Model::Calibrated { .. })
+        matches!(self, Model::Surface { .. })
     }
 
     /// The values of ln(PGV / PGA), s, at which probabilities bend.
     pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
         match self {
-            Model::Calibrated { overturning, .. } => surface::bends(overturning.kind, mw),
+            Model::Surface { overturning, .. } => surface::bends(overturning.kind, mw),
             Model::Paper { .. } => Vec::new(),
         }
     }
 
     pub fn peaks(&self) -> JointPeaks {
         match self {
-            Model::Calibrated { overturning, .. } => overturning.peaks(),
+            Model::Surface { overturning, .. } => overturning.peaks(),
             Model::Paper { peaks, .. } => *peaks,
         }
     }
@@ -164,7 +165,7 @@ impl Model {
         let measures = on_floor.as_ref().unwrap_or(measures);
         let rocks = p_no_rocking(measures.im4) == 0.0;
         let mut warnings = match self {
-            Model::Calibrated { overturning, exceeding, .. } => {
+            Model::Surface { overturning, exceeding, .. } => {
                 let covered = exceeding
                     .limit_state
                     .is_none_or(|limit| surface::covers_motion(structure, measures, limit))

@@ -2,7 +2,7 @@
 //! frequency band, which changes the probabilities.
 
 use crate::motion::Floor;
-use crate::motion::floor::{Amplified, Amplifier, CORRELATION};
+use crate::motion::floor::{Amplification, CORRELATION, FloorModes};
 use crate::rocking::Structure;
 use crate::statistics::normal;
 
@@ -43,37 +43,37 @@ pub(super) fn uplift_m_s2(structure: &Structure) -> UpliftIntensities {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OnFloor {
-    amplifier: Amplifier,
+    modes: FloorModes,
     /// Added to the logits of P_ro and P_ex by a motion that is all resonance.
-    narrow: [f64; 2],
+    shifts_at_resonance: [f64; 2],
 }
 
 impl OnFloor {
     pub fn new(floor: Floor, structure: &Structure, limit_state: Option<f64>) -> OnFloor {
         let ln_periods = (structure.p_rad_s * floor.period_s).ln();
         let [a, b, by_limit] = EXCEEDING;
-        let narrow = [
+        let shifts_at_resonance = [
             OVERTURNING[0] + OVERTURNING[1] * ln_periods,
             a + by_limit * limit_state.map_or(0.0, |limit| (limit / 0.1).ln()) + b * ln_periods,
         ];
-        OnFloor { amplifier: floor.amplifier(), narrow }
+        OnFloor { modes: floor.modes(), shifts_at_resonance }
     }
 
     /// For motions of the ground with this ln(PGV / PGA), s.
-    pub fn motions(&self, ln_seconds: f64) -> FloorMotionDistribution {
-        let amplified = self.amplifier.at(ln_seconds);
+    pub fn motions(&self, ln_pgv_pga: f64) -> FloorMotionDistribution {
+        let amplification = self.modes.amplification(ln_pgv_pga);
         let nodes = NODES.map(|[x, y, weight]| {
             let along = CORRELATION * x + (1.0 - CORRELATION * CORRELATION).sqrt() * y;
-            let ln_pfa = amplified.ln_pfa + amplified.sd_ln_pfa * x;
-            let ln_pfv = amplified.ln_pfv + amplified.sd_ln_pfv * along;
-            FloorMotion { pfa: ln_pfa.exp(), ln_pfa, ln_seconds: ln_seconds + ln_pfv - ln_pfa, weight }
+            let ln_pfa = amplification.ln_pfa + amplification.sd_ln_pfa * x;
+            let ln_pfv = amplification.ln_pfv + amplification.sd_ln_pfv * along;
+            FloorMotion { pfa: ln_pfa.exp(), ln_pfa, ln_pgv_pga: ln_pgv_pga + ln_pfv - ln_pfa, weight }
         });
-        FloorMotionDistribution { nodes, amplified }
+        FloorMotionDistribution { nodes, amplification }
     }
 
     /// Added to the logits of P_ro and P_ex.
-    pub fn added(&self, motions: &FloorMotionDistribution) -> [f64; 2] {
-        self.narrow.map(|narrow| motions.amplified.resonant_share * narrow)
+    pub fn logit_shifts(&self, motions: &FloorMotionDistribution) -> [f64; 2] {
+        self.shifts_at_resonance.map(|shift| motions.amplification.resonant_share * shift)
     }
 }
 
@@ -81,7 +81,7 @@ impl OnFloor {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FloorMotionDistribution {
     pub nodes: [FloorMotion; NODES.len()],
-    amplified: Amplified,
+    amplification: Amplification,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -90,7 +90,7 @@ pub(super) struct FloorMotion {
     pub pfa: f64,
     pub ln_pfa: f64,
     /// ln(PFV / PFA), s.
-    pub ln_seconds: f64,
+    pub ln_pgv_pga: f64,
     /// The weights of all sum to 1.
     pub weight: f64,
 }
@@ -98,7 +98,7 @@ pub(super) struct FloorMotion {
 impl FloorMotionDistribution {
     /// The probability that the floor uplifts a structure whose IM4 is by the PGA of the ground.
     pub fn p_rocking(&self, ln_im4: f64) -> f64 {
-        let Amplified { ln_pfa, sd_ln_pfa, .. } = self.amplified;
+        let Amplification { ln_pfa, sd_ln_pfa, .. } = self.amplification;
         let ln_median = ln_im4 + ln_pfa;
         match sd_ln_pfa > 0.0 {
             true => 1.0 - normal::cdf(-ln_median / sd_ln_pfa),

@@ -10,7 +10,7 @@ use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
 use crate::statistics::{FitStatus, Interval, held_out_log_score, independent_errors, normal};
-use crate::statistics::{predict, probit, tested_probit, variance};
+use crate::statistics::{delta_variance, predict, probit, tested_probit};
 
 /// P_ro at the intensity `im`: Phi((ln IM - mu) / beta) (Eq. 20; Eq. 24 with the hybrid measure).
 pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
@@ -23,14 +23,18 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
 }
 
 /// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood, to `Event::Overturning` or
-/// `Event::Rocking`; the other events need a limit state, which a curve does not have. The likelihood of
+/// `Event::Rocking`. The likelihood of
 /// overturning is the product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro
 /// where it did not (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln
 /// IM - mu) / beta = b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and
 /// [`beta`].
 ///
+/// # Panics
+/// Of the other events, which need a limit state: a curve has none.
+///
 /// [`log_likelihood`]: crate::statistics::log_likelihood
 pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measure>) -> CurveFit {
+    assert!(matches!(event, Event::Overturning | Event::Rocking), "{event} needs a limit state");
     let measures: Vec<Measure> = std::iter::once(&im_x).chain(&im_y).cloned().collect();
     let sample = cases.sample(&measures, |case| event.happened(case.outcome, f64::INFINITY));
     let tested = tested_probit(&sample.x(), &sample.y, &sample.clusters);
@@ -84,22 +88,30 @@ fn slope(b: &[f64]) -> f64 {
     b[1..].iter().sum()
 }
 
-/// The exponent of the first measure of a hybrid, b1/b2 (Eq. 23), and its gradient.
-pub fn lambda(b: &[f64]) -> (f64, Vec<f64>) {
-    (b[1] / b[2], vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])])
+/// A function of the coefficients b with its gradient by them, for the delta method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeltaEstimate {
+    pub value: f64,
+    pub gradient: Vec<f64>,
 }
 
-/// The logarithm of the median, -b0/slope, and its gradient.
-pub fn mu(b: &[f64]) -> (f64, Vec<f64>) {
+/// The exponent of the first measure of a hybrid, b1/b2 (Eq. 23).
+pub fn lambda(b: &[f64]) -> DeltaEstimate {
+    DeltaEstimate { value: b[1] / b[2], gradient: vec![0.0, 1.0 / b[2], -b[1] / (b[2] * b[2])] }
+}
+
+/// The logarithm of the median, -b0/slope.
+pub fn mu(b: &[f64]) -> DeltaEstimate {
     let slope = slope(b);
     let by_slopes = vec![b[0] / (slope * slope); b.len() - 1];
-    (-b[0] / slope, [vec![-1.0 / slope], by_slopes].concat())
+    DeltaEstimate { value: -b[0] / slope, gradient: [vec![-1.0 / slope], by_slopes].concat() }
 }
 
-/// The dispersion, 1/slope, and its gradient.
-pub fn beta(b: &[f64]) -> (f64, Vec<f64>) {
+/// The dispersion, 1/slope.
+pub fn beta(b: &[f64]) -> DeltaEstimate {
     let slope = slope(b);
-    (1.0 / slope, [vec![0.0], vec![-1.0 / (slope * slope); b.len() - 1]].concat())
+    let by_slopes = vec![-1.0 / (slope * slope); b.len() - 1];
+    DeltaEstimate { value: 1.0 / slope, gradient: [vec![0.0], by_slopes].concat() }
 }
 
 /// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`]: of IM4 and IM5 or, if `all`, of all six
@@ -166,21 +178,23 @@ impl CurveFit {
         let ims =
             values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
         let b = &self.coefficients;
-        let (mu, beta) = (mu(b).0, beta(b).0);
+        let (mu, beta) = (mu(b).value, beta(b).value);
         let im = match ims[..] {
-            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(b).0),
+            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(b).value),
             _ => ims[0],
         };
-        let error = beta * variance(&self.covariance, &design_row(&ims)).sqrt();
+        let error = beta * delta_variance(&self.covariance, &design_row(&ims)).sqrt();
         let half_width = quantile(confidence, self.degrees) * error;
         Some(Interval::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
     }
 
     /// The curve with each independent error of its coefficients at the limits of confidence.
-    pub(super) fn ends(&self, confidence: f64) -> Vec<[CurveFit; 2]> {
+    pub(super) fn at_quantiles(&self, confidence: f64) -> Vec<[CurveFit; 2]> {
         let away = quantile(confidence, self.degrees);
         let errors = independent_errors(&self.coefficients, &self.covariance, away).into_iter();
-        errors.map(|ends| ends.map(|coefficients| CurveFit { coefficients, ..self.clone() })).collect()
+        errors
+            .map(|at_quantiles| at_quantiles.map(|coefficients| CurveFit { coefficients, ..self.clone() }))
+            .collect()
     }
 
     pub fn covers(&self, measures: &IntensityMeasures) -> bool {
@@ -203,8 +217,8 @@ impl CurveFit {
         let b = &self.coefficients;
         let hybrid = self.im_y.as_ref().map(|_| (Parameter::Lambda, lambda(b)));
         let estimates = hybrid.into_iter().chain([(Parameter::Mu, mu(b)), (Parameter::Beta, beta(b))]);
-        let rows = estimates.map(|(parameter, (value, gradient))| {
-            let standard_error = variance(&self.covariance, &gradient).sqrt();
+        let rows = estimates.map(|(parameter, DeltaEstimate { value, gradient })| {
+            let standard_error = delta_variance(&self.covariance, &gradient).sqrt();
             let half_width = quantile(confidence, self.degrees) * standard_error;
             ParameterRow {
                 suite: self.suite.clone(),

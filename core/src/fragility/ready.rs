@@ -3,12 +3,12 @@
 //! 1. [`ReadyObject`], once: the surface at this structure, limit state and magnitude, a polynomial in x, w
 //!    and r, and the errors of its calibration.
 //! 2. [`ObjectAtPga`], for each PGA: the surface at this IM4, which leaves a cubic in ln(PGA / PGV).
-//! 3. For each PGV / PGA: the cubic and g, and one logistic function for each level. On a floor the second
+//! 3. For each PGV / PGA: the cubic and g, and one logistic function for each point. On a floor the second
 //!    stage is repeated here, for each of the seven nodes of its peaks.
 
-use super::calibration::{Branch, Predictor};
-use super::level::{QuantileLevel, Scenarios};
+use super::calibration::{Branch, LogitTerms};
 use super::model::{CONFIDENCE, Model, RockingDirection, paper_probabilities};
+use super::model_point::{ModelPoint, Tau};
 use super::on_floor::{FloorMotionDistribution, OnFloor};
 use super::surface::{Im4Terms, SurfaceAtIm4};
 use super::tree::{GivenRocking, LimitStates, Probabilities, p_failure_given_rocking};
@@ -23,30 +23,30 @@ impl Model {
         structure: &Structure,
         measures: &IntensityMeasures,
         mw: Option<f64>,
-        scenarios: Scenarios,
+        tau: Tau,
     ) -> Probabilities {
         match self {
-            Model::Calibrated { overturning, exceeding, floor: None } => {
+            Model::Surface { overturning, exceeding, floor: None } => {
                 Probabilities::new(measures.im4, || {
-                    let p_ro = overturning.probability(structure, measures, mw, scenarios)?;
-                    let p_ex = exceeding.probability(structure, measures, mw, scenarios)?;
+                    let p_ro = overturning.probability(structure, measures, mw, tau)?;
+                    let p_ex = exceeding.probability(structure, measures, mw, tau)?;
                     // Errors of both have the same causes, so that their limits are joined in pairs.
                     let p_failure = p_ro.zip(p_ex, p_failure_given_rocking);
                     Some(GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) })
                 })
             }
-            Model::Calibrated { floor: Some(_), .. } => {
+            Model::Surface { floor: Some(_), .. } => {
                 let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
-                let ln_seconds = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
+                let ln_pgv_pga = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
                 let mut states = [LimitStates::all(Some(0.0)); 3];
                 let direction = ReadyDirection::new(structure, self, mw);
                 direction.at(pga_m_s2).combine_into(
-                    ln_seconds,
+                    ln_pgv_pga,
                     &mut None,
-                    &QuantileLevel::with_limits(scenarios),
+                    &ModelPoint::at_limits(tau),
                     &mut states,
                 );
-                Probabilities::on_floor(LimitStates::from_levels(&states))
+                Probabilities::on_floor(LimitStates::from_points(&states))
             }
             Model::Paper { demand, overturning, limit_state, .. } => {
                 paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE)
@@ -88,7 +88,7 @@ enum ReadyModel<'a> {
 impl<'a> ReadyDirection<'a> {
     fn new(structure: &'a Structure, model: &'a Model, mw: Option<f64>) -> ReadyDirection<'a> {
         let by = match model {
-            Model::Calibrated { overturning, exceeding, floor } => {
+            Model::Surface { overturning, exceeding, floor } => {
                 let branches = [overturning, exceeding].map(|calibration| calibration.branch(structure, mw));
                 match floor {
                     Some(floor) => {
@@ -97,7 +97,7 @@ impl<'a> ReadyDirection<'a> {
                     None => ReadyModel::Ground(branches),
                 }
             }
-            Model::Paper { .. } => ReadyModel::Paper(model, model.ends()),
+            Model::Paper { .. } => ReadyModel::Paper(model, model.at_quantiles()),
         };
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }
@@ -115,8 +115,8 @@ impl<'a> ReadyDirection<'a> {
             ReadyModel::Floor(branches, on_floor) => {
                 DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 }
             }
-            ReadyModel::Paper(model, ends) => {
-                DirectionAtPga::Paper { model, ends, structure: self.structure, pga_m_s2 }
+            ReadyModel::Paper(model, at_quantiles) => {
+                DirectionAtPga::Paper { model, at_quantiles, structure: self.structure, pga_m_s2 }
             }
         }
     }
@@ -127,74 +127,74 @@ enum DirectionAtPga<'a> {
     Still,
     Ground(&'a [Branch<'a>; 2], [SurfaceAtIm4; 2]),
     Floor { branches: &'a [Branch<'a>; 2], on_floor: &'a OnFloor, im4: f64, ln_im4: f64 },
-    Paper { model: &'a Model, ends: &'a [[Model; 2]], structure: &'a Structure, pga_m_s2: f64 },
+    Paper { model: &'a Model, at_quantiles: &'a [[Model; 2]], structure: &'a Structure, pga_m_s2: f64 },
 }
 
 impl DirectionAtPga<'_> {
-    /// Third stage: joins the probabilities at each level under motions with this ln(PGV / PGA), s, to those
+    /// Third stage: joins the probabilities at each point under motions with this ln(PGV / PGA), s, to those
     /// of other directions: an object falls in either, independently under one motion. `motions` are those of
     /// the floor, the same for all directions: the first that needs them computes them.
     fn combine_into(
         &self,
-        ln_seconds: f64,
+        ln_pgv_pga: f64,
         motions: &mut Option<FloorMotionDistribution>,
-        levels: &[QuantileLevel],
+        points: &[ModelPoint],
         joined: &mut [LimitStates<Option<f64>>],
     ) {
-        let levels = joined.iter_mut().zip(levels);
+        let points = joined.iter_mut().zip(points);
         match self {
             DirectionAtPga::Still => {}
             DirectionAtPga::Ground(branches, at_im4) => {
-                let predictors = [0, 1].map(|k| {
+                let terms = [0, 1].map(|k| {
                     let (branch, at_im4) = (&branches[k], &at_im4[k]);
-                    branch.predictor(at_im4, ln_seconds, branch.surface.magnitude(ln_seconds + at_im4.excess))
+                    branch.terms(at_im4, ln_pgv_pga, branch.surface.magnitude(ln_pgv_pga + at_im4.excess))
                 });
-                for (joined, level) in levels {
-                    let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
+                for (joined, point) in points {
+                    let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&terms[k], *point));
                     let failure = p_failure_given_rocking(p_ro, p_ex);
                     let states = LimitStates { rocking: 1.0, failure, overturning: p_ro };
-                    *joined = joined.or(states.known(ln_seconds));
+                    *joined = joined.or(states.known(ln_pgv_pga));
                 }
             }
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
-                let motions = motions.get_or_insert_with(|| on_floor.motions(ln_seconds));
-                let (added, rocking) = (on_floor.added(motions), motions.p_rocking(*ln_im4));
-                let magnitudes = branches.each_ref().map(|branch| branch.surface.magnitude(ln_seconds));
+                let motions = motions.get_or_insert_with(|| on_floor.motions(ln_pgv_pga));
+                let (shifts, rocking) = (on_floor.logit_shifts(motions), motions.p_rocking(*ln_im4));
+                let magnitudes = branches.each_ref().map(|branch| branch.surface.magnitude(ln_pgv_pga));
                 let rocks = motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0).map(|node| {
                     let at = Im4Terms::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
-                    let predictors = [0, 1].map(|k| {
+                    let terms = [0, 1].map(|k| {
                         let at_im4 = branches[k].surface.at(&at);
-                        let predictor = branches[k].predictor(&at_im4, node.ln_seconds, magnitudes[k]);
-                        Predictor { added: predictor.added + added[k], ..predictor }
+                        let terms = branches[k].terms(&at_im4, node.ln_pgv_pga, magnitudes[k]);
+                        LogitTerms { uplift_term: terms.uplift_term + shifts[k], ..terms }
                     });
-                    (node.weight, predictors)
+                    (node.weight, terms)
                 });
-                let rocks: Vec<(f64, [Predictor; 2])> = rocks.collect();
-                for (joined, level) in levels {
+                let rocks: Vec<(f64, [LogitTerms; 2])> = rocks.collect();
+                for (joined, point) in points {
                     let (mut failure, mut overturning) = (0.0, 0.0);
-                    for (weight, predictors) in &rocks {
-                        let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&predictors[k], *level));
+                    for (weight, terms) in &rocks {
+                        let [p_ro, p_ex] = [0, 1].map(|k| branches[k].probability(&terms[k], *point));
                         failure += weight * p_failure_given_rocking(p_ro, p_ex);
                         overturning += weight * p_ro;
                     }
                     let [failure, overturning] = [failure, overturning].map(|p: f64| p.min(rocking));
-                    *joined = joined.or(LimitStates { rocking, failure, overturning }.known(ln_seconds));
+                    *joined = joined.or(LimitStates { rocking, failure, overturning }.known(ln_pgv_pga));
                 }
             }
-            DirectionAtPga::Paper { model, ends, structure, pga_m_s2 } => {
-                let peaks = Peaks { pga_m_s2: *pga_m_s2, pgv_m_s: pga_m_s2 * ln_seconds.exp() };
+            DirectionAtPga::Paper { model, at_quantiles, structure, pga_m_s2 } => {
+                let peaks = Peaks { pga_m_s2: *pga_m_s2, pgv_m_s: pga_m_s2 * ln_pgv_pga.exp() };
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
-                for (joined, level) in levels {
-                    let model = match *level {
-                        QuantileLevel::Error { number, is_high } => &ends[number][usize::from(is_high)],
+                for (joined, point) in points {
+                    let model = match *point {
+                        ModelPoint::Error { number, is_high } => &at_quantiles[number][usize::from(is_high)],
                         _ => *model,
                     };
-                    let tree = model.probabilities(structure, &measures, None, Scenarios::Many);
+                    let tree = model.probabilities(structure, &measures, None, Tau::Averaged);
                     *joined = joined.or(tree.limit_states().map(|p| {
-                        p.map(|p| match level {
-                            QuantileLevel::Low(_) => p.low,
-                            QuantileLevel::High(_) => p.high,
-                            QuantileLevel::Estimate | QuantileLevel::Error { .. } => p.value,
+                        p.map(|p| match point {
+                            ModelPoint::Low(_) => p.low,
+                            ModelPoint::High(_) => p.high,
+                            ModelPoint::Estimate | ModelPoint::Error { .. } => p.value,
                         })
                     }));
                 }
@@ -203,13 +203,14 @@ impl DirectionAtPga<'_> {
     }
 }
 
-impl QuantileLevel {
+impl ModelPoint {
     /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
-    pub fn with_errors(directions: &[RockingDirection]) -> Vec<QuantileLevel> {
-        let fewest = directions.iter().map(|direction| direction.model.ends().len()).min().unwrap_or(0);
-        let errors = (0..fewest)
-            .flat_map(|number| [false, true].map(|is_high| QuantileLevel::Error { number, is_high }));
-        [QuantileLevel::Estimate].into_iter().chain(errors).collect()
+    pub fn at_errors(directions: &[RockingDirection]) -> Vec<ModelPoint> {
+        let fewest =
+            directions.iter().map(|direction| direction.model.at_quantiles().len()).min().unwrap_or(0);
+        let errors =
+            (0..fewest).flat_map(|number| [false, true].map(|is_high| ModelPoint::Error { number, is_high }));
+        [ModelPoint::Estimate].into_iter().chain(errors).collect()
     }
 }
 
@@ -230,41 +231,41 @@ impl<'a> ReadyObject<'a> {
         ObjectAtPga(self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect())
     }
 
-    pub fn limit_states(&self, peaks: Peaks, levels: &[QuantileLevel]) -> Vec<LimitStates<Option<f64>>> {
-        let mut states = vec![LimitStates::all(Some(0.0)); levels.len()];
-        let ln_seconds = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
-        self.at(peaks.pga_m_s2).limit_states(ln_seconds, levels, &mut states);
+    pub fn limit_states(&self, peaks: Peaks, points: &[ModelPoint]) -> Vec<LimitStates<Option<f64>>> {
+        let mut states = vec![LimitStates::all(Some(0.0)); points.len()];
+        let ln_pgv_pga = (peaks.pgv_m_s / peaks.pga_m_s2).ln();
+        self.at(peaks.pga_m_s2).limit_states(ln_pgv_pga, points, &mut states);
         states
     }
 
-    pub fn estimates(&self, peaks: Peaks, scenarios: Scenarios) -> LimitStates<Option<Interval>> {
-        LimitStates::from_levels(&self.limit_states(peaks, &QuantileLevel::with_limits(scenarios)))
+    pub fn estimates(&self, peaks: Peaks, tau: Tau) -> LimitStates<Option<Interval>> {
+        LimitStates::from_points(&self.limit_states(peaks, &ModelPoint::at_limits(tau)))
     }
 }
 
 pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
 
 impl ObjectAtPga<'_> {
-    /// The limit states at this ln(PGV / PGA), s, and each level; none where a model has none.
+    /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none.
     pub fn limit_states(
         &self,
-        ln_seconds: f64,
-        levels: &[QuantileLevel],
+        ln_pgv_pga: f64,
+        points: &[ModelPoint],
         states: &mut [LimitStates<Option<f64>>],
     ) {
         let mut motions = None;
         states.fill(LimitStates::all(Some(0.0)));
         for direction in &self.0 {
-            direction.combine_into(ln_seconds, &mut motions, levels, states);
+            direction.combine_into(ln_pgv_pga, &mut motions, points, states);
         }
     }
 }
 
 impl LimitStates<f64> {
     /// Without a PGV, only rocking is known.
-    fn known(self, ln_seconds: f64) -> LimitStates<Option<f64>> {
+    fn known(self, ln_pgv_pga: f64) -> LimitStates<Option<f64>> {
         let states = self.map(Some);
-        if ln_seconds.is_finite() {
+        if ln_pgv_pga.is_finite() {
             states
         } else {
             LimitStates { rocking: states.rocking, ..LimitStates::all(None) }

@@ -3,7 +3,7 @@
 
 use std::sync::LazyLock;
 
-use super::peaks::{JointPeaks, RatioGiven};
+use super::joint_peaks::{JointPeaks, RatioGiven};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
 use crate::spelling::unknown_word;
@@ -52,12 +52,12 @@ impl MotionKind {
 pub(super) struct StructureSurface {
     /// Coefficients of x^i w^j r^k: at `[i][j][k]`.
     coefficients: [[[f64; POWERS]; POWERS]; POWERS_OF_X],
-    /// 0.4 limit: ln IM4 - r - w.
-    lower: f64,
+    /// ln IM5 - w.
+    w_shift: f64,
     /// ln p of the structure, and within the domain.
     ln_p: f64,
     ln_p_held: f64,
-    rise: Rise,
+    uplift_term: UpliftTerm,
     /// M = intercept + slope ln(PGV / PGA), within the magnitudes of the data.
     intercept: f64,
     slope: f64,
@@ -87,10 +87,10 @@ impl StructureSurface {
         let (intercept, slope) = mw.map_or((intercept, slope), |mw| (mw, 0.0));
         StructureSurface {
             coefficients,
-            lower: 0.4 * limit,
+            w_shift: 0.4 * limit,
             ln_p: structure.p_rad_s.ln(),
             ln_p_held: p.ln(),
-            rise: branch.rise,
+            uplift_term: branch.uplift_term,
             intercept,
             slope,
             magnitudes: range,
@@ -99,8 +99,8 @@ impl StructureSurface {
     }
 
     /// M - 6.9 of motions with this ln(PGV / PGA), s.
-    pub fn magnitude(&self, ln_seconds: f64) -> f64 {
-        self.magnitudes.clamp(self.intercept + self.slope * ln_seconds) - REFERENCE_MAGNITUDE
+    pub fn magnitude(&self, ln_pgv_pga: f64) -> f64 {
+        self.magnitudes.clamp(self.intercept + self.slope * ln_pgv_pga) - REFERENCE_MAGNITUDE
     }
 
     /// M - 6.9 in the middle of the magnitudes of the data.
@@ -108,26 +108,26 @@ impl StructureSurface {
         0.5 * (self.magnitudes.low + self.magnitudes.high) - REFERENCE_MAGNITUDE
     }
 
-    /// L at an IM4, a cubic in r = ln(PGA / (p PGV)), by Horner's rule in w = ln IM4 - r - 0.4 l.
+    /// L at an IM4, a cubic in r = ln IM3, by Horner's rule in w = ln IM4 - r - 0.4 limit.
     pub fn at(&self, at: &Im4Terms) -> SurfaceAtIm4 {
         let Im4Terms { ln_im4, held, x, ln_above } = *at;
-        let ([a, b, c], w_at_r_0) = (&self.coefficients, held - self.lower);
+        let ([a, b, c], w_at_r_0) = (&self.coefficients, held - self.w_shift);
         let mut cubic = [0.0; POWERS];
         for w in (0..POWERS).rev() {
             for r in (0..POWERS - w).rev() {
-                let lower = if r > 0 { cubic[r - 1] } else { 0.0 };
+                let one_power_less = if r > 0 { cubic[r - 1] } else { 0.0 };
                 let by_x = a[w][r] + x * (b[w][r] + x * c[w][r]);
-                cubic[r] = w_at_r_0 * cubic[r] - lower + by_x;
+                cubic[r] = w_at_r_0 * cubic[r] - one_power_less + by_x;
             }
         }
-        let Rise { n, ln_d, k } = self.rise;
-        let ln_gain = n * (ln_d - ln_above - k * (self.ln_p + ln_im4));
+        let UpliftTerm { n, ln_d, k } = self.uplift_term;
+        let ln_uplift_term = n * (ln_d - ln_above - k * (self.ln_p + ln_im4));
         SurfaceAtIm4 {
             cubic,
             excess: ln_im4 - held,
             ln_p: self.ln_p_held,
-            ln_ratio: SURFACE.ln_ratio,
-            ln_gain,
+            ln_pga_pgv: SURFACE.ln_pga_pgv,
+            ln_uplift_term,
             slope: -n * k,
         }
     }
@@ -155,28 +155,28 @@ impl Im4Terms {
 /// The surface of a structure at one IM4: a function of ln(PGV / PGA), s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SurfaceAtIm4 {
-    /// L by powers of r.
+    /// L by powers of ln IM3.
     cubic: [f64; POWERS],
     /// ln of PGA over the PGA at which it is held.
     pub excess: f64,
     /// ln p, and the range of ln(PGA / PGV), within the domain.
     ln_p: f64,
-    ln_ratio: Range,
+    ln_pga_pgv: Range,
     /// ln -g where PGV / PGA is 1 s, and its slope.
-    ln_gain: f64,
+    ln_uplift_term: f64,
     slope: f64,
 }
 
 impl SurfaceAtIm4 {
     /// L, with PGA / PGV held within the domain.
-    pub fn logit(&self, ln_seconds: f64) -> f64 {
-        let r = self.ln_ratio.clamp(-ln_seconds - self.excess) - self.ln_p;
-        self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * r + coefficient)
+    pub fn logit(&self, ln_pgv_pga: f64) -> f64 {
+        let ln_im3 = self.ln_pga_pgv.clamp(-ln_pgv_pga - self.excess) - self.ln_p;
+        self.cubic.iter().rev().fold(0.0, |sum, coefficient| sum * ln_im3 + coefficient)
     }
 
     /// g = -(d / ((IM4 - 1) IM5^k))^n.
-    pub fn gain(&self, ln_seconds: f64) -> f64 {
-        -(self.ln_gain + self.slope * ln_seconds).exp()
+    pub fn uplift_term(&self, ln_pgv_pga: f64) -> f64 {
+        -(self.ln_uplift_term + self.slope * ln_pgv_pga).exp()
     }
 }
 
@@ -189,7 +189,7 @@ pub(super) fn held_pga_m_s2(structure: &Structure) -> f64 {
 /// magnitude is inferred, of the magnitudes of the data.
 pub(super) fn bends(kind: MotionKind, mw: Option<f64>) -> Vec<f64> {
     let ExpectedMagnitude { intercept, slope, range, .. } = SURFACE.kinds[kind as usize].magnitude;
-    let by_domain = [-SURFACE.ln_ratio.low, -SURFACE.ln_ratio.high];
+    let by_domain = [-SURFACE.ln_pga_pgv.low, -SURFACE.ln_pga_pgv.high];
     let by_magnitude = [range.low, range.high].map(|mw| (mw - intercept) / slope);
     by_domain.into_iter().chain(by_magnitude.into_iter().filter(|_| mw.is_none())).collect()
 }
@@ -200,10 +200,10 @@ pub fn covers_structure(structure: &Structure) -> bool {
 }
 
 pub fn covers_motion(structure: &Structure, measures: &IntensityMeasures, limit_state: f64) -> bool {
-    let Domain { im4, im5, ratio, limit, .. } = &SURFACE.domain;
+    let Domain { im4, im5, pga_pgv, limit, .. } = &SURFACE.domain;
     im4.has(measures.im4)
         && im5.has(measures.im5)
-        && ratio.has(structure.p_rad_s * measures.im4 / measures.im5)
+        && pga_pgv.has(structure.p_rad_s * measures.im4 / measures.im5)
         && limit.has(limit_state)
 }
 
@@ -233,9 +233,9 @@ const REFERENCE_MAGNITUDE: f64 = 6.9;
 
 /// L is a sum of rows `term,pro|pex,FUNCTION,recorded,csgm,pulse,hfc` of data/universal.csv: FUNCTION, a
 /// product such as `x*w^2`, times the coefficient for the kind of motion. The features are
-/// x = ln(ln IM4 + 0.2), finite at uplift; r = ln(PGA / (p PGV)); w = ln IM4 - r - 0.4 limit, of which
-/// ln IM4 - r is ln IM5; eta = (eta - 0.85)/0.1; p = ln(p/2); and, of a limit state c, limit = ln(c/0.2) and
-/// end = ln(1.1 - c), 0 for P_ro. IM4, PGA / PGV, p, eta and c are held within rows `domain,NAME,LOW,HIGH`.
+/// x = ln(ln IM4 + 0.2), finite at uplift; r = ln IM3; w = ln IM5 - 0.4 limit; eta = (eta - 0.85)/0.1;
+/// p = ln(p/2); and, of a limit state c, limit = ln(c/0.2) and end = ln(1.1 - c), 0 for P_ro. IM4, PGA / PGV,
+/// p, eta and c are held within rows `domain,NAME,LOW,HIGH`.
 const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
 /// Powers of w and of r, from 0 to the third of both together; powers of x.
 const POWERS: usize = 4;
@@ -252,7 +252,7 @@ fn limits(limit_state: Option<f64>) -> [f64; 2] {
 /// data/universal.csv, read.
 struct Surface {
     domain: Domain,
-    ln_ratio: Range,
+    ln_pga_pgv: Range,
     ln_im4: Range,
     kinds: [KindParameters; 4],
 }
@@ -263,7 +263,7 @@ struct Domain {
     eta: Range,
     alpha: Range,
     limit: Range,
-    ratio: Range,
+    pga_pgv: Range,
     im4: Range,
     im5: Range,
 }
@@ -278,7 +278,7 @@ struct KindParameters {
 /// P_ro or P_ex under a kind of motion.
 struct BranchSurface {
     terms: Vec<Term>,
-    rise: Rise,
+    uplift_term: UpliftTerm,
     prior: Prior,
 }
 
@@ -293,7 +293,7 @@ struct ExpectedMagnitude {
 
 /// The parameters of g = -(d / ((IM4 - 1) IM5^k))^n: a row `uplift`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Rise {
+struct UpliftTerm {
     n: f64,
     ln_d: f64,
     k: f64,
@@ -333,15 +333,15 @@ impl Surface {
     fn parse(text: &'static str) -> Surface {
         let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        let [p, eta, alpha, limit, ratio, im4, im5] = ["p", "eta", "alpha", "limit", "ratio", "im4", "im5"]
+        let [p, eta, alpha, limit, pga_pgv, im4, im5] = ["p", "eta", "alpha", "limit", "ratio", "im4", "im5"]
             .map(|name| {
                 let [low, high] = numbers(&rows, &["domain", name]);
                 Range { low, high }
             });
         Surface {
-            ln_ratio: ratio.ln(),
+            ln_pga_pgv: pga_pgv.ln(),
             ln_im4: im4.ln(),
-            domain: Domain { p, eta, alpha, limit, ratio, im4, im5 },
+            domain: Domain { p, eta, alpha, limit, pga_pgv, im4, im5 },
             kinds: [MotionKind::Recorded, MotionKind::Csgm, MotionKind::Pulse, MotionKind::Hfc]
                 .map(|kind| KindParameters::parse(&rows, kind)),
         }
@@ -373,7 +373,7 @@ impl BranchSurface {
             terms: terms
                 .map(|row| Term::parse(row[2], row[3 + kind as usize].parse().expect("a number")))
                 .collect(),
-            rise: Rise { n, ln_d: d.ln(), k },
+            uplift_term: UpliftTerm { n, ln_d: d.ln(), k },
             prior: Prior { mean: [c, ln_s, m], sd: [sd_c, sd_ln_s, sd_m], tau, by_limit },
         }
     }

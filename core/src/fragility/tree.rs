@@ -3,9 +3,6 @@
 use crate::spelling::unknown_word;
 use crate::statistics::Interval;
 
-/// The 97.5 % quantile of the normal distribution.
-pub const Z_95: f64 = 1.959_963_984_540_054;
-
 /// Limit states, each within the one before (Table I).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]

@@ -1,11 +1,11 @@
 //! The error budget: how much each source of uncertainty moves a result, and the limits that follow.
 
-use crate::fragility::Z_95;
-use crate::object::{UncertainParameter, UncertaintySource};
+use crate::object::{LowHigh, UncertaintySource};
 use crate::statistics::Interval;
+use crate::statistics::normal::Z_95;
 use strum::VariantArray;
 
-/// Standard deviations, by part, of ln of an annual rate or of the logit of a probability: downwards and
+/// Standard deviations, by source, of ln of an annual rate or of the logit of a probability: downwards and
 /// upwards, since a rate saturates.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Budget {
@@ -13,20 +13,16 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// How far a result falls and rises between the quantiles of each unknown; 0 without a result.
-    pub fn new<T>(
-        middle: &T,
-        unknowns: &[UncertainParameter<T>],
-        result: impl Fn(&T) -> Option<f64>,
-    ) -> Budget {
+    /// How far a result falls and rises between the quantiles of each source; 0 without a result.
+    pub fn new<T>(middle: &T, at_quantiles: &[LowHigh<T>], result: impl Fn(&T) -> Option<f64>) -> Budget {
         let mut budget = Budget::default();
         let Some(middle) = result(middle) else { return budget };
-        for unknown in unknowns {
+        for results in at_quantiles {
             // Standard deviations from the median to the quantiles: fractiles of hazards are 16 and 84 %.
-            let deviations = if unknown.source == UncertaintySource::Hazard { 1.0 } else { Z_95 };
-            let Some((low, high)) = result(&unknown.low).zip(result(&unknown.high)) else { continue };
+            let deviations = if results.source == UncertaintySource::Hazard { 1.0 } else { Z_95 };
+            let Some((low, high)) = result(&results.low).zip(result(&results.high)) else { continue };
             let off = [low, high].map(|end| (end - middle) / deviations);
-            budget.add(unknown.source, [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]);
+            budget.add(results.source, [-off[0].min(off[1]).min(0.0), off[0].max(off[1]).max(0.0)]);
         }
         budget
     }

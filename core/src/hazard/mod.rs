@@ -1,24 +1,24 @@
-//! Seismic hazard at a site, and the annual rates by it and a fragility.
+//! Seismic hazard at a site, and the annual rates at which objects rock, fail and overturn there.
 //!
 //! ```text
-//! curve     annual rate of exceedance of one intensity; the convolution integral
-//! pgv_pga   PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
-//! rates     annual rates of the limit states of a structure, over a curve or over pairs of PGA and PGV
-//! budget    the sources of uncertainty, and the limits by them
-//! motion    the limit states under one motion, with limits
-//! motions   the motions of which one peak is given, and their uncertainty
-//! ratio     the rate after a change over that before
-//! share     the shares of a rate by intensity
-//! site      the rates of a structure at a site, with limits and warnings
-//! target    the base with which a rate is a target
-//! fragility the probabilities of an object over one peak, with limits
+//! curve               annual rate of exceedance of one intensity; the convolution integral
+//! pgv_pga             PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
+//! rates               annual rates of the limit states of a structure, over a curve or over pairs of peaks
+//! budget              the sources of uncertainty, and the limits by them
+//! ground_motion       the limit states under one motion, with limits
+//! conditional_motions the motions conditional on PGA or PGV, and their uncertainty
+//! ratio               the rate after a change over that before
+//! share               the shares of a rate by intensity
+//! site                the rates of a structure at a site, with limits and warnings
+//! target              the base with which a rate is a target
+//! fragility_curve     the probabilities of an object over one peak, with limits
 //! ```
 
 mod budget;
+mod conditional_motions;
 mod curve;
-mod fragility;
-mod motion;
-mod motions;
+mod fragility_curve;
+mod ground_motion;
 mod pgv_pga;
 mod rates;
 mod ratio;
@@ -28,11 +28,11 @@ mod target;
 
 pub use budget::Budget;
 pub use curve::{HazardCurve, HazardError};
-pub use fragility::{Fragility, FragilityPoint, Lognormal, SitesInGeneral, intensity_in_words};
-pub use motion::{GroundMotion, MotionProbabilities};
+pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal, format_intensity};
+pub use ground_motion::{GroundMotion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
-pub use ratio::{RateByParts, ratio_of_rates};
+pub use ratio::{RateBySource, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 pub use target::{Bases, SLENDERNESSES, SearchEnd};

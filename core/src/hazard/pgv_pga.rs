@@ -4,11 +4,12 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::curve::HazardCurve;
-use crate::fragility::{Model, MotionKind, Peak, RatioGiven, Z_95};
-use crate::object::{UncertainParameter, UncertaintySource};
+use crate::fragility::{Model, MotionKind, Peak, RatioGiven};
+use crate::object::{LowHigh, UncertaintySource};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
 use crate::statistics::normal;
+use crate::statistics::normal::Z_95;
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
@@ -140,7 +141,7 @@ impl PgvPgaRatio {
             Peak::Pga => GIVEN_PGA,
             Peak::Pgv => GIVEN_PGV,
         };
-        let is_of_sites = matches!(model, Model::Calibrated { overturning, .. }
+        let is_of_sites = matches!(model, Model::Surface { overturning, .. }
             if overturning.n == 0 && overturning.kind == MotionKind::Recorded);
         if !is_of_sites {
             let (ratio, sd) = (model.peaks().given(given), line.sd_of_level);
@@ -198,13 +199,13 @@ impl PgvPgaRatio {
     }
 
     /// The uncertainty of the level, as ln of a factor.
-    pub fn unknown(&self) -> UncertainParameter<f64> {
-        UncertainParameter { source: UncertaintySource::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
+    pub fn at_quantiles(&self) -> LowHigh<f64> {
+        LowHigh { source: UncertaintySource::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
     }
 
-    /// PGV / PGA in earthquakes of a magnitude, times exp(`ln`).
-    pub fn at(&self, mw: f64, ln: f64) -> RatioGiven {
-        let intercept = self.ratio.intercept + (self.per_magnitude * (mw - MIDDLE) + ln);
+    /// PGV / PGA in earthquakes of a magnitude, times exp(`ln_factor`).
+    pub fn at(&self, mw: f64, ln_factor: f64) -> RatioGiven {
+        let intercept = self.ratio.intercept + (self.per_magnitude * (mw - MIDDLE) + ln_factor);
         RatioGiven { intercept, ..self.ratio }
     }
 }

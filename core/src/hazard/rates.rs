@@ -1,7 +1,7 @@
 //! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
 use super::curve::{HazardCurve, Node};
-use crate::fragility::{GivenPeak, LimitStates, QuantileLevel, ReadyObject, RockingDirection};
+use crate::fragility::{GivenPeak, LimitStates, ModelPoint, ReadyObject, RockingDirection};
 use crate::motion::Peaks;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
@@ -60,31 +60,31 @@ impl Rate {
 
 /// None where the model has no probability.
 pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
-    OverCurve::new(given_peak, curve, &[QuantileLevel::Estimate]).rates(0)
+    OverCurve::new(given_peak, curve, &[ModelPoint::Estimate]).rates(0)
 }
 
-/// The probabilities of an object, at each level, at the nodes of a hazard curve and at its last intensity,
-/// which stands for all beyond.
+/// The probabilities of an object, at each model point, at the nodes of a hazard curve and at its last
+/// intensity, which stands for all beyond.
 pub(super) struct OverCurve {
     within: Vec<(Node, Vec<LimitStates<Option<f64>>>)>,
     beyond: (Node, Vec<LimitStates<Option<f64>>>),
 }
 
 impl OverCurve {
-    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, levels: &[QuantileLevel]) -> OverCurve {
-        let at = |node: Node| (node, given_peak.at_levels(node.intensity, levels));
+    pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, points: &[ModelPoint]) -> OverCurve {
+        let at = |node: Node| (node, given_peak.at_points(node.intensity, points));
         let [_, (intensity, annual_rate)] = curve.ends();
         let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel()).into_iter();
         OverCurve { within: nodes.map(at).collect(), beyond: at(Node { intensity, annual_rate }) }
     }
 
-    pub fn rates(&self, level: usize) -> LimitStates<Option<Rate>> {
+    pub fn rates(&self, point: usize) -> LimitStates<Option<Rate>> {
         let mut sums = LimitStates::all(Some(0.0));
         for (node, states) in self.within.iter().chain([&self.beyond]) {
-            sums = sums.zip(states[level], |sum, p| Some(sum? + p? * node.annual_rate));
+            sums = sums.zip(states[point], |sum, p| Some(sum? + p? * node.annual_rate));
         }
         let annual_rate = self.beyond.0.annual_rate;
-        sums.zip(self.beyond.1[level], |value, at_last| {
+        sums.zip(self.beyond.1[point], |value, at_last| {
             let (value, at_last) = value.zip(at_last)?;
             let beyond = (1.0 - at_last).max(0.0) * annual_rate;
             Some(Rate { value, at_last: at_last * annual_rate, beyond })
@@ -109,21 +109,21 @@ impl OverCurve {
     }
 }
 
-/// At each level, over bins of PGA and PGV.
+/// At each model point, over bins of PGA and PGV.
 pub(super) fn rates_over_pairs(
     directions: &[RockingDirection],
     mw: Option<f64>,
     bins: &[PairOfPeaks],
-    levels: &[QuantileLevel],
+    points: &[ModelPoint],
 ) -> Vec<LimitStates<Option<Rate>>> {
     let mut ready = ReadyObject::new(directions, mw);
-    let mut rates = vec![LimitStates::all(Some(0.0)); levels.len()];
+    let mut rates = vec![LimitStates::all(Some(0.0)); points.len()];
     for bin in bins {
         let mw = bin.mw.or(mw);
         if mw != ready.mw {
             ready = ReadyObject::new(directions, mw);
         }
-        for (rate, states) in rates.iter_mut().zip(ready.limit_states(bin.peaks, levels)) {
+        for (rate, states) in rates.iter_mut().zip(ready.limit_states(bin.peaks, points)) {
             *rate = rate.zip(states, |sum, p| Some(sum? + p? * bin.annual_rate));
         }
     }

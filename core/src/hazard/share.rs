@@ -1,5 +1,5 @@
 use super::site::{Hazard, Site};
-use crate::fragility::{QuantileLevel, ReadyObject};
+use crate::fragility::{ModelPoint, ReadyObject};
 use crate::object::RockingObject;
 use crate::statistics::numerics::equal_ratios;
 
@@ -23,7 +23,7 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, object).given(&object.directions, 0.0);
-                let curve = self.integrated(hazard, &given, &[QuantileLevel::Estimate]).curve;
+                let curve = self.integrated(hazard, &given, &[ModelPoint::Estimate]).curve;
                 let [(first, _), (last, rate_beyond)] = curve.ends();
                 let mut parts = RateByIntensity::new(first, last, bins);
                 let probability = |intensity: f64| given.limit_states(intensity).overturning.unwrap_or(0.0);
@@ -40,7 +40,7 @@ impl Site {
                 let mut parts = RateByIntensity::new(low, high * 1.001, bins);
                 for pair in pairs {
                     let ready = ReadyObject::new(&object.directions, pair.mw.or(self.mw));
-                    let p = ready.limit_states(pair.peaks, &[QuantileLevel::Estimate])[0].overturning;
+                    let p = ready.limit_states(pair.peaks, &[ModelPoint::Estimate])[0].overturning;
                     parts.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
                 }
                 parts

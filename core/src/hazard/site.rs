@@ -1,13 +1,13 @@
 //! Annual rates of an object at a site, with the uncertainty of the hazard and of the rate beyond its curve.
 
 use super::budget::Budget;
+use super::conditional_motions::ConditionalMotions;
 use super::curve::HazardCurve;
-use super::motions::ConditionalMotions;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel};
+use crate::fragility::{GivenPeak, LimitState, LimitStates, ModelPoint, Peak};
 use crate::motion::Peaks;
-use crate::object::{RockingObject, UncertainParameter, UncertaintySource};
+use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::statistics::Interval;
 use crate::units::G_M_S2;
@@ -31,7 +31,7 @@ pub struct PeakHazard {
     /// The 16 and 84 % fractiles.
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it.
-    pub velocity: Option<PgvPgaRatio>,
+    pub pgv_pga: Option<PgvPgaRatio>,
 }
 
 impl Hazard {
@@ -41,14 +41,14 @@ impl Hazard {
     /// If they cannot be of one site.
     pub fn with_spectrum(curve: HazardCurve, sa_1s: &HazardCurve) -> Result<Hazard, MatchError> {
         let pgv = velocity_of_spectrum(&curve, sa_1s);
-        let velocity = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Spectrum)?);
+        let pgv_pga = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Spectrum)?);
         let peak = Peak::Pga;
-        Ok(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
+        Ok(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga }))
     }
 
     /// PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
-        Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity: None })
+        Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga: None })
     }
 }
 
@@ -82,13 +82,11 @@ pub struct Site {
 /// effect, the upper one if each has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteRates {
-    pub rocking: Interval<Option<f64>>,
-    pub failure: Interval<Option<f64>>,
-    pub overturning: Interval<Option<f64>>,
+    pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of ln of the rate of overturning, by source.
     pub errors: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
-    pub velocity: Option<VelocitySource>,
+    pub pgv_pga_source: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of an extrapolated curve.
     pub beyond: Option<f64>,
     /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
@@ -96,10 +94,10 @@ pub struct SiteRates {
     pub warnings: Vec<Warning>,
 }
 
-/// Rates with all unknowns at their medians, and with each at its quantiles.
+/// Rates with all that is uncertain at its median, and with each source at its quantiles.
 struct RateSensitivity {
     rates: LimitStates<Option<Rate>>,
-    ends: Vec<UncertainParameter<LimitStates<Option<Rate>>>>,
+    at_quantiles: Vec<LowHigh<LimitStates<Option<Rate>>>>,
 }
 
 impl Site {
@@ -111,12 +109,12 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, object),
             Hazard::Joint(bins) => {
-                let levels = QuantileLevel::with_errors(&object.directions);
-                let all = rates_over_pairs(&object.directions, self.mw, bins, &levels);
+                let points = ModelPoint::at_errors(&object.directions);
+                let all = rates_over_pairs(&object.directions, self.mw, bins, &points);
                 let sensitivity = RateSensitivity::new(
                     all,
-                    object.ends(|directions| {
-                        rates_over_pairs(directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
+                    object.at_quantiles(|directions| {
+                        rates_over_pairs(directions, self.mw, bins, &[ModelPoint::Estimate])[0]
                     }),
                 );
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
@@ -130,26 +128,26 @@ impl Site {
     pub fn overturning(&self, object: &RockingObject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
-                rates_over_pairs(&object.directions, self.mw, bins, &[QuantileLevel::Estimate])[0]
+                rates_over_pairs(&object.directions, self.mw, bins, &[ModelPoint::Estimate])[0]
             }
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, object).given(&object.directions, 0.0);
                 let Integrated { over, ends_early, .. } =
-                    self.integrated(hazard, &given, &[QuantileLevel::Estimate]);
+                    self.integrated(hazard, &given, &[ModelPoint::Estimate]);
                 Some(over.rates(0)).filter(|_| !ends_early)?
             }
         };
         Some(rates.overturning?.value)
     }
 
-    /// At these levels, the estimate first. A curve that ends too early is extrapolated if `extrapolate`.
+    /// The estimate is the first point. A curve that ends too early is extrapolated if `extrapolate`.
     pub(super) fn integrated(
         &self,
         hazard: &PeakHazard,
         given: &GivenPeak,
-        levels: &[QuantileLevel],
+        points: &[ModelPoint],
     ) -> Integrated {
-        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, levels));
+        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, points));
         let [_, (last, _)] = curve.ends();
         let known = over.rates(0).overturning;
         let early = known.filter(|rate| last < strongest(hazard.peak) && rate.is_open());
@@ -157,7 +155,7 @@ impl Site {
             return Integrated { curve, over, ends_early: early.is_some(), beyond: None };
         };
         let curve = curve.extrapolated();
-        let over = OverCurve::new(given, &curve, levels);
+        let over = OverCurve::new(given, &curve, points);
         let beyond = over.rates(0).overturning.map(|rate| 1.0 - known.least() / rate.value);
         Integrated { curve, over, ends_early: false, beyond }
     }
@@ -165,18 +163,18 @@ impl Site {
     /// What is not given of the motions is at its median.
     pub(super) fn motions(&self, hazard: &PeakHazard, object: &RockingObject) -> ConditionalMotions {
         let by_model = || PgvPgaRatio::by_model(&object.directions[0].model, hazard.peak, self.vs30_m_s);
-        let velocity = hazard.velocity.unwrap_or_else(by_model);
-        ConditionalMotions::at_site(hazard.peak, velocity, self.mw)
+        let pgv_pga = hazard.pgv_pga.unwrap_or_else(by_model);
+        ConditionalMotions::at_site(hazard.peak, pgv_pga, self.mw)
     }
 
     fn rates_over_curve(&self, hazard: &PeakHazard, object: &RockingObject) -> SiteRates {
         let motions = self.motions(hazard, object);
         let middle = motions.given(&object.directions, 0.0);
-        let levels = QuantileLevel::with_errors(&object.directions);
-        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &levels);
-        let mut ends = motions.ends(object, |given| rates_over_curve(given, &curve));
+        let points = ModelPoint::at_errors(&object.directions);
+        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &points);
+        let mut at_quantiles = motions.at_quantiles(object, |given| rates_over_curve(given, &curve));
         if let Some([low, high]) = &hazard.fractiles {
-            ends.push(UncertainParameter { source: UncertaintySource::Hazard, low, high }.map(|fractile| {
+            at_quantiles.push(LowHigh { source: UncertaintySource::Hazard, low, high }.map(|fractile| {
                 match beyond {
                     Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
                     None => rates_over_curve(&middle, fractile),
@@ -192,10 +190,10 @@ impl Site {
             (first > middle.uplift().usual).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {
-            velocity: Some(motions.velocity.source),
+            pgv_pga_source: Some(motions.pgv_pga.source),
             beyond,
             warnings: warnings.into_iter().flatten().collect(),
-            ..RateSensitivity::new((0..levels.len()).map(|level| over.rates(level)).collect(), ends)
+            ..RateSensitivity::new((0..points.len()).map(|point| over.rates(point)).collect(), at_quantiles)
                 .with_limits(motion, ends_early)
         }
     }
@@ -211,24 +209,26 @@ pub(super) struct Integrated {
 }
 
 impl RateSensitivity {
-    /// `by_level` are the rates at [`QuantileLevel::with_errors`], `ends` those at other unknowns' quantiles.
+    /// `by_point` are the rates at [`ModelPoint::at_errors`], `at_quantiles` those of other sources.
     fn new(
-        by_level: Vec<LimitStates<Option<Rate>>>,
-        mut ends: Vec<UncertainParameter<LimitStates<Option<Rate>>>>,
+        by_point: Vec<LimitStates<Option<Rate>>>,
+        mut at_quantiles: Vec<LowHigh<LimitStates<Option<Rate>>>>,
     ) -> RateSensitivity {
-        ends.extend(UncertainParameter::from_fit_errors(&by_level));
-        RateSensitivity { rates: by_level[0], ends }
+        at_quantiles.extend(LowHigh::from_fit_errors(&by_point));
+        RateSensitivity { rates: by_point[0], at_quantiles }
     }
 
     /// `ends_early`: where the hazard ends too early for values.
     fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
         let is_rocking_early = ends_early && self.rates.rocking.is_some_and(|rate| rate.is_open());
         SiteRates {
-            rocking: self.limited(LimitState::Rocking, is_rocking_early),
-            failure: self.limited(LimitState::Failure, ends_early),
-            overturning: self.limited(LimitState::Overturning, ends_early),
+            states: LimitStates {
+                rocking: self.limited(LimitState::Rocking, is_rocking_early),
+                failure: self.limited(LimitState::Failure, ends_early),
+                overturning: self.limited(LimitState::Overturning, ends_early),
+            },
             errors: self.budget(LimitState::Overturning, |rate| rate.value),
-            velocity: None,
+            pgv_pga_source: None,
             beyond: None,
             motion,
             warnings: Vec::new(),
@@ -252,6 +252,8 @@ impl RateSensitivity {
 
     /// Standard deviations of ln of a rate.
     fn budget(&self, state: LimitState, at: fn(&Rate) -> f64) -> Budget {
-        Budget::new(&self.rates, &self.ends, |rates| rates.get(state).map(|rate| at(&rate).max(LEAST).ln()))
+        Budget::new(&self.rates, &self.at_quantiles, |rates| {
+            rates.get(state).map(|rate| at(&rate).max(LEAST).ln())
+        })
     }
 }

@@ -19,9 +19,9 @@ use crate::statistics::Interval;
 ///
 /// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
 /// let site = Site::new(Hazard::over(Peak::Pga, curve));
-/// let with_models = |object: &Object| RockingObject::shipped(object, MotionKind::Recorded, 0.10).ok();
+/// let with_models = |object: &Object| RockingObject::uncalibrated(object, MotionKind::Recorded, 0.10).ok();
 /// let cabinet = Object::block("cabinet", 0.5, 1.9);
-/// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).overturning;
+/// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).states.overturning;
 /// // Once in 10,000 years.
 /// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
 /// assert!(0.5 < bases.target_width_m.unwrap() && bases.target_width_m < bases.target_width_m_high);
@@ -148,7 +148,7 @@ struct Search<'a> {
 type RateFunction = fn(&Site, &RockingObject) -> Option<f64>;
 
 fn upper_limit(site: &Site, object: &RockingObject) -> Option<f64> {
-    let Interval { value, high, .. } = site.rates(object).overturning;
+    let Interval { value, high, .. } = site.rates(object).states.overturning;
     value.and(high)
 }
 

@@ -24,7 +24,7 @@ pub struct Floor {
 
 /// Correlation of the logarithms of both peaks of a floor about their medians, by scripts/floors/peaks.py.
 pub const CORRELATION: f64 = 0.58;
-/// Modes: three give peak accelerations up to 30 % too low in long buildings.
+/// Modes: three give peak accelerations up to 30 % too low in long-period buildings.
 const MODES: usize = 5;
 /// Share of the first mode's motion that is left where a floor's record ends.
 const LEFT: f64 = 0.05;
@@ -84,18 +84,18 @@ impl Floor {
 
     /// Predicts the median peaks of the floor from those of the ground.
     pub fn peaks(&self, ground: Peaks) -> Peaks {
-        let Amplified { ln_pfa, ln_pfv, .. } = self.amplified(ground);
+        let Amplification { ln_pfa, ln_pfv, .. } = self.amplification(ground);
         Peaks { pga_m_s2: ln_pfa.exp() * ground.pga_m_s2, pgv_m_s: ln_pfv.exp() * ground.pgv_m_s }
     }
 
     /// Predicts by how much the floor amplifies the peaks of the ground.
-    pub fn amplified(&self, ground: Peaks) -> Amplified {
-        self.amplifier().at((ground.pgv_m_s / ground.pga_m_s2).ln())
+    pub fn amplification(&self, ground: Peaks) -> Amplification {
+        self.modes().amplification((ground.pgv_m_s / ground.pga_m_s2).ln())
     }
 
     /// Computes what depends on the floor only, once for the peaks of many motions.
-    pub(crate) fn amplifier(&self) -> Amplifier {
-        Amplifier {
+    pub(crate) fn modes(&self) -> FloorModes {
+        FloorModes {
             ln_period: (self.period_s / TAU).ln(),
             modes: [ACCELERATION_BY_PERIOD, VELOCITY_BY_PERIOD].map(|peak| {
                 let mut odd = 1.0_f64;
@@ -116,7 +116,7 @@ impl Floor {
 
 /// The part of the prediction of peaks that depends on the floor only.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Amplifier {
+pub(crate) struct FloorModes {
     /// ln(T1 / 2 pi), s.
     ln_period: f64,
     /// Modes of acceleration and of velocity.
@@ -135,7 +135,7 @@ struct Mode {
 /// Amplification of the peaks of the ground by a floor. Deviations from both medians have the correlation
 /// [`CORRELATION`].
 #[derive(Debug, Clone, Copy)]
-pub struct Amplified {
+pub struct Amplification {
     /// Median ln(PFA / PGA).
     pub ln_pfa: f64,
     pub sd_ln_pfa: f64,
@@ -146,14 +146,14 @@ pub struct Amplified {
     pub resonant_share: f64,
 }
 
-impl Amplifier {
+impl FloorModes {
     /// Predicts the peaks of the floor from ln(PGV / PGA), s, of the ground: ln(floor/ground) = ln(A^2 + B)/2
     /// with the rigid part A = 1 - sum G_i (1 - r_i) and the resonant one B = sum G_i^2 D_i^2.
-    pub fn at(&self, ln_seconds: f64) -> Amplified {
-        let u = self.ln_period - ln_seconds;
+    pub fn amplification(&self, ln_pgv_pga: f64) -> Amplification {
+        let u = self.ln_period - ln_pgv_pga;
         let [(ln_pfa, resonant_a), (ln_pfv, resonant_v)] =
-            [0, 1].map(|k| amplified([ACCELERATION_BY_PERIOD, VELOCITY_BY_PERIOD][k], &self.modes[k], u));
-        Amplified {
+            [0, 1].map(|k| ln_factor([ACCELERATION_BY_PERIOD, VELOCITY_BY_PERIOD][k], &self.modes[k], u));
+        Amplification {
             ln_pfa,
             sd_ln_pfa: SCATTER_OF_ACCELERATION * resonant_a.sqrt(),
             ln_pfv,
@@ -164,7 +164,7 @@ impl Amplifier {
 }
 
 /// ln of the factor of a peak at u = ln(T1 / Tg), and the share of resonance in its square.
-fn amplified(peak: PeakByPeriod, modes: &[Mode; MODES], u: f64) -> (f64, f64) {
+fn ln_factor(peak: PeakByPeriod, modes: &[Mode; MODES], u: f64) -> (f64, f64) {
     let PeakByPeriod { b, k, d, e, l, h } = peak;
     let [by_k, by_l, by_h] = [k * (u - b), -l * (u - e), h * (u - e)].map(f64::exp);
     let (mut rigid, mut resonant) = (1.0, 0.0);

@@ -5,7 +5,7 @@
 //! design              samples of the random parameters in a cell of the magnitude-distance grid
 //! pulse               Mavroeidis & Papageorgiou's pulse (Eq. 1)
 //! stochastic          high frequencies: Boore's method, source of Atkinson & Silva (section 2.1.2)
-//! site                amplification from the source to the surface
+//! amplification       amplification from the source to the surface
 //! combine             high frequencies and pulse into one motion (section 2.1.3)
 //! synthesis           all of these for one scenario, on one time axis
 //! floor               motions of floors of buildings, and their peaks
@@ -15,6 +15,7 @@
 //! fourier             transforms of real series
 //! ```
 
+pub mod amplification;
 mod combine;
 mod design;
 pub mod floor;
@@ -24,21 +25,20 @@ pub mod measures;
 mod peaks;
 pub mod pulse;
 pub mod scenario;
-pub mod site;
 pub mod stochastic;
 mod synthesis;
 
+pub use amplification::SiteAmplification;
 pub use combine::{Difference, Epoch};
 pub use design::{Design, ScenarioGrid};
-pub use floor::{Amplified, Floor};
+pub use floor::{Amplification, Floor};
 pub use intensity_measures::{Dimension, IntensityMeasures};
 pub use measures::{MeasurePlan, MotionMeasures};
-pub use peaks::{Peaks, judge_medians};
+pub use peaks::{Peaks, validate_medians};
 pub use pulse::Pulse;
 pub use scenario::{Scenario, Suite};
-pub use site::SiteAmplification;
 pub use stochastic::StochasticModel;
-pub use synthesis::{MotionModel, Synthesizer, Synthetic};
+pub use synthesis::{MotionModel, Synthesizer, SyntheticMotion};
 
 /// Largest number of samples of a motion; its spectra and velocities take many times the memory.
 pub const LONGEST_MOTION: usize = 1 << 24;

@@ -23,7 +23,7 @@ impl Peaks {
     }
 
     /// Fails, with the reason, where no motion has both peaks.
-    pub fn judge(self) -> Result<(), String> {
+    pub fn validate(self) -> Result<(), String> {
         let ratio_s = self.pgv_m_s / self.pga_m_s2;
         match ratio_s.is_nan() || PGV_PGA_S.contains(&ratio_s) {
             true => Ok(()),
@@ -41,7 +41,7 @@ const STRONGEST_MEDIAN: f64 = 3.0;
 const MEDIAN_PGV_PGA_S: RangeInclusive<f64> = 0.015..=0.6;
 
 /// Fails, with the reason, where the medians of the peaks of a table of motions show a wrong unit.
-pub fn judge_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), String> {
+pub fn validate_medians(motions: impl Iterator<Item = Peaks> + Clone) -> Result<(), String> {
     let pga_g = median(motions.clone().map(|peaks| peaks.pga_m_s2 / G_M_S2));
     let pgv = median(motions.clone().map(|peaks| peaks.pgv_m_s));
     let ratio_s = median(motions.map(|peaks| peaks.pgv_m_s / peaks.pga_m_s2));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{E, FRAC_1_SQRT_2, PI};
 
-use super::site::SiteAmplification;
+use super::amplification::SiteAmplification;
 
 // Crust, spreading and attenuation of Atkinson & Silva (2000).
 /// Density of the crust, g/cm3.

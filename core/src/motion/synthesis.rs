@@ -39,7 +39,7 @@ impl Default for MotionModel {
 }
 
 impl MotionModel {
-    pub fn samples(&self, scenario: &Scenario) -> usize {
+    pub fn sample_count(&self, scenario: &Scenario) -> usize {
         let source = Source::new(scenario.mw, scenario.re_km);
         self.time_axis(&Window::new(source.duration_s()), &Pulse::of(scenario)).1
     }
@@ -64,7 +64,7 @@ impl MotionModel {
 /// The motions of one scenario on one time axis: accelerations, m/s2. The pulse is always there; others
 /// that were not needed are empty.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Synthetic {
+pub struct SyntheticMotion {
     pub dt_s: f64,
     /// Time of the middle of the pulse from the first sample, s.
     pub epoch_s: f64,
@@ -73,7 +73,7 @@ pub struct Synthetic {
     pub combined: Vec<f64>,
 }
 
-impl Synthetic {
+impl SyntheticMotion {
     pub fn samples(&self, suite: Suite) -> &[f64] {
         match suite {
             Suite::Pulse => &self.pulse,
@@ -117,15 +117,15 @@ impl Earthquake {
     fn new(mw: f64, re_km: f64, dt_s: f64) -> Earthquake {
         let source = Source::new(mw, re_km);
         let window = Window::new(source.duration_s());
-        let samples = (window.duration_s / dt_s).floor() as usize;
-        let weights = (1..=samples).map(|k| window.value(k as f64 * dt_s)).collect();
+        let sample_count = (window.duration_s / dt_s).floor() as usize;
+        let weights = (1..=sample_count).map(|k| window.value(k as f64 * dt_s)).collect();
         Earthquake { mw, re_km, source, window, weights, amplitudes: HashMap::new() }
     }
 
-    fn amplitudes(&mut self, model: &MotionModel, samples: usize) -> &[f64] {
-        let step_hz = 1.0 / (samples as f64 * model.dt_s);
-        self.amplitudes.entry(samples).or_insert_with(|| {
-            let frequencies_hz = (0..=samples / 2).map(|k| k as f64 * step_hz);
+    fn amplitudes(&mut self, model: &MotionModel, sample_count: usize) -> &[f64] {
+        let step_hz = 1.0 / (sample_count as f64 * model.dt_s);
+        self.amplitudes.entry(sample_count).or_insert_with(|| {
+            let frequencies_hz = (0..=sample_count / 2).map(|k| k as f64 * step_hz);
             let model = &model.stochastic;
             frequencies_hz.map(|f| model.fourier_amplitude_cm_s(&self.source, f) / CM_PER_M).collect()
         })
@@ -142,27 +142,27 @@ impl Synthesizer {
         }
     }
 
-    pub fn synthesize(&mut self, scenario: &Scenario) -> Synthetic {
+    pub fn synthesize(&mut self, scenario: &Scenario) -> SyntheticMotion {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
             Some(known) if (known.mw, known.re_km) == (mw, re_km) => known,
             _ => Earthquake::new(mw, re_km, self.model.dt_s),
         };
         let pulse = Pulse::of(scenario);
-        let (onset, samples) = self.model.time_axis(&earthquake.window, &pulse);
-        let mut made = Synthetic { dt_s: self.model.dt_s, ..Synthetic::default() };
+        let (onset, sample_count) = self.model.time_axis(&earthquake.window, &pulse);
+        let mut made = SyntheticMotion { dt_s: self.model.dt_s, ..SyntheticMotion::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
-            let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, samples);
+            let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, sample_count);
             spectrum = transform(&mut noise);
-            shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, samples), made.dt_s);
+            shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, sample_count), made.dt_s);
             if self.high_frequency {
                 invert(&mut spectrum.clone(), &mut noise);
                 made.high_frequency = noise;
             }
         }
         made.epoch_s = self.epoch_s(&earthquake.window, onset, &made.high_frequency);
-        made.pulse = pulse.sample(made.dt_s, made.epoch_s, samples);
+        made.pulse = pulse.sample(made.dt_s, made.epoch_s, sample_count);
         if self.combined {
             made.combined = made.pulse.clone();
             let pulse_spectrum = transform(&mut made.combined);
@@ -173,8 +173,8 @@ impl Synthesizer {
         made
     }
 
-    fn windowed_noise(&self, of: &Scenario, weights: &[f64], onset: usize, samples: usize) -> Vec<f64> {
-        let mut samples = vec![0.0; samples];
+    fn windowed_noise(&self, of: &Scenario, weights: &[f64], onset: usize, sample_count: usize) -> Vec<f64> {
+        let mut samples = vec![0.0; sample_count];
         let noise = stream(self.model.seed, Purpose::Noise, of.scenario_id as u64);
         let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
         for ((sample, normal), weight) in samples[onset + 1..].iter_mut().zip(normals).zip(weights) {

@@ -1,10 +1,10 @@
 //! Changes of an object that change its probability of overturning, one at a time.
 
 use super::given::{Object, Place, Restitution};
-use super::rocking::{UncertainParameter, UncertaintySource};
-use crate::fragility::Z_95;
+use super::rocking::{LowHigh, UncertaintySource};
 use crate::motion::Floor;
 use crate::number;
+use crate::statistics::normal::Z_95;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Changed {
@@ -63,8 +63,8 @@ impl Object {
     /// With eta known: one standard deviation below and above its median.
     fn measured(&self) -> Vec<Changed> {
         let Ok(sides) = self.sides() else { return Vec::new() };
-        let Some(UncertainParameter { low, high, .. }) =
-            sides[0].unknowns.iter().find(|unknown| unknown.source == UncertaintySource::Eta)
+        let Some(LowHigh { low, high, .. }) =
+            sides[0].at_quantiles.iter().find(|structure| structure.source == UncertaintySource::Eta)
         else {
             return Vec::new();
         };

@@ -66,7 +66,7 @@ impl FromStr for Restitution {
 
 /// Why there is no answer for an object.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Reason {
+pub enum ObjectError {
     /// Values that cannot be right.
     #[error("{0}")]
     Implausible(String),
@@ -75,9 +75,9 @@ pub enum Reason {
     NotRocking(String),
 }
 
-impl From<StructureError> for Reason {
-    fn from(StructureError { parameter, value, expected, .. }: StructureError) -> Reason {
-        Reason::Implausible(format!("{parameter} is {value}; expected {expected}"))
+impl From<StructureError> for ObjectError {
+    fn from(StructureError { parameter, value, expected, .. }: StructureError) -> ObjectError {
+        ObjectError::Implausible(format!("{parameter} is {value}; expected {expected}"))
     }
 }
 
@@ -96,7 +96,7 @@ pub struct Object {
     pub floor: Option<String>,
     /// Why there is no answer, whatever its shape.
     #[serde(skip)]
-    pub refused: Option<Reason>,
+    pub refused: Option<ObjectError>,
 }
 
 impl FromStr for Object {
@@ -135,11 +135,10 @@ impl Object {
         Object { name: name.to_string(), shape, ..Object::default() }
     }
 
-    pub fn with_parameters(structure: Structure, eta: fn(f64) -> Restitution) -> Object {
-        let Structure { name, p_rad_s, alpha_rad, eta: value } = structure;
-        let shape =
-            Shape { p: Some(p_rad_s), alpha: Some(alpha_rad), eta: Some(eta(value)), ..Shape::default() };
-        Object { name, shape, ..Object::default() }
+    pub fn with_parameters(structure: &Structure, eta: Restitution) -> Object {
+        let (p, alpha) = (Some(structure.p_rad_s), Some(structure.alpha_rad));
+        let shape = Shape { p, alpha, eta: Some(eta), ..Shape::default() };
+        Object { name: structure.name.clone(), shape, ..Object::default() }
     }
 
     /// Sets a [`Field`], the `count` of such objects or their `name`.
@@ -251,13 +250,13 @@ impl Place {
     ///
     /// # Errors
     /// If only one of level and period is given.
-    pub fn floor(&self) -> Result<Option<Floor>, Reason> {
+    pub fn floor(&self) -> Result<Option<Floor>, ObjectError> {
         let missing = match (self.period, self.level) {
             (Some(period_s), Some(level)) => return Ok((level > 0.0).then_some(Floor { period_s, level })),
             (None, Some(level)) if level > 0.0 => "level needs period, the first of the building (s)",
             (Some(_), None) => "period needs level, the height of the floor over that of the roof",
             _ => return Ok(None),
         };
-        Err(Reason::Implausible(missing.to_string()))
+        Err(ObjectError::Implausible(missing.to_string()))
     }
 }

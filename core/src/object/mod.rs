@@ -6,7 +6,7 @@
 //! field      the numbers that may be known, with the ranges in which they are possible
 //! given      an object as given: dimensions, or p, alpha and eta; ground or floor
 //! sides      its rocking structures, and their uncertainty
-//! rocking    its directions with their models, and its unknowns
+//! rocking    its directions with their models, and their uncertainty
 //! ```
 
 mod changes;
@@ -17,8 +17,8 @@ mod sides;
 
 pub use changes::Changed;
 pub use field::Field;
-pub use given::{Object, Place, Reason, Restitution, Shape};
+pub use given::{Object, ObjectError, Place, Restitution, Shape};
 pub use rocking::{
-    Perturbation, RockingObject, SD_OF_PERIOD, UncertainParameter, UncertaintySource, structure_warnings,
+    LowHigh, Perturbation, RockingObject, SD_OF_PERIOD, UncertaintySource, structure_warnings,
 };
 pub use sides::Side;

@@ -1,11 +1,12 @@
 //! An object with its models and its uncertainty, as changes that are applied on demand.
 
-use super::given::{Object, Reason};
-use crate::fragility::{Model, MotionKind, RockingDirection, Z_95};
+use super::given::{Object, ObjectError};
+use crate::fragility::{Model, MotionKind, RockingDirection};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
 use crate::spelling::unknown_word;
+use crate::statistics::normal::Z_95;
 use crate::warning::Warning;
 
 /// A source of uncertainty.
@@ -51,24 +52,24 @@ impl UncertaintySource {
 ///
 /// let mut rack = Object::block("rack", 0.6, 1.9);
 /// rack.shape.depth = Some(0.8);
-/// let object = RockingObject::shipped(&rack, MotionKind::Recorded, 0.10)?;
+/// let object = RockingObject::uncalibrated(&rack, MotionKind::Recorded, 0.10)?;
 /// // It may fall over its width or over its depth; the loss at an impact is not known.
 /// assert_eq!(object.directions.len(), 2);
-/// assert_eq!(object.unknowns[0].source, UncertaintySource::Eta);
-/// let bouncier = object.perturbed(&object.unknowns[0].high);
+/// assert_eq!(object.perturbations[0].source, UncertaintySource::Eta);
+/// let bouncier = object.perturbed(&object.perturbations[0].high);
 /// assert!(bouncier[0].structure.eta > object.directions[0].structure.eta);
-/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// # Ok::<(), rockfrag_core::object::ObjectError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingObject {
     /// The weaker first; one or more.
     pub directions: Vec<RockingDirection>,
-    pub unknowns: Vec<UncertainParameter>,
+    pub perturbations: Vec<LowHigh>,
 }
 
 /// A quantity that is uncertain, a perturbation of an object, or a result of either.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UncertainParameter<T = Perturbation> {
+pub struct LowHigh<T = Perturbation> {
     pub source: UncertaintySource,
     /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
     pub low: T,
@@ -76,20 +77,20 @@ pub struct UncertainParameter<T = Perturbation> {
     pub high: T,
 }
 
-impl<T> UncertainParameter<T> {
-    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> UncertainParameter<U> {
-        UncertainParameter { source: self.source, low: result(&self.low), high: result(&self.high) }
+impl<T> LowHigh<T> {
+    pub fn map<U>(&self, result: impl Fn(&T) -> U) -> LowHigh<U> {
+        LowHigh { source: self.source, low: result(&self.low), high: result(&self.high) }
     }
 }
 
-impl<T: Clone> UncertainParameter<T> {
+impl<T: Clone> LowHigh<T> {
     /// `results` are the estimate, then that with each error of the models at both quantiles.
-    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = UncertainParameter<T>> {
-        let ends = results[1..].chunks_exact(2);
-        ends.map(|ends| UncertainParameter {
+    pub(crate) fn from_fit_errors(results: &[T]) -> impl Iterator<Item = LowHigh<T>> {
+        let at_quantiles = results[1..].chunks_exact(2);
+        at_quantiles.map(|at_quantiles| LowHigh {
             source: UncertaintySource::Fit,
-            low: ends[0].clone(),
-            high: ends[1].clone(),
+            low: at_quantiles[0].clone(),
+            high: at_quantiles[1].clone(),
         })
     }
 }
@@ -111,14 +112,14 @@ impl RockingObject {
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn new(object: &Object, models: Vec<Model>) -> Result<RockingObject, Reason> {
+    pub fn new(object: &Object, models: Vec<Model>) -> Result<RockingObject, ObjectError> {
         let (sides, floor) = (object.sides()?, object.place.floor()?);
-        let mut unknowns = Vec::new();
-        // All sides of an object have the same unknown parts.
-        for (number, UncertainParameter { source, .. }) in sides[0].unknowns.iter().enumerate() {
-            let all = sides.iter().map(|side| &side.unknowns[number]);
-            let (low, high) = all.map(|unknown| (unknown.low.clone(), unknown.high.clone())).unzip();
-            unknowns.push(UncertainParameter {
+        let mut perturbations = Vec::new();
+        // All sides of an object have the same sources of uncertainty.
+        for (number, LowHigh { source, .. }) in sides[0].at_quantiles.iter().enumerate() {
+            let all = sides.iter().map(|side| &side.at_quantiles[number]);
+            let (low, high) = all.map(|structure| (structure.low.clone(), structure.high.clone())).unzip();
+            perturbations.push(LowHigh {
                 source: *source,
                 low: Perturbation::Structures(low),
                 high: Perturbation::Structures(high),
@@ -126,8 +127,8 @@ impl RockingObject {
         }
         if let Some(floor) = floor {
             let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
-            let off = UncertainParameter { source: UncertaintySource::Floor, low: -Z_95, high: Z_95 };
-            unknowns.push(off.map(|off| {
+            let off = LowHigh { source: UncertaintySource::Floor, low: -Z_95, high: Z_95 };
+            perturbations.push(off.map(|off| {
                 Perturbation::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })
             }));
         }
@@ -136,17 +137,21 @@ impl RockingObject {
         });
         let problem = "period: the paper's model is that of the ground";
         let directions: Option<Vec<RockingDirection>> = directions.collect();
-        let directions = directions.ok_or_else(|| Reason::Implausible(problem.to_string()))?;
-        Ok(RockingObject { directions, unknowns })
+        let directions = directions.ok_or_else(|| ObjectError::Implausible(problem.to_string()))?;
+        Ok(RockingObject { directions, perturbations })
     }
 
     /// With the uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure.
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn shipped(object: &Object, kind: MotionKind, limit_state: f64) -> Result<RockingObject, Reason> {
+    pub fn uncalibrated(
+        object: &Object,
+        kind: MotionKind,
+        limit_state: f64,
+    ) -> Result<RockingObject, ObjectError> {
         let sides = object.sides()?;
-        let models = sides.iter().map(|side| Model::shipped(kind, &side.structure, limit_state));
+        let models = sides.iter().map(|side| Model::uncalibrated(kind, &side.structure, limit_state));
         RockingObject::new(object, models.collect())
     }
 
@@ -169,10 +174,10 @@ impl RockingObject {
         directions
     }
 
-    /// Results with each unknown at its quantiles.
-    pub fn ends<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<UncertainParameter<T>> {
-        let all = self.unknowns.iter();
-        all.map(|unknown| unknown.map(|perturbation| result(&self.perturbed(perturbation)))).collect()
+    /// Results with each source of uncertainty at its quantiles.
+    pub fn at_quantiles<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<LowHigh<T>> {
+        let all = self.perturbations.iter();
+        all.map(|bounds| bounds.map(|perturbation| result(&self.perturbed(perturbation)))).collect()
     }
 
     pub fn structure_warnings(&self) -> Vec<Warning> {

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::given::{Object, Place, Reason, Restitution, Shape};
-use super::rocking::{UncertainParameter, UncertaintySource};
-use crate::fragility::Z_95;
+use super::given::{Object, ObjectError, Place, Restitution, Shape};
+use super::rocking::{LowHigh, UncertaintySource};
 use crate::rocking::{Body, Structure, StructureError, housner_eta};
+use crate::statistics::normal::Z_95;
 use crate::statistics::{Interval, normal, numerics};
 
 /// A direction in which an object rocks.
@@ -13,7 +13,7 @@ use crate::statistics::{Interval, normal, numerics};
 pub struct Side {
     pub structure: Structure,
     /// Structures at the quantiles of each property that is not known.
-    pub unknowns: Vec<UncertainParameter<Structure>>,
+    pub at_quantiles: Vec<LowHigh<Structure>>,
 }
 
 /// Standard deviation of ln(1 - eta) about Housner's, by free rocking tests: blocks on concrete lost 1.2 to
@@ -35,7 +35,7 @@ impl Object {
     ///
     /// # Errors
     /// Why there is none.
-    pub fn sides(&self) -> Result<Vec<Side>, Reason> {
+    pub fn sides(&self) -> Result<Vec<Side>, ObjectError> {
         if let Some(reason) = &self.refused {
             return Err(reason.clone());
         }
@@ -45,18 +45,18 @@ impl Object {
         let (least, friction) = (sides[0].friction(), self.place.friction.unwrap_or(f64::INFINITY));
         sides.retain(|side| side.friction() <= friction);
         match sides.is_empty() {
-            true => {
-                Err(Reason::NotRocking(format!("slides first: it rocks from a friction of {least:.2} on")))
-            }
+            true => Err(ObjectError::NotRocking(format!(
+                "slides first: it rocks from a friction of {least:.2} on"
+            ))),
             false => Ok(sides),
         }
     }
 
     pub fn is_implausible(&self) -> bool {
-        matches!(self.sides(), Err(Reason::Implausible(_)))
+        matches!(self.sides(), Err(ObjectError::Implausible(_)))
     }
 
-    fn all_sides(&self) -> Result<Vec<Side>, Reason> {
+    fn all_sides(&self) -> Result<Vec<Side>, ObjectError> {
         let Shape { p, alpha, eta, width, height, depth, centre_height, centre_offset, inertia, .. } =
             self.shape;
         let is_body = [depth, centre_height, centre_offset, inertia].iter().any(Option::is_some);
@@ -65,7 +65,7 @@ impl Object {
                 let eta = match eta {
                     Some(Restitution::Number(eta) | Restitution::Fitted(eta)) => eta,
                     Some(Restitution::Housner) => housner_eta(alpha),
-                    None => return Err(Reason::Implausible("p and alpha need eta".to_string())),
+                    None => return Err(ObjectError::Implausible("p and alpha need eta".to_string())),
                 };
                 Ok(vec![self.side_like(Structure::new(&self.name, p, alpha, eta)?)])
             }
@@ -78,15 +78,15 @@ impl Object {
                 self.check_dimensions(width, height)?;
                 self.sides_of_body(width, height)
             }
-            (None, None, Some(_), Some(_), Some(_)) => Err(Reason::Implausible(
+            (None, None, Some(_), Some(_), Some(_)) => Err(ObjectError::Implausible(
                 "beam-mass-ratio: expected width and height of a column alone".to_string(),
             )),
-            _ => Err(Reason::Implausible("expected p, alpha and eta, or width and height".to_string())),
+            _ => Err(ObjectError::Implausible("expected p, alpha and eta, or width and height".to_string())),
         }
     }
 
     /// Refuses dimensions that contradict each other.
-    fn check_dimensions(&self, width: f64, height: f64) -> Result<(), Reason> {
+    fn check_dimensions(&self, width: f64, height: f64) -> Result<(), ObjectError> {
         let (shape, place) = (&self.shape, &self.place);
         let side = shape.depth.map_or(width, |depth| depth.min(width));
         let (offset, inertia) =
@@ -108,12 +108,12 @@ impl Object {
         if let Some(centre) = shape.centre_height.filter(|centre| *centre < LOWEST * height) {
             let least = LOWEST * height;
             let problem = format!("centre-height is {centre}; expected {least} m or more: another unit?");
-            return Err(Reason::Implausible(problem));
+            return Err(ObjectError::Implausible(problem));
         }
         for (name, value, most, expected) in most {
             if let Some(value) = value.filter(|value| *value > most) {
                 let problem = format!("{name} is {value}; expected up to {most} {expected}");
-                return Err(Reason::Implausible(problem));
+                return Err(ObjectError::Implausible(problem));
             }
         }
         Ok(())
@@ -121,19 +121,19 @@ impl Object {
 
     /// Only eta is uncertain: by its standard deviation if that is given, by tests if eta is computed.
     fn side_like(&self, structure: Structure) -> Side {
-        let off = UncertainParameter { source: UncertaintySource::Eta, low: -Z_95, high: Z_95 };
+        let off = LowHigh { source: UncertaintySource::Eta, low: -Z_95, high: Z_95 };
         let etas = match (self.place.eta_sd, self.shape.given_eta()) {
             (Some(sd), _) => Some(off.map(|off| structure.eta + off * sd)),
             (None, Some(_)) => None,
             (None, None) => Some(off.map(|off| 1.0 - (1.0 - structure.eta) * (-off * SD_OF_LOSS).exp())),
         };
-        let unknown = etas
+        let structures = etas
             .map(|etas| etas.map(|eta| Structure { eta: eta.clamp(LEAST_ETA, 1.0), ..structure.clone() }));
-        Side { structure, unknowns: unknown.into_iter().collect() }
+        Side { structure, at_quantiles: structures.into_iter().collect() }
     }
 
     /// Both directions of a body, or that of its width.
-    fn sides_of_body(&self, width: f64, height: f64) -> Result<Vec<Side>, Reason> {
+    fn sides_of_body(&self, width: f64, height: f64) -> Result<Vec<Side>, ObjectError> {
         let mut sides = vec![self.side_of_body(width, height, self.shape.centre_offset.unwrap_or(0.0))];
         sides.extend(self.shape.depth.map(|depth| self.side_of_body(depth, height, 0.0)));
         if sides.iter().any(Result::is_ok) {
@@ -144,7 +144,7 @@ impl Object {
     }
 
     /// The inertia about the other axis differs by that of a solid block.
-    fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, Reason> {
+    fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, ObjectError> {
         let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
         let solid = Body::solid(side, height);
         let across = Body::solid(self.shape.width.unwrap_or(side), height).inertia_m2;
@@ -163,7 +163,7 @@ impl Object {
         if alpha_rad > FRAC_PI_4 {
             let tan = alpha_rad.tan();
             let text = format!("squat: it slides unless its friction is above {tan:.2}");
-            return Err(Reason::NotRocking(text));
+            return Err(ObjectError::NotRocking(text));
         }
         let by_height =
             centre_height_sd.map(|sd| [-Z_95, Z_95].map(|off| at(centre + off * sd, offset.value)));
@@ -172,7 +172,7 @@ impl Object {
             // A squat body slides, and so is no danger.
             let [low, high] = bodies
                 .map(|body| self.structure_of_body(body, height).unwrap_or_else(|_| found.structure.clone()));
-            found.unknowns.push(UncertainParameter { source: UncertaintySource::Object, low, high });
+            found.at_quantiles.push(LowHigh { source: UncertaintySource::Object, low, high });
         }
         Ok(found)
     }

@@ -130,14 +130,14 @@ pub fn solve(
             let at = |h: f64| step(structure, now, |after| ground(t + after), h);
             let strikes = |at: Rocking| now.side * at.theta < 0.0;
             let overturns = |at: Rocking| now.side * at.theta >= FRAC_PI_2;
-            let falls = |at: Rocking| now.side * at.velocity < 0.0;
+            let returns = |at: Rocking| now.side * at.velocity < 0.0;
             let mut h = longest_s.min(dt_s - t);
             if strikes(at(h)) || overturns(at(h)) {
                 h = bisect_first_true(0.0, h, |h| strikes(at(h)) || overturns(at(h)));
             }
             let next = at(h);
-            let top = if falls(next) && !falls(now) {
-                at(bisect_first_true(0.0, h, |h| falls(at(h))))
+            let top = if returns(next) && !returns(now) {
+                at(bisect_first_true(0.0, h, |h| returns(at(h))))
             } else {
                 next
             };

@@ -45,7 +45,7 @@ pub struct Fit {
     /// Number of clusters; 0 if none were given.
     pub clusters: usize,
     /// Degrees of freedom of the limits without clusters: n - k of least squares, infinite of a likelihood.
-    pub degrees: f64,
+    pub degrees_of_freedom: f64,
     pub n: usize,
     /// p-value of the squares and products of the predictors; none if not tested, or degenerate.
     pub misfit_p: Option<f64>,
@@ -57,11 +57,11 @@ impl Fit {
     /// Makes a fit of `n` cases, without clusters or test of the form.
     pub(super) fn new(
         (coefficients, covariance): (DVector<f64>, DMatrix<f64>),
-        degrees: f64,
+        degrees_of_freedom: f64,
         n: usize,
     ) -> Fit {
         let (clustered, clusters, misfit_p, status) = (None, 0, None, FitStatus::Ok);
-        Fit { coefficients, covariance, clustered, clusters, degrees, n, misfit_p, status }
+        Fit { coefficients, covariance, clustered, clusters, degrees_of_freedom, n, misfit_p, status }
     }
 
     pub(super) fn note_misfit(&mut self, p: Option<f64>) {
@@ -75,7 +75,7 @@ impl Fit {
     pub fn limiting_covariance(&self) -> (&DMatrix<f64>, f64) {
         match &self.clustered {
             Some(clustered) => (clustered, self.clusters as f64 - 1.0),
-            None => (&self.covariance, self.degrees),
+            None => (&self.covariance, self.degrees_of_freedom),
         }
     }
 }
@@ -104,7 +104,7 @@ pub fn independent_errors(coefficients: &[f64], covariance: &[f64], deviations: 
 }
 
 /// Computes g' C g, the variance of a function of gradient g (k) by the delta method; C is k x k, by row.
-pub fn variance(covariance: &[f64], gradient: &[f64]) -> f64 {
+pub fn delta_variance(covariance: &[f64], gradient: &[f64]) -> f64 {
     let rows = covariance.chunks_exact(gradient.len()).zip(gradient);
     rows.map(|(row, g)| g * row.iter().zip(gradient).map(|(c, g)| c * g).sum::<f64>()).sum()
 }

@@ -23,7 +23,7 @@ impl LinearFit {
 
     /// Computes the residual standard deviation, with n - k degrees of freedom.
     pub fn residual_sd(&self) -> f64 {
-        (self.rss / self.fit.degrees).sqrt()
+        (self.rss / self.fit.degrees_of_freedom).sqrt()
     }
 }
 
@@ -40,8 +40,9 @@ pub fn least_squares(x: &[impl AsRef<[f64]>], y: &[f64]) -> Result<LinearFit, Fi
     // One step of iterative refinement removes rounding errors.
     b += &inverse * design.x.tr_mul(&(&y - &design.x * &b));
     let rss = (&y - &design.x * &b).norm_squared();
-    let degrees = (y.len() - b.len()) as f64;
-    let fit = Fit::new(design.to_given(&b, &(inverse * (rss / degrees))), degrees, y.len());
+    let degrees_of_freedom = (y.len() - b.len()) as f64;
+    let fit =
+        Fit::new(design.to_given(&b, &(inverse * (rss / degrees_of_freedom))), degrees_of_freedom, y.len());
     Ok(LinearFit { fit, rss, tss: y.add_scalar(-mean).norm_squared() })
 }
 
@@ -51,7 +52,7 @@ pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result
     let mut linear = least_squares(x, y)?;
     let fitted = predict(linear.fit.coefficients.as_slice(), x);
     let residuals: Vec<f64> = y.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
-    let bread = &linear.fit.covariance * (linear.fit.degrees / linear.rss);
+    let bread = &linear.fit.covariance * (linear.fit.degrees_of_freedom / linear.rss);
     (linear.fit.clustered, linear.fit.clusters) = sandwich(x, &residuals, &bread, clusters);
     linear.fit.note_misfit(misfit(&linear, x, y));
     Ok(linear)
@@ -61,7 +62,7 @@ pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result
 fn misfit(linear: &LinearFit, x: &[&[f64]], y: &[f64]) -> Option<f64> {
     let columns = with_squares(x)?;
     let wider = least_squares(&columns, y).ok()?;
-    let added = linear.fit.degrees - wider.fit.degrees;
-    let f = (linear.rss - wider.rss) / added / (wider.rss / wider.fit.degrees);
-    Some(f_upper_tail(f, added, wider.fit.degrees))
+    let added = linear.fit.degrees_of_freedom - wider.fit.degrees_of_freedom;
+    let f = (linear.rss - wider.rss) / added / (wider.rss / wider.fit.degrees_of_freedom);
+    Some(f_upper_tail(f, added, wider.fit.degrees_of_freedom))
 }

@@ -33,7 +33,7 @@ pub mod scores;
 
 pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::{Folds, held_out_log_score};
-pub use fit::{Fit, FitStatus, independent_errors, predict, variance};
+pub use fit::{Fit, FitStatus, delta_variance, independent_errors, predict};
 pub use interval::Interval;
 pub use linear::{LinearFit, least_squares, tested_least_squares};
 pub use range::{Bounds, Range};

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
+/// The 97.5 % quantile.
+pub const Z_95: f64 = 1.959_963_984_540_054;
 /// The lower tail below this uses a continued fraction.
 const TAIL: f64 = -5.0;
 /// Levels of the continued fraction; at [`TAIL`] more have no effect.

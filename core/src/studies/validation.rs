@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{Event, Z_95};
+use crate::fragility::Event;
 use crate::statistics::clusters::clustered_mean;
+use crate::statistics::normal::Z_95;
 use crate::statistics::scores::{auc, brier_score, log_score};
 use crate::statistics::{Interval, normal, tested_probit};
 

@@ -4,14 +4,15 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak, Z_95};
+use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
-    GroundMotion, Hazard, HazardCurve, Lognormal, PairOfPeaks, PeakHazard, PgvPgaRatio, RateByParts, Site,
-    SitesInGeneral, intensity_in_words, ratio_of_rates,
+    GenericSites, GroundMotion, Hazard, HazardCurve, Lognormal, PairOfPeaks, PeakHazard, PgvPgaRatio,
+    RateBySource, Site, format_intensity, ratio_of_rates,
 };
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Restitution, RockingObject, UncertaintySource};
 use rockfrag_core::statistics::Interval;
+use rockfrag_core::statistics::normal::Z_95;
 use strum::VariantArray;
 
 /// A curve that ends where nothing is stronger.
@@ -25,7 +26,7 @@ fn over_pga() -> Site {
 }
 
 fn block(width: f64) -> RockingObject {
-    RockingObject::shipped(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
+    RockingObject::uncalibrated(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
 }
 
 #[test]
@@ -65,17 +66,17 @@ fn the_fragility_at_a_site_integrates_to_its_rate() {
     let states = [LimitState::Overturning, LimitState::Failure];
     let sums =
         curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
-    for (sum, rate) in sums.into_iter().zip([rate.overturning, rate.failure]) {
+    for (sum, rate) in sums.into_iter().zip([rate.states.overturning, rate.states.failure]) {
         assert!((sum / rate.value.unwrap() - 1.0).abs() < 1e-3);
     }
 }
 
 #[test]
 fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
-    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    let general = GenericSites { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
     for (over, mw) in [(Peak::Pga, None), (Peak::Pga, Some(7.0)), (Peak::Pgv, None), (Peak::Pgv, Some(5.5))] {
         let Lognormal { at_16, theta, beta, largest_error, .. } =
-            SitesInGeneral { over, mw, ..general }.fragility(&block(0.5)).overturning;
+            GenericSites { over, mw, ..general }.fragility(&block(0.5)).overturning;
         let still = GroundMotion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
         for (level, Interval { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
             let motion = match over {
@@ -93,9 +94,10 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 #[test]
 fn the_fragility_of_a_thin_block_never_falls() {
     // IM4 ends in the domain of the surface at 1.6 g.
-    let thin = RockingObject::shipped(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
+    let thin =
+        RockingObject::uncalibrated(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
     for over in [Peak::Pga, Peak::Pgv] {
-        let general = SitesInGeneral { over, mw: None, vs30_m_s: None, ratio_s: None };
+        let general = GenericSites { over, mw: None, vs30_m_s: None, ratio_s: None };
         for pair in general.fragility(&thin).points.windows(2) {
             for state in [LimitState::Failure, LimitState::Overturning] {
                 let [before, after] = [&pair[0], &pair[1]].map(|point| point.p.get(state).value.unwrap());
@@ -107,10 +109,10 @@ fn the_fragility_of_a_thin_block_never_falls() {
 
 #[test]
 fn what_no_recorded_motion_overturns_has_no_median() {
-    let general = SitesInGeneral { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+    let general = GenericSites { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
     let overturning = general.fragility(&block(1.8)).overturning;
     assert_eq!((overturning.theta.value, overturning.beta), (None, None));
-    assert_eq!(intensity_in_words(Peak::Pga, None), "> 4.5 g");
+    assert_eq!(format_intensity(Peak::Pga, None), "> 4.5 g");
 }
 
 /// A block with its restitution, the model's parameters and the magnitude at these standard deviations.
@@ -118,13 +120,12 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let mut object = Object::block("block", width, 1.9);
     let median = block(width).directions[0].structure.eta;
     object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
-    let mut object = RockingObject::shipped(&object, MotionKind::Recorded, 0.1).unwrap();
+    let mut object = RockingObject::uncalibrated(&object, MotionKind::Recorded, 0.1).unwrap();
     let direction = &mut object.directions[0];
-    let ends = direction.model.ends();
-    let Model::Calibrated { overturning, .. } = &mut direction.model else { panic!("the surface") };
+    let ends = direction.model.at_quantiles();
+    let Model::Surface { overturning, .. } = &mut direction.model else { panic!("the surface") };
     for (z, [low, high]) in z[2..].iter().zip(&ends) {
-        let (Model::Calibrated { overturning: low, .. }, Model::Calibrated { overturning: high, .. }) =
-            (low, high)
+        let (Model::Surface { overturning: low, .. }, Model::Surface { overturning: high, .. }) = (low, high)
         else {
             panic!("the surface")
         };
@@ -142,8 +143,8 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
 const RATIO_S: f64 = 0.1;
 
 fn of_one_ratio() -> Site {
-    let (peak, curve, velocity) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
-    Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, velocity }))
+    let (peak, curve, pgv_pga) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
+    Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga }))
 }
 
 #[test]
@@ -151,8 +152,8 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
     let [before, after] = [0.5, 0.6].map(|width| {
         let rates = of_one_ratio().rates(&block(width));
         let known = |source: &UncertaintySource| Some((*source, rates.errors.source_sd(*source)?));
-        RateByParts {
-            rate: rates.overturning.value.unwrap(),
+        RateBySource {
+            rate: rates.states.overturning.value.unwrap(),
             sds: UncertaintySource::VARIANTS.iter().filter_map(known).collect(),
         }
     });

@@ -1,7 +1,7 @@
 //! Annual rates against closed forms.
 
 use rockfrag_core::fragility::{
-    Event, GivenPeak, Measure, Model, MotionKind, Peak, RatioGiven, RockingDirection, Z_95, fit_curve,
+    Event, GivenPeak, Measure, Model, MotionKind, Peak, RatioGiven, RockingDirection, fit_curve,
     p_overturning,
 };
 use rockfrag_core::hazard::{
@@ -9,8 +9,9 @@ use rockfrag_core::hazard::{
     VelocitySource, exceedance, probability_in_years, rates_over_curve, velocity_of_spectrum,
 };
 use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, RockingObject, UncertainParameter, UncertaintySource};
+use rockfrag_core::object::{LowHigh, Object, RockingObject, UncertaintySource};
 use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, normal};
 
 use crate::common::{cases, close, equipment, read};
@@ -80,7 +81,7 @@ fn what_is_no_hazard_curve_is_refused() {
 fn lognormal_over_both_peaks(b: [f64; 3]) -> (Model, Structure) {
     let mut overturning = fit_curve(&cases([]), Event::Overturning, Measure::Im4, Some(Measure::Im5));
     (overturning.coefficients, overturning.covariance) = (b.to_vec(), vec![0.0; 9]);
-    let peaks = Model::shipped(MotionKind::Csgm, &equipment(), 0.1).peaks();
+    let peaks = Model::uncalibrated(MotionKind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
     (model, Structure::new("slender", 1.0, 1e-3, 0.9).unwrap())
 }
@@ -129,7 +130,8 @@ fn a_joint_hazard_of_lognormal_velocities_has_a_rate_in_closed_form() {
     let ln_uplift = structure.uplift_acceleration_m_s2().ln();
     let z = -15.0 + 1.2 * (pga_m_s2.ln() - ln_uplift) + 1.6 * (m - ln_uplift);
     let expected = 0.02 * normal::cdf(z / 1.0_f64.hypot(1.6 * s));
-    let object = RockingObject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
+    let object =
+        RockingObject { directions: vec![RockingDirection { structure, model }], perturbations: vec![] };
     let rate = Site::new(Hazard::Joint((0..n).map(bin).collect())).overturning(&object).unwrap();
     assert!((rate / expected - 1.0).abs() < 1e-4, "{rate} for {expected}");
 }
@@ -146,28 +148,31 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard =
-        PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, velocity: Some(velocity) };
-    let object = RockingObject { directions: vec![RockingDirection { structure, model }], unknowns: vec![] };
+        PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, pgv_pga: Some(velocity) };
+    let object =
+        RockingObject { directions: vec![RockingDirection { structure, model }], perturbations: vec![] };
     let rates = Site::new(Hazard::Curve(hazard)).rates(&object);
     let errors = rates.errors;
     let of_velocity = errors.source_sd(UncertaintySource::Velocity).unwrap();
-    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.unknown().high / Z_95;
+    let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.at_quantiles().high / Z_95;
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
     assert!((errors.source_sd(UncertaintySource::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
     assert_eq!(errors.source_sd(UncertaintySource::Magnitude), None);
-    let rate = rates.overturning.estimate().unwrap();
+    let rate = rates.states.overturning.estimate().unwrap();
     assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
     assert!(rate.high > rate.value);
 }
 
 #[test]
 fn pgv_of_sites_falls_with_vs30_as_by_ground_motion_models() {
-    let model = Model::shipped(MotionKind::Recorded, &equipment(), 0.1);
+    let model = Model::uncalibrated(MotionKind::Recorded, &equipment(), 0.1);
     for (vs30, mw, ln_ratio) in read::<(f64, f64, f64)>("site_levels.csv") {
         let velocity = PgvPgaRatio::by_model(&model, Peak::Pga, Some(vs30));
         let ours = velocity.at(mw, 0.0).ratio(0.4 * 9.81, 0.0).ln();
         assert!((ours - ln_ratio).abs() < 0.1, "{vs30} m/s: {ours} for {ln_ratio}");
-        assert!(velocity.unknown().high < PgvPgaRatio::by_model(&model, Peak::Pga, None).unknown().high);
+        assert!(
+            velocity.at_quantiles().high < PgvPgaRatio::by_model(&model, Peak::Pga, None).at_quantiles().high
+        );
     }
 }
 
@@ -210,7 +215,7 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
 
 /// A block of .9 x 1.4 m, whose rate of overturning a curve up to 4 g leaves open.
 fn squat() -> RockingObject {
-    RockingObject::shipped(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
+    RockingObject::uncalibrated(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
 }
 
 fn range(rate: Interval<Option<f64>>) -> [f64; 2] {
@@ -228,25 +233,23 @@ fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
         Site::new(Hazard::over(Peak::Pga, HazardCurve::new(points.to_vec()).unwrap()))
     };
     let early = to(0.8).rates(&squat());
-    let [low, high] = range(early.overturning);
+    let [low, high] = range(early.states.overturning);
     let whole = to(8.0).rates(&squat());
-    let rate = whole.overturning.estimate().unwrap();
+    let rate = whole.states.overturning.estimate().unwrap();
     assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
     // The errors widen it: without any it is what no and what each stronger motion would make of it.
-    let certain = RockingObject { unknowns: vec![], ..squat() };
-    let [sure_low, sure_high] = range(to(0.8).rates(&certain).overturning);
+    let certain = RockingObject { perturbations: vec![], ..squat() };
+    let [sure_low, sure_high] = range(to(0.8).rates(&certain).states.overturning);
     // Rates below once in 1e12 years have no errors.
     assert!(low <= sure_low && sure_low < sure_high && sure_high < high);
-    let [failure_low, failure_high] = range(early.failure);
+    let [failure_low, failure_high] = range(early.states.failure);
     assert!(low <= failure_low && high <= failure_high * (1.0 + 1e-12));
 }
 
 #[test]
 fn limits_are_those_of_normal_errors() {
     // What only raises a result, such as an offset to either side, has no lower side.
-    let by = |source, result: fn(f64) -> f64| {
-        UncertainParameter { source, low: -Z_95, high: Z_95 }.map(|x| result(*x))
-    };
+    let by = |source, result: fn(f64) -> f64| LowHigh { source, low: -Z_95, high: Z_95 }.map(|x| result(*x));
     let unknowns = [
         by(UncertaintySource::Eta, |x| 1.0 + 0.4 * x),
         by(UncertaintySource::Object, |x| 1.0 + 1.2 * x.abs()),
@@ -285,7 +288,7 @@ fn averages_over_pgv_pga_are_those_of_scipy() {
     // scripts/reference/fragility.py.
     for row in read::<Average>("fragility_answers.csv") {
         let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
-        let model = Model::shipped(MotionKind::Recorded, &structure, 0.2);
+        let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.2);
         let ratio = PgvPgaRatio::by_model(&model, row.over, None).at(row.mw, 0.0);
         let directions = [RockingDirection { structure, model }];
         let unit = if row.over == Peak::Pga { 9.81 } else { 1.0 };

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
-    Calibration, Case, Cases, Cluster, Event, LimitStates, Measure, Model, MotionKind, Scenarios, fit_curve,
+    Calibration, Case, Cases, Cluster, Event, LimitStates, Measure, Model, MotionKind, Tau, fit_curve,
     p_failure_given_rocking,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
@@ -27,7 +27,7 @@ fn at(im4: f64, im5: f64) -> IntensityMeasures {
 
 fn calibrated(cases: &Cases) -> Model {
     let (overturning, exceeding) = (Calibration::fit(cases, None), Calibration::fit(cases, Some(0.1)));
-    Model::Calibrated { overturning, exceeding, floor: None }
+    Model::Surface { overturning, exceeding, floor: None }
 }
 
 #[derive(serde::Deserialize)]
@@ -58,15 +58,15 @@ fn logits_are_those_of_python() {
         let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
         let mw = Some(row.mw).filter(|mw| *mw > 0.0);
         let of = |limit| {
-            Calibration::shipped(row.kind, &structure, limit).predictor(&structure, &measures, mw).unwrap()
+            Calibration::uncalibrated(row.kind, &structure, limit).terms(&structure, &measures, mw).unwrap()
         };
         let (pro, pex) = (of(None), of(Some(row.limit_state)));
         let pairs = [
             (pro.logit, row.logit_pro),
             (pex.logit, row.logit_pex),
             (pro.magnitude, row.magnitude),
-            (pro.added, row.added_pro),
-            (pex.added, row.added_pex),
+            (pro.uplift_term, row.added_pro),
+            (pex.uplift_term, row.added_pex),
         ];
         for (ours, theirs) in pairs {
             assert!((ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0), "{ours} {theirs} {structure:?}");
@@ -183,9 +183,9 @@ fn probabilities_never_fall_along_20000_lines() {
             for _ in 0..12 {
                 let Ok(structure) = Structure::new("any", at[0], at[1], at[2]) else { break };
                 let of_motion = measures(&structure, at[3], at[4]);
-                let shipped = Model::shipped(*kind, &structure, [0.02, 0.1, 0.5, 0.9][line % 4]);
-                let model = if line % 7 == 0 { &own } else { &shipped };
-                let given = model.probabilities(&structure, &of_motion, mw, Scenarios::One).given_rocking;
+                let uncalibrated = Model::uncalibrated(*kind, &structure, [0.02, 0.1, 0.5, 0.9][line % 4]);
+                let model = if line % 7 == 0 { &own } else { &uncalibrated };
+                let given = model.probabilities(&structure, &of_motion, mw, Tau::Included).given_rocking;
                 let Some(given) = given else { continue };
                 let p = [given.p_ro.value, given.p_ex.unwrap().value, given.p_failure.unwrap().value];
                 let fall = (0..3).map(|k| last[k] - p[k]).fold(0.0, f64::max);
@@ -204,8 +204,8 @@ fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
             let structure = Structure::new("any", p, 0.2, eta).unwrap();
             let at = |im4: f64, limit_state: f64| {
                 let of_motion = at(im4, 0.2 * p);
-                let model = Model::shipped(*kind, &structure, limit_state);
-                let given = model.probabilities(&structure, &of_motion, None, Scenarios::One);
+                let model = Model::uncalibrated(*kind, &structure, limit_state);
+                let given = model.probabilities(&structure, &of_motion, None, Tau::Included);
                 given.given_rocking.unwrap()
             };
             for p in [at(1.0, 0.1).p_ro, at(1.0, 0.1).p_ex.unwrap()] {
@@ -238,13 +238,13 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
             let model = calibrated(&cases(
                 (0..n).map(|k| (overturns, strength(k), 2.0, if n == 8 { k } else { k % 30 })),
             ));
-            let Model::Calibrated { overturning, .. } = &model else { panic!() };
+            let Model::Surface { overturning, .. } = &model else { panic!() };
             assert!(overturning.covariance.iter().all(|v| v.is_finite()) && overturning.covariance[0] > 1e-3);
             assert!(overturning.warnings().contains(&Warning::NoEvents));
             assert_eq!(overturning.warnings().contains(&Warning::FewClusters), n == 8);
             for im4 in [1.2, 2.0, 3.0] {
                 let probabilities =
-                    model.probabilities(&equipment(), &at(im4, im4 / 2.0), None, Scenarios::One);
+                    model.probabilities(&equipment(), &at(im4, im4 / 2.0), None, Tau::Included);
                 let given = probabilities.given_rocking.unwrap();
                 for p in [Some(given.p_ro), given.p_ex, given.p_failure] {
                     expect_limits(p.unwrap());
@@ -270,7 +270,7 @@ fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
     for im4 in [2.0, 3.0, 4.0] {
         let p_ro = |model: &Model| {
             let measures = at(im4, im4 / 2.0);
-            model.probabilities(&equipment(), &measures, None, Scenarios::Many).given_rocking.unwrap().p_ro
+            model.probabilities(&equipment(), &measures, None, Tau::Averaged).given_rocking.unwrap().p_ro
         };
         expect_limits(p_ro(&with));
         assert!((p_ro(&with).value - p_ro(&without).value).abs() < 0.1);
@@ -280,14 +280,14 @@ fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
 #[test]
 fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
     let block = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
-    let model = Model::shipped(MotionKind::Csgm, &block, 0.1);
+    let model = Model::uncalibrated(MotionKind::Csgm, &block, 0.1);
     for (pga, pgv) in [(3.0, 0.2), (5.0, 0.6), (9.0, 1.5), (20.0, 5.0)] {
-        let of = |scenarios| {
-            let p = model.probabilities(&block, &measures(&block, pga, pgv), None, scenarios);
+        let of = |tau| {
+            let p = model.probabilities(&block, &measures(&block, pga, pgv), None, tau);
             let given = p.given_rocking.unwrap();
             [Some(given.p_ro), given.p_ex, given.p_failure].map(Option::unwrap)
         };
-        let (one, many) = (of(Scenarios::One), of(Scenarios::Many));
+        let (one, many) = (of(Tau::Included), of(Tau::Averaged));
         let joined = |of: fn(Interval) -> f64| p_failure_given_rocking(of(one[0]), of(one[1]));
         close(one[2].value, joined(|p| p.value), 1e-12);
         close(one[2].low, joined(|p| p.low), 1e-12);
@@ -298,23 +298,26 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
             assert!(many.value <= many.high && many.high <= one.high);
         }
     }
-    let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Scenarios::One);
+    let still = model.probabilities(&block, &measures(&block, 1.0, 0.5), None, Tau::Included);
     assert_eq!(still.limit_states(), LimitStates::all(Some(Interval::exact(0.0))));
-    let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Scenarios::One);
+    let unknown = model.probabilities(&block, &measures(&block, 9.0, 0.0), None, Tau::Included);
     assert_eq!(unknown.limit_states().overturning, None, "no velocity");
 }
 
 #[test]
 fn what_lies_outside_is_warned_once() {
     let inside = measures(&equipment(), 5.0, 0.6);
-    let shipped = Model::shipped(MotionKind::Csgm, &equipment(), 0.1);
+    let uncalibrated = Model::uncalibrated(MotionKind::Csgm, &equipment(), 0.1);
     let by = |model: &Model, of_motion| model.warnings(&equipment(), &of_motion);
-    assert_eq!(by(&shipped, inside), []);
-    assert_eq!(by(&shipped, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
-    assert_eq!(by(&shipped, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
-    assert_eq!(by(&Model::shipped(MotionKind::Csgm, &equipment(), 2.0), inside), [Warning::Extrapolated]);
+    assert_eq!(by(&uncalibrated, inside), []);
+    assert_eq!(by(&uncalibrated, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
+    assert_eq!(by(&uncalibrated, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
+    assert_eq!(
+        by(&Model::uncalibrated(MotionKind::Csgm, &equipment(), 2.0), inside),
+        [Warning::Extrapolated]
+    );
     let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
-    assert!(shipped.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
+    assert!(uncalibrated.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
     // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
     let own = calibrated(&rocking(400));
     assert!(by(&own, inside).contains(&Warning::Extrapolated));
@@ -323,26 +326,26 @@ fn what_lies_outside_is_warned_once() {
 #[test]
 fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
     let structure = Structure::new("any", 2.5, 0.2, 0.92).unwrap();
-    let shipped = Calibration::shipped(MotionKind::Recorded, &structure, None);
+    let uncalibrated = Calibration::uncalibrated(MotionKind::Recorded, &structure, None);
     let of_motion = measures(&structure, 4.0, 0.4);
     let logit = |p: f64| (p / (1.0 - p)).ln();
     for mw in [None, Some(7.2)] {
-        let of = shipped.predictor(&structure, &of_motion, mw).unwrap();
-        let slope = of.logit * shipped.ln_s.exp();
-        let variance = shipped.covariance[0]
-            + slope * slope * shipped.covariance[4]
-            + of.magnitude * of.magnitude * shipped.covariance[8];
-        let of_magnitude = if mw.is_none() { shipped.m * of.magnitude_sd } else { 0.0 };
-        let spread = shipped.tau * shipped.tau + of_magnitude * of_magnitude;
-        for (scenarios, between) in [(Scenarios::One, spread), (Scenarios::Many, 0.0)] {
-            let p = shipped.probability(&structure, &of_motion, mw, scenarios).unwrap();
+        let of = uncalibrated.terms(&structure, &of_motion, mw).unwrap();
+        let slope = of.logit * uncalibrated.ln_s.exp();
+        let variance = uncalibrated.covariance[0]
+            + slope * slope * uncalibrated.covariance[4]
+            + of.magnitude * of.magnitude * uncalibrated.covariance[8];
+        let of_magnitude = if mw.is_none() { uncalibrated.m * of.magnitude_sd } else { 0.0 };
+        let spread = uncalibrated.tau * uncalibrated.tau + of_magnitude * of_magnitude;
+        for (tau, between) in [(Tau::Included, spread), (Tau::Averaged, 0.0)] {
+            let p = uncalibrated.probability(&structure, &of_motion, mw, tau).unwrap();
             let half_width = 1.959_963_984_540_054 * (variance + between).sqrt();
             assert!((logit(p.high) - logit(p.value) - half_width).abs() < 1e-9);
             assert!((logit(p.value) - logit(p.low) - half_width).abs() < 1e-9);
         }
     }
     // A unit of magnitude is worth m, and none beyond the magnitudes of the data.
-    let of = |mw| shipped.predictor(&structure, &of_motion, Some(mw)).unwrap().magnitude;
+    let of = |mw| uncalibrated.terms(&structure, &of_motion, Some(mw)).unwrap().magnitude;
     assert!((of(7.0) - of(6.0) - 1.0).abs() < 1e-12);
     assert_eq!((of(3.0), of(9.0)), (of(5.0), of(7.6)));
 }

@@ -65,26 +65,26 @@ fn calibrations_to_outcomes_are_those_of_scipy() {
         }
         // Limits of one earthquake keep the spread between earthquakes.
         let structure = &outcomes(&answer.list)[0].structure;
-        assert_eq!(found.tau, Calibration::shipped(MotionKind::Recorded, structure, None).tau);
+        assert_eq!(found.tau, Calibration::uncalibrated(MotionKind::Recorded, structure, None).tau);
     }
 }
 
 #[test]
 fn lists_without_an_event_or_without_outcomes_say_so() {
     assert_eq!(Calibration::fit_outcomes(&[]), None);
-    let shipped = |list: &str| {
+    let uncalibrated = |list: &str| {
         let structure = &outcomes(list)[0].structure;
-        Calibration::shipped(MotionKind::Recorded, structure, None).c
+        Calibration::uncalibrated(MotionKind::Recorded, structure, None).c
     };
     for (list, sign) in [("stood", -1.0), ("fell", 1.0)] {
         let found = Calibration::fit_outcomes(&outcomes(list)).unwrap();
-        assert!(sign * (found.c - shipped(list)) > 0.1, "{list}");
+        assert!(sign * (found.c - uncalibrated(list)) > 0.1, "{list}");
         assert!(found.warnings().contains(&Warning::NoEvents), "{list}");
     }
     // What a motion does not uplift tells nothing.
     let mut unmoved = outcomes("stood");
     unmoved.iter_mut().for_each(|outcome| outcome.peaks.pga_m_s2 = 0.5);
     let found = Calibration::fit_outcomes(&unmoved).unwrap();
-    close(found.c, shipped("stood"), 1e-9);
+    close(found.c, uncalibrated("stood"), 1e-9);
     assert_eq!(found.n, 0);
 }

@@ -4,7 +4,7 @@ use rockfrag_core::fragility::{Event, Measure, fit_curve, fit_demand, hybrid_mea
 use rockfrag_core::paper::{EXAMPLE_LAMBDA, Published, STRUCTURES, example, published, seed_values};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::normal;
-use rockfrag_core::studies::paper::{Comparison, compare};
+use rockfrag_core::studies::comparison::{Comparison, compare};
 
 use crate::common::{close, rocking};
 

@@ -57,7 +57,7 @@ fn peaks_are_those_of_the_script() {
         (0.1, 0.6, 0.7, [2.0329, 1.0539, 0.2475, 0.0993]),
     ] {
         let pgv = ground_s / (2.0 * std::f64::consts::PI);
-        let found = Floor { period_s, level }.amplified(Peaks { pga_m_s2: 1.0, pgv_m_s: pgv });
+        let found = Floor { period_s, level }.amplification(Peaks { pga_m_s2: 1.0, pgv_m_s: pgv });
         let found = [found.ln_pfa.exp(), found.ln_pfv.exp(), found.sd_ln_pfa, found.sd_ln_pfv];
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 2e-4, "{period_s} {level}: {found}, {expected}");
@@ -69,11 +69,11 @@ fn peaks_are_those_of_the_script() {
 fn peaks_on_the_ground_and_in_a_rigid_building_are_those_of_the_ground() {
     let ground = Peaks { pga_m_s2: 3.0, pgv_m_s: 0.2 };
     for floor in [Floor { period_s: 0.9, level: 0.0 }, Floor { period_s: 1e-9, level: 1.0 }] {
-        let (peaks, by) = (floor.peaks(ground), floor.amplified(ground));
+        let (peaks, by) = (floor.peaks(ground), floor.amplification(ground));
         assert!((peaks.pga_m_s2 - 3.0).abs() < 1e-5 && (peaks.pgv_m_s - 0.2).abs() < 1e-6, "{peaks:?}");
         assert!(by.sd_ln_pfa < 0.01 && by.sd_ln_pfv < 0.01 && by.resonant_share < 1e-4, "{by:?}");
     }
     let floor = Floor { period_s: 0.9, level: 0.0 };
-    assert_eq!((floor.peaks(ground), floor.amplified(ground).sd_ln_pfa), (ground, 0.0));
+    assert_eq!((floor.peaks(ground), floor.amplification(ground).sd_ln_pfa), (ground, 0.0));
     assert!((0.0..1.0).contains(&floor::CORRELATION));
 }

@@ -6,12 +6,12 @@ use proptest::prelude::*;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
+use rockfrag_core::motion::amplification::SiteTableError;
 use rockfrag_core::motion::pulse::largest_velocity;
-use rockfrag_core::motion::site::SiteTableError;
 use rockfrag_core::motion::stochastic::{CONSTANT, PEAK_SHARE, Source, StochasticModel, Window};
 use rockfrag_core::motion::{
     Design, Difference, Epoch, MeasurePlan, MotionModel, Pulse, Scenario, ScenarioGrid, SiteAmplification,
-    Suite, Synthesizer, Synthetic, measures,
+    Suite, Synthesizer, SyntheticMotion, measures,
 };
 use strum::VariantArray;
 
@@ -56,7 +56,7 @@ fn varied_scenarios() -> Vec<Scenario> {
     (0..grid.cells()).flat_map(|cell| grid.scenarios_of_cell(cell)).collect()
 }
 
-fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<Synthetic> {
+fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<SyntheticMotion> {
     let mut synthesizer = Synthesizer::new(model.clone(), Suite::VARIANTS);
     scenarios.iter().map(|scenario| synthesizer.synthesize(scenario)).collect()
 }
@@ -77,7 +77,12 @@ const SEEDS: u64 = 6;
 const SAMPLING: f64 = 0.06;
 
 /// Medians of PGA (g), PGV (cm/s) and Tm (s) of 100 motions, averaged over the seeds.
-fn medians(difference: Difference, mw: f64, re_km: f64, samples: fn(&Synthetic) -> &Vec<f64>) -> [f64; 3] {
+fn medians(
+    difference: Difference,
+    mw: f64,
+    re_km: f64,
+    samples: fn(&SyntheticMotion) -> &Vec<f64>,
+) -> [f64; 3] {
     let mut mean = [0.0; 3];
     for seed in 0..SEEDS {
         let model = MotionModel { seed, ..with_difference(difference) };
@@ -107,7 +112,11 @@ fn spectrum(samples: &[f64]) -> Vec<Complex64> {
 
 /// Fourier amplitude of the high frequencies over that of the model, at each frequency (Hz) except the first
 /// and the last.
-fn relative_amplitudes(motion: &Synthetic, model: &StochasticModel, source: &Source) -> Vec<(f64, f64)> {
+fn relative_amplitudes(
+    motion: &SyntheticMotion,
+    model: &StochasticModel,
+    source: &Source,
+) -> Vec<(f64, f64)> {
     let step_hz = 1.0 / (motion.high_frequency.len() as f64 * motion.dt_s);
     let coefficients = spectrum(&motion.high_frequency);
     let relative = |(k, coefficient): (usize, &Complex64)| {
@@ -343,15 +352,16 @@ fn the_epoch_is_where_the_option_says() {
 
 #[test]
 fn a_motion_is_the_same_whatever_else_is_made_and_on_any_number_of_threads() {
-    let bits =
-        |motion: &Synthetic, suite| motion.samples(suite).iter().map(|a| a.to_bits()).collect::<Vec<_>>();
+    let bits = |motion: &SyntheticMotion, suite| {
+        motion.samples(suite).iter().map(|a| a.to_bits()).collect::<Vec<_>>()
+    };
     for epoch in EPOCHS {
         let model = MotionModel { epoch, ..MotionModel::default() };
         let scenarios = varied_scenarios();
         let together = synthesize(&model, &scenarios);
         for threads in [1, 2, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let apart: Vec<Synthetic> = pool
+            let apart: Vec<SyntheticMotion> = pool
                 .install(|| scenarios.par_chunks(5).flat_map_iter(|some| synthesize(&model, some)).collect());
             for suite in Suite::VARIANTS.iter().copied() {
                 let is_same = |(a, b)| bits(a, suite) == bits(b, suite);

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
-use rockfrag_core::plausibility::{judge_hazard, judge_spectrum};
+use rockfrag_core::plausibility::{validate_hazard, validate_spectrum};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 
@@ -94,7 +94,7 @@ impl Curve {
         let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0).collect())?;
         let unit = if measure == Imt::Pgv { 1.0 } else { G_M_S2 };
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
-        judge_hazard(&measure.to_string(), &points).map_err(InputError::Implausible)?;
+        validate_hazard(&measure.to_string(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
 }
@@ -113,7 +113,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
         }
         (Some(pga), None, Some(spectral)) => {
             let points = spectral.curve.points().iter();
-            judge_spectrum(points.map(|(sa, rate)| sa / pga.curve.intensity(*rate)))
+            validate_spectrum(points.map(|(sa, rate)| sa / pga.curve.intensity(*rate)))
                 .map_err(|error| InputError::Implausible(error).in_file(Path::new(&spectral.file)))?;
             (pga, Hazard::with_spectrum(pga.curve.clone(), &spectral.curve)?)
         }
@@ -137,7 +137,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
         hazard.fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
         if let (Some(pga), Some(pgv)) = (pga, pgv) {
             let by_curves = PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?;
-            hazard.velocity = Some(by_curves);
+            hazard.pgv_pga = Some(by_curves);
         }
     }
     Ok(hazard)
@@ -368,8 +368,8 @@ fn joint(
         }
         bins.push(PairOfPeaks { peaks: given[row].clamp_to_recorded(), annual_rate, mw: mw[row] });
     }
-    judge_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
-        .and_then(|()| judge_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
+    validate_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
+        .and_then(|()| validate_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
         .map_err(InputError::Implausible)?;
     match bins.is_empty() {
         true => Err(InputError::missing("no rows", "motions with PGA and PGV")),

@@ -1,7 +1,7 @@
 //! Motions in the rows of a table, by their peaks.
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::motion::{Peaks, judge_medians};
+use rockfrag_core::motion::{Peaks, validate_medians};
 use rockfrag_core::plausibility::MAGNITUDES;
 use rockfrag_core::warning::{Warning, Warnings};
 
@@ -46,7 +46,7 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTabl
         given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
         mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
     }
-    judge_medians(given.iter().copied()).map_err(InputError::Implausible)?;
+    validate_medians(given.iter().copied()).map_err(InputError::Implausible)?;
     let beyond = given.iter().filter(|peaks| **peaks != peaks.clamp_to_recorded()).count();
     if beyond > 0 {
         warnings.add(Warning::AtRim, format!("{beyond} of {} rows", given.len()));

@@ -1,6 +1,6 @@
 //! The answer over PGA and PGV: lines of equal probability of overturning, and what came of each motion.
 
-use rockfrag_core::fragility::{Calibration, Cases, MotionKind, Scenarios};
+use rockfrag_core::fragility::{Calibration, Cases, MotionKind, Tau};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::Range;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
@@ -50,12 +50,13 @@ fn panel(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
 /// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
 fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<Mark> {
     let structure = &cases.structure;
-    let shipped = || Calibration::shipped(MotionKind::from_suite(cases.suite.as_deref()), structure, None);
-    let calibration = fits.calibration(cases).cloned().unwrap_or_else(shipped);
+    let uncalibrated =
+        || Calibration::uncalibrated(MotionKind::from_suite(cases.suite.as_deref()), structure, None);
+    let calibration = fits.calibration(cases).cloned().unwrap_or_else(uncalibrated);
     let reaches = |pga: f64, ln_pgv: f64| {
         let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };
         let measures = IntensityMeasures::new(structure, peaks, None, None);
-        let p = calibration.probability(structure, &measures, None, Scenarios::One);
+        let p = calibration.probability(structure, &measures, None, Tau::Included);
         p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
     };
     let (least, most) = (pgv.low.ln(), pgv.high.ln());

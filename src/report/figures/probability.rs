@@ -179,7 +179,7 @@ fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: &'static Measure, im_y: Opt
 fn measure_of(fit: &CurveFit, measures: &IntensityMeasures) -> Option<f64> {
     let x = fit.im_x.value_of(measures)?;
     let Some(im_y) = &fit.im_y else { return Some(x) };
-    Some(hybrid_measure(x, im_y.value_of(measures)?, lambda(&fit.coefficients).0))
+    Some(hybrid_measure(x, im_y.value_of(measures)?, lambda(&fit.coefficients).value))
 }
 
 /// The measures of a motion of this IM3 at which the measure of a curve of IM4, IM5 or the hybrid of

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{Fragility, FragilityPoint, intensity_in_words};
+use rockfrag_core::hazard::{Fragility, FragilityPoint, format_intensity};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 
@@ -78,7 +78,7 @@ fn tell_list(all: &[Answer<FragilityRow>], out: Option<&Path>) -> String {
         row.curve.as_ref().map_or(
             vec!["-".to_string(); 5],
             |Fragility { over, failure, overturning, .. }| {
-                let too_far = intensity_in_words(*over, failure.theta.value);
+                let too_far = format_intensity(*over, failure.theta.value);
                 [cells(*over, overturning, "95 % limits "), vec![too_far]].concat()
             },
         )

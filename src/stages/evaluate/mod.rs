@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use clap::{ArgGroup, Args};
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site, SitesInGeneral};
+use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site};
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Restitution};
 use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -195,7 +195,7 @@ impl Evaluate {
                 return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
             }
             (Some(pga_m_s2), Some(pgv_m_s)) => {
-                Peaks { pga_m_s2, pgv_m_s }.judge().map_err(UsageError::because)?;
+                Peaks { pga_m_s2, pgv_m_s }.validate().map_err(UsageError::because)?;
             }
             _ => {}
         }
@@ -235,7 +235,7 @@ impl Evaluate {
             }
         }
         let objects = self.objects(renames, models, context)?;
-        let general = SitesInGeneral { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
+        let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         let all = object::answers(&objects, models, context, |_, rocking_object| {
             let at_site = site.as_ref().and_then(|site| site.fragility(rocking_object));
             let fragility = at_site.unwrap_or_else(|| general.fragility(rocking_object));
@@ -262,7 +262,8 @@ impl Evaluate {
             let rates = site.rates(rocking_object);
             let target = self.target.map(|p| -(-p).ln_1p() / self.years);
             let with_models = |object: &Object| Some(models.rocking_object(object).ok()?.0);
-            let bases = target.map(|target| site.bases(object, &with_models, rates.overturning, target));
+            let bases =
+                target.map(|target| site.bases(object, &with_models, rates.states.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
             Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
         })?;
@@ -279,8 +280,8 @@ impl Evaluate {
         let (mut hazard, unused) = hazard::read(&split_lists(&self.hazard), renames, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
-            Hazard::Curve(PeakHazard { velocity: velocity @ None, .. }) => {
-                *velocity = self.ratio.map(PgvPgaRatio::given);
+            Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
+                *pgv_pga = self.ratio.map(PgvPgaRatio::given);
             }
             _ if self.ratio.or(self.vs30).is_some() => {
                 return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
@@ -305,7 +306,9 @@ impl Evaluate {
             renames.expect_used()?;
             let fitted = models.structures()?.into_iter();
             return Ok(fitted
-                .map(|structure| Object::with_parameters(structure, Restitution::Fitted).at(&place))
+                .map(|structure| {
+                    Object::with_parameters(&structure, Restitution::Fitted(structure.eta)).at(&place)
+                })
                 .collect());
         }
         let (objects, unused) = self.structures.objects(&place, &mut renames)?;

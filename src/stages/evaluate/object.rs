@@ -63,7 +63,7 @@ pub fn answers<R: Predicted>(
             doubts: UncertaintyRow::new(&warnings, &predicted.errors),
             warnings,
             responses: match &weaker.model {
-                Model::Calibrated { overturning, .. } => overturning.n,
+                Model::Surface { overturning, .. } => overturning.n,
                 Model::Paper { overturning, .. } => overturning.n,
             },
         })

@@ -104,5 +104,5 @@ fn outline(object: &Object, rocking_object: &RockingObject) -> Option<Outline> {
 }
 
 fn overturning(rocking_object: &RockingObject, site: &Site, years: f64) -> Interval<Option<f64>> {
-    site.rates(rocking_object).overturning.map(|rate| probability_in_years(rate, years))
+    site.rates(rocking_object).states.overturning.map(|rate| probability_in_years(rate, years))
 }

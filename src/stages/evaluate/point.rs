@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rockfrag_core::fragility::{LimitStates, RockingDirection, Scenarios};
+use rockfrag_core::fragility::{LimitStates, RockingDirection, Tau};
 use rockfrag_core::hazard::{Budget, GroundMotion, MotionProbabilities};
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::object::RockingObject;
@@ -43,7 +43,7 @@ impl TreeRow {
             ([RockingDirection { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
                 let peaks = Peaks { pga_m_s2, pgv_m_s };
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
-                model.probabilities(structure, &measures, motion.mw, Scenarios::One).given_rocking
+                model.probabilities(structure, &measures, motion.mw, Tau::Included).given_rocking
             }
             _ => None,
         };

@@ -9,7 +9,7 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::GroundMotion;
-use rockfrag_core::motion::{Peaks, judge_medians};
+use rockfrag_core::motion::{Peaks, validate_medians};
 use rockfrag_core::object::{Object, Restitution, RockingObject};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
@@ -71,7 +71,7 @@ pub fn evaluate(
         let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
         for structure in &structures {
             if let Entry::Vacant(entry) = known.entry(bits(structure)) {
-                let object = Object::with_parameters(structure.clone(), Restitution::Number);
+                let object = Object::with_parameters(structure, Restitution::Number(structure.eta));
                 entry.insert(models.rocking_object(&object.at(&place))?);
             }
         }
@@ -160,7 +160,7 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
 fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
     let all = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     let path = batches.first().map_or(Path::new(""), |batch| &*batch.path);
-    judge_medians(all.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem).into())
+    validate_medians(all.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem).into())
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.

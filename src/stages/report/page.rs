@@ -4,7 +4,7 @@ use rockfrag_core::fragility::{Cases, DemandModel, Measure, Parameter};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
-use rockfrag_core::studies::paper::Comparison;
+use rockfrag_core::studies::comparison::Comparison;
 use rockfrag_core::warning::Warnings;
 use serde::Serialize;
 use serde_json::{Value, json};

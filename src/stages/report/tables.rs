@@ -7,7 +7,7 @@ use rockfrag_core::fragility::{Calibration, Cases, Event, LimitStates, Peak};
 use rockfrag_core::hazard::{Fragility, FragilityPoint};
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Outcome;
-use rockfrag_core::studies::paper::Comparison;
+use rockfrag_core::studies::comparison::Comparison;
 use rockfrag_core::units::G_M_S2;
 
 use crate::report::answers::Evaluation;

@@ -136,12 +136,12 @@ impl Models {
                 None => self.kind(&all)?,
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
-            return Ok((Model::shipped(kind, structure, limit_state), warning.into_iter().collect()));
+            return Ok((Model::uncalibrated(kind, structure, limit_state), warning.into_iter().collect()));
         };
         let exceeding = self.exceeding(overturning, structure)?;
         let model = match model {
             ModelName::Calibrated => {
-                Model::Calibrated { overturning: overturning.clone(), exceeding, floor: None }
+                Model::Surface { overturning: overturning.clone(), exceeding, floor: None }
             }
             ModelName::Paper => {
                 let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
@@ -247,7 +247,7 @@ impl Models {
     fn exceeding(&self, overturning: &Calibration, structure: &Structure) -> anyhow::Result<Calibration> {
         let limit_state = self.args.limit_state;
         if overturning.is_of_outcomes() {
-            return Ok(Calibration::shipped(overturning.kind, structure, Some(limit_state)));
+            return Ok(Calibration::uncalibrated(overturning.kind, structure, Some(limit_state)));
         }
         let rows = self.exceeding.iter().filter(|row| row.group() == overturning.group());
         let mut limits = rows.clone().filter_map(|row| Some((row, row.limit_state?)));

@@ -183,7 +183,9 @@ impl StructureArgs {
         match &self.structures {
             Some(list) if list.word().is_some() => {
                 let paper = paper::structures().into_iter();
-                all.extend(paper.map(|known| Object::with_parameters(known, Restitution::Number)));
+                all.extend(
+                    paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))),
+                );
             }
             Some(path) => {
                 let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };

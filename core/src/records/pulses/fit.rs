@@ -46,7 +46,7 @@ impl FittedPulse {
             for share in START_PERIODS {
                 for shift in START_TIMES {
                     let place =
-                        WaveletParameters(Vector3::new(share * period_s, gamma, time_s + shift * period_s));
+                        PulseParameters(Vector3::new(share * period_s, gamma, time_s + shift * period_s));
                     starts.push((series.nearest(&place).1, place));
                 }
             }
@@ -82,7 +82,7 @@ impl Series {
 
     /// Computes the pulse nearest to a period (s), gamma and time of its middle (s), clamped to their bounds,
     /// by the normal equations of A cos nu and A sin nu, and its explained sum of squares.
-    fn nearest(&self, WaveletParameters(place): &WaveletParameters) -> (Pulse, f64) {
+    fn nearest(&self, PulseParameters(place): &PulseParameters) -> (Pulse, f64) {
         let (tp_s, gamma) = (place.x.clamp(PERIODS_S.0, PERIODS_S.1), place.y.clamp(GAMMA.0, GAMMA.1));
         let (t0_s, half) = (place.z, 0.5 * gamma * tp_s);
         let part = |time_s: f64| ((time_s - self.first_s) / self.step_s).max(0.0) as usize;
@@ -108,15 +108,11 @@ impl Series {
     }
 
     /// Maximises the explained sum of squares from a start, where it is `explained`.
-    fn search(
-        &self,
-        WaveletParameters(start): &WaveletParameters,
-        explained: f64,
-    ) -> Option<WaveletParameters> {
+    fn search(&self, PulseParameters(start): &PulseParameters, explained: f64) -> Option<PulseParameters> {
         let sides = Vector3::new(SIDES[0] * start.x, SIDES[1], SIDES[2] * start.x);
         let corners =
-            (0..3).map(|axis| WaveletParameters(start + sides.component_mul(&Vector3::ith(axis, 1.0))));
-        let simplex = corners.chain([WaveletParameters(*start)]).collect();
+            (0..3).map(|axis| PulseParameters(start + sides.component_mul(&Vector3::ith(axis, 1.0))));
+        let simplex = corners.chain([PulseParameters(*start)]).collect();
         let solver = NelderMead::new(simplex).with_sd_tolerance(TOLERANCE * explained).ok()?;
         let search = Executor::new(self, solver).timer(false).configure(|state| state.max_iters(MOST_STEPS));
         search.run().ok()?.state.take_best_param()
@@ -124,32 +120,32 @@ impl Series {
 }
 
 impl CostFunction for &Series {
-    type Param = WaveletParameters;
+    type Param = PulseParameters;
     type Output = f64;
 
-    fn cost(&self, place: &WaveletParameters) -> Result<f64, Error> {
+    fn cost(&self, place: &PulseParameters) -> Result<f64, Error> {
         Ok(-self.nearest(place).1)
     }
 }
 
 /// Period (s), gamma, and time of the middle (s) of a pulse, with the operations that argmin needs.
 #[derive(Clone)]
-struct WaveletParameters(Vector3<f64>);
+struct PulseParameters(Vector3<f64>);
 
-impl ArgminAdd<WaveletParameters, WaveletParameters> for WaveletParameters {
-    fn add(&self, other: &WaveletParameters) -> WaveletParameters {
-        WaveletParameters(self.0 + other.0)
+impl ArgminAdd<PulseParameters, PulseParameters> for PulseParameters {
+    fn add(&self, other: &PulseParameters) -> PulseParameters {
+        PulseParameters(self.0 + other.0)
     }
 }
 
-impl ArgminSub<WaveletParameters, WaveletParameters> for WaveletParameters {
-    fn sub(&self, other: &WaveletParameters) -> WaveletParameters {
-        WaveletParameters(self.0 - other.0)
+impl ArgminSub<PulseParameters, PulseParameters> for PulseParameters {
+    fn sub(&self, other: &PulseParameters) -> PulseParameters {
+        PulseParameters(self.0 - other.0)
     }
 }
 
-impl ArgminMul<f64, WaveletParameters> for WaveletParameters {
-    fn mul(&self, factor: &f64) -> WaveletParameters {
-        WaveletParameters(self.0 * *factor)
+impl ArgminMul<f64, PulseParameters> for PulseParameters {
+    fn mul(&self, factor: &f64) -> PulseParameters {
+        PulseParameters(self.0 * *factor)
     }
 }

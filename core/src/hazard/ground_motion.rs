@@ -1,12 +1,13 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::motions::ConditionalMotions;
+use super::conditional_motions::ConditionalMotions;
 use super::pgv_pga::PgvPgaRatio;
-use crate::fragility::{LimitState, LimitStates, Model, Peak, QuantileLevel, ReadyObject, Scenarios, Z_95};
+use crate::fragility::{LimitState, LimitStates, Model, ModelPoint, Peak, ReadyObject, Tau};
 use crate::motion::Peaks;
-use crate::object::{RockingObject, UncertainParameter, UncertaintySource};
+use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::statistics::Interval;
+use crate::statistics::normal::Z_95;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
 ///
@@ -19,12 +20,12 @@ use crate::statistics::Interval;
 /// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
 /// cabinet.shape.depth = Some(0.8);
 /// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
-/// let object = RockingObject::shipped(&cabinet, MotionKind::Recorded, 0.10)?;
+/// let object = RockingObject::uncalibrated(&cabinet, MotionKind::Recorded, 0.10)?;
 /// // A motion of the ground of 0.3 g; its PGV is that of such motions.
 /// let motion = GroundMotion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
 /// let p = motion.probabilities(&object).states.overturning.estimate().expect("it rocks, and has a PGV");
 /// assert!(p.low < p.value && p.value < p.high);
-/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// # Ok::<(), rockfrag_core::object::ObjectError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundMotion {
@@ -72,23 +73,24 @@ impl GroundMotion {
             // The limits of one motion include the uncertainty of its magnitude, with tau.
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
-                let ends = object.ends(|directions| {
-                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[QuantileLevel::Estimate])[0]
+                let at_quantiles = object.at_quantiles(|directions| {
+                    ReadyObject::new(directions, self.mw).limit_states(peaks, &[ModelPoint::Estimate])[0]
                 });
-                let [many, one] = [Scenarios::Many, Scenarios::One].map(|over| ready.estimates(peaks, over));
-                ProbabilitySensitivity { many, one, ends }
+                let [averaged, included] =
+                    [Tau::Averaged, Tau::Included].map(|tau| ready.estimates(peaks, tau));
+                ProbabilitySensitivity { averaged, included, at_quantiles }
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
-                let ends = motions.ends(object, |given| given.limit_states(intensity));
-                let [many, one] =
-                    [Scenarios::Many, Scenarios::One].map(|over| given.estimates(intensity, over));
-                ProbabilitySensitivity { many, one, ends }
+                let at_quantiles = motions.at_quantiles(object, |given| given.limit_states(intensity));
+                let [averaged, included] =
+                    [Tau::Averaged, Tau::Included].map(|tau| given.estimates(intensity, tau));
+                ProbabilitySensitivity { averaged, included, at_quantiles }
             }
         };
         let (_, failure) = sensitivity.limited(LimitState::Failure);
         let (errors, overturning) = sensitivity.limited(LimitState::Overturning);
-        let rocking = sensitivity.many.rocking;
+        let rocking = sensitivity.averaged.rocking;
         MotionProbabilities {
             states: LimitStates { rocking, failure, overturning }.map(Interval::from),
             errors,
@@ -102,36 +104,36 @@ impl GroundMotion {
             (Some(pga), None) => (Peak::Pga, pga),
             (None, pgv) => (Peak::Pgv, pgv?),
         };
-        let velocity = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
-        Some((ConditionalMotions::new(peak, velocity, self.mw), intensity))
+        let pgv_pga = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
+        Some((ConditionalMotions::new(peak, pgv_pga, self.mw), intensity))
     }
 }
 
 /// Probabilities with limits, and their other uncertainty.
 struct ProbabilitySensitivity {
     /// Limits by the parameters of the model.
-    many: LimitStates<Option<Interval>>,
+    averaged: LimitStates<Option<Interval>>,
     /// Limits by these and by the standard deviation between earthquakes, tau.
-    one: LimitStates<Option<Interval>>,
-    /// With each other unknown at its quantiles.
-    ends: Vec<UncertainParameter<LimitStates<Option<f64>>>>,
+    included: LimitStates<Option<Interval>>,
+    /// With each other source at its quantiles.
+    at_quantiles: Vec<LowHigh<LimitStates<Option<f64>>>>,
 }
 
 impl ProbabilitySensitivity {
     /// The error budget of the logit, without tau; the probability with limits by all errors and tau.
     fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
-        let (values, [many, one]) =
-            (self.many.map(|p| p.map(|p| p.value)), [self.many, self.one].map(|p| p.get(state)));
-        let mut errors = Budget::new(&values, &self.ends, |states| states.get(state).map(logit));
-        let Some((many, one)) = many.zip(one) else { return (errors, None) };
-        let [fit, in_all] = [many, one].map(sd_of_limits);
+        let (values, [averaged, included]) =
+            (self.averaged.map(|p| p.map(|p| p.value)), [self.averaged, self.included].map(|p| p.get(state)));
+        let mut errors = Budget::new(&values, &self.at_quantiles, |states| states.get(state).map(logit));
+        let Some((averaged, included)) = averaged.zip(included) else { return (errors, None) };
+        let [fit, in_all] = [averaged, included].map(sd_of_limits);
         errors.add(UncertaintySource::Fit, [fit, fit]);
-        let tau = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
-        match (many.value, values.rocking) {
+        let between = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
+        match (averaged.value, values.rocking) {
             (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
-                (errors, Some(errors.limit_probability(p, rocking, tau)))
+                (errors, Some(errors.limit_probability(p, rocking, between)))
             }
-            _ => (errors, Some(many)),
+            _ => (errors, Some(averaged)),
         }
     }
 }

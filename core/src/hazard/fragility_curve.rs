@@ -2,26 +2,27 @@
 //! over the motions that have it.
 
 use super::budget::Budget;
-use super::motion::logit;
-use super::motions::ConditionalMotions;
+use super::conditional_motions::ConditionalMotions;
+use super::ground_motion::logit;
 use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
-use crate::fragility::{GivenPeak, LimitState, LimitStates, Peak, QuantileLevel, RockingDirection};
+use crate::fragility::{GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection};
 use crate::motion::Peaks;
 use crate::number::{plain, significant};
-use crate::object::{RockingObject, UncertainParameter};
+use crate::object::{LowHigh, RockingObject};
 use crate::statistics::numerics::{bisect_first_true, equal_ratios};
 use crate::statistics::{Interval, least_squares, normal};
 
-/// Motions of generic sites, of which one peak is given, and what narrows the other.
+/// Motions of generic sites conditional on one peak, and what narrows the other.
 ///
 /// ```
 /// use rockfrag_core::fragility::{MotionKind, Peak};
-/// use rockfrag_core::hazard::SitesInGeneral;
+/// use rockfrag_core::hazard::GenericSites;
 /// use rockfrag_core::object::{Object, RockingObject};
 ///
-/// let cabinet = RockingObject::shipped(&Object::block("cabinet", 0.5, 2.0), MotionKind::Recorded, 0.10)?;
-/// let sites = SitesInGeneral { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
+/// let cabinet = Object::block("cabinet", 0.5, 2.0);
+/// let cabinet = RockingObject::uncalibrated(&cabinet, MotionKind::Recorded, 0.10)?;
+/// let sites = GenericSites { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
 /// let fragility = sites.fragility(&cabinet);
 /// // The PGA at which half of the motions overturn it, m/s2; and how well a lognormal curve describes it.
 /// assert!(fragility.overturning.theta.value.is_some_and(|pga| pga > 5.0));
@@ -30,10 +31,10 @@ use crate::statistics::{Interval, least_squares, normal};
 ///     let [overturning, failure] = [point.p.overturning.value.unwrap(), point.p.failure.value.unwrap()];
 ///     assert!(overturning <= failure + 1e-12);
 /// }
-/// # Ok::<(), rockfrag_core::object::Reason>(())
+/// # Ok::<(), rockfrag_core::object::ObjectError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SitesInGeneral {
+pub struct GenericSites {
     /// The peak that is given.
     pub over: Peak,
     pub mw: Option<f64>,
@@ -91,7 +92,7 @@ const LEAST_FITTED: f64 = 0.05;
 const MOST_FITTED: f64 = 0.95;
 const STEPS_FITTED: usize = 39;
 
-impl SitesInGeneral {
+impl GenericSites {
     pub fn fragility(&self, object: &RockingObject) -> Fragility {
         Fragility::new(&self.motions(&object.directions), object)
     }
@@ -130,14 +131,15 @@ impl Fragility {
         let end = strongest(motions.peak);
         let start = middle.uplift().least.clamp(LEAST * end, 0.5 * end);
         let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
-        let levels = QuantileLevel::with_errors(&object.directions);
-        let by_level = probabilities(&middle, &intensities, &levels);
-        let mut ends = motions
-            .ends(object, |given| probabilities(given, &intensities, &[QuantileLevel::Estimate]).remove(0));
-        ends.extend(UncertainParameter::from_fit_errors(&by_level));
-        let values = &by_level[0];
+        let model_points = ModelPoint::at_errors(&object.directions);
+        let by_point = probabilities(&middle, &intensities, &model_points);
+        let mut at_quantiles = motions.at_quantiles(object, |given| {
+            probabilities(given, &intensities, &[ModelPoint::Estimate]).remove(0)
+        });
+        at_quantiles.extend(LowHigh::from_fit_errors(&by_point));
+        let values = &by_point[0];
         let budget = |k: usize, state: LimitState| {
-            Budget::new(values, &ends, |states: &Vec<LimitStates<Option<f64>>>| {
+            Budget::new(values, &at_quantiles, |states: &Vec<LimitStates<Option<f64>>>| {
                 states[k].get(state).map(logit)
             })
         };
@@ -196,8 +198,8 @@ impl Lognormal {
     }
 }
 
-/// With the unit; none is beyond all that was recorded.
-pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
+/// With its unit, such as `0.42 g`; `> 4.5 g` without an intensity, which then exceeds all records.
+pub fn format_intensity(over: Peak, intensity: Option<f64>) -> String {
     let (_, unit, symbol) = over.name_and_unit();
     match intensity {
         Some(value) => format!("{} {symbol}", significant(value / unit, 2)),
@@ -208,10 +210,10 @@ pub fn intensity_in_words(over: Peak, intensity: Option<f64>) -> String {
 fn probabilities(
     given: &GivenPeak,
     intensities: &[f64],
-    levels: &[QuantileLevel],
+    model_points: &[ModelPoint],
 ) -> Vec<Vec<LimitStates<Option<f64>>>> {
-    let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_levels(*im, levels)).collect();
-    (0..levels.len()).map(|level| by_intensity.iter().map(|states| states[level]).collect()).collect()
+    let by_intensity: Vec<_> = intensities.iter().map(|im| given.at_points(*im, model_points)).collect();
+    (0..model_points.len()).map(|point| by_intensity.iter().map(|states| states[point]).collect()).collect()
 }
 
 /// The intensity from which on a probability is at least `level`, sought beside the first such point.

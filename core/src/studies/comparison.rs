@@ -32,7 +32,7 @@ pub struct Comparison {
 /// Compares fits of the paper's structures with all that the paper publishes.
 ///
 /// ```
-/// use rockfrag_core::studies::paper::{Comparison, compare};
+/// use rockfrag_core::studies::comparison::{Comparison, compare};
 /// // Without fits of ours, what is published stands alone.
 /// let compared: Vec<Comparison> = compare(&[], &[]);
 /// assert!(compared.iter().any(|row| row.quantity == "low_b1" && row.ours.is_none()));
@@ -82,13 +82,13 @@ impl GroupFits<'_> {
         match quantity {
             "transition" => self.plane("high")?.transition_found,
             "r2_pooled" => self.plane("high")?.r2_pooled,
-            "hybrid_lambda" => Some(lambda(&self.hybrid(self.group.structure)?.coefficients).0),
-            "im5_theta" => Some(mu(&self.im5()?.coefficients).0.exp()),
-            "im5_beta" => Some(beta(&self.im5()?.coefficients).0),
-            "example_hybrid" => self.example_hybrid(lambda(equipment()?).0),
+            "hybrid_lambda" => Some(lambda(&self.hybrid(self.group.structure)?.coefficients).value),
+            "im5_theta" => Some(mu(&self.im5()?.coefficients).value.exp()),
+            "im5_beta" => Some(beta(&self.im5()?.coefficients).value),
+            "example_hybrid" => self.example_hybrid(lambda(equipment()?).value),
             "example_p_ro" => {
                 let b = equipment()?;
-                Some(p_overturning(self.example_hybrid(lambda(b).0)?, mu(b).0, beta(b).0))
+                Some(p_overturning(self.example_hybrid(lambda(b).value)?, mu(b).value, beta(b).value))
             }
             // 1/2 (1 + erf(ln IM)): Eq. 24 with mu and beta sqrt 2 left out gives what is printed.
             "example_half_erf" => Some(normal::cdf(SQRT_2 * self.example_hybrid(EXAMPLE_LAMBDA)?.ln())),

@@ -26,7 +26,7 @@ impl Peak {
     }
 }
 
-/// The ratio PGV / PGA given each peak.
+/// The distributions of PGV / PGA given each peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointPeaks {
     pub given_pga: RatioGiven,

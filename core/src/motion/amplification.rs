@@ -6,7 +6,7 @@
 /// use rockfrag_core::motion::SiteAmplification;
 /// let site = SiteAmplification::table(vec![(0.1, 1.0), (10.0, 2.0)])?;
 /// assert_eq!((site.amplification(0.01), site.amplification(20.0)), (1.0, 2.0));
-/// # Ok::<(), rockfrag_core::motion::site::SiteTableError>(())
+/// # Ok::<(), rockfrag_core::motion::amplification::SiteTableError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteAmplification(Vec<(f64, f64)>);
