@@ -3,11 +3,14 @@
 use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::joint_peaks::JointPeaks;
+use super::model_point::{ModelPoint, Tau};
 use super::on_floor::{self, UpliftIntensities};
 use super::overturning::CurveFit;
+use super::ready::ReadyDirection;
 use super::surface::{self, MotionKind};
-use super::tree::{GivenRocking, Probabilities, independent_failure, p_no_rocking};
-use crate::motion::{Floor, IntensityMeasures, Suite};
+use super::tree::{GivenRocking, LimitStates, Probabilities};
+use super::tree::{independent_failure, p_failure_given_rocking, p_no_rocking};
+use crate::motion::{Floor, IntensityMeasures, Peaks, Suite};
 use crate::number::{counted, name};
 use crate::rocking::Structure;
 use crate::statistics::FitStatus;
@@ -154,6 +157,39 @@ impl Model {
         match self {
             Model::Surface { overturning, .. } => overturning.peaks(),
             Model::Paper { peaks, .. } => *peaks,
+        }
+    }
+
+    /// The tree (Eq. 12). A magnitude that is not known is inferred from PGV / PGA.
+    pub fn probabilities(
+        &self,
+        structure: &Structure,
+        measures: &IntensityMeasures,
+        mw: Option<f64>,
+        tau: Tau,
+    ) -> Probabilities {
+        match self {
+            Model::Surface { overturning, exceeding, floor: None } => {
+                Probabilities::new(measures.im4, || {
+                    let p_ro = overturning.probability(structure, measures, mw, tau)?;
+                    let p_ex = exceeding.probability(structure, measures, mw, tau)?;
+                    // Errors of both have the same causes, so that their limits are joined in pairs.
+                    let p_failure = p_ro.zip(p_ex, p_failure_given_rocking);
+                    Some(GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) })
+                })
+            }
+            Model::Surface { floor: Some(_), .. } => {
+                let Peaks { pga_m_s2, pgv_m_s } = measures.peaks(structure);
+                let ln_pgv_pga = if pgv_m_s > 0.0 { (pgv_m_s / pga_m_s2).ln() } else { f64::NEG_INFINITY };
+                let mut states = [LimitStates::all(Some(0.0)); 3];
+                let direction = ReadyDirection::new(structure, self, mw);
+                let points = ModelPoint::at_limits(tau);
+                direction.at(pga_m_s2).combine_into(ln_pgv_pga, &mut None, &points, &mut states);
+                Probabilities::on_floor(LimitStates::from_points(&states))
+            }
+            Model::Paper { demand, overturning, limit_state, .. } => {
+                paper_probabilities(demand, overturning, measures, *limit_state, CONFIDENCE)
+            }
         }
     }
 

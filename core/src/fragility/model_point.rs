@@ -1,5 +1,6 @@
 //! The values of its parameters at which a model is evaluated.
 
+use super::model::RockingDirection;
 use super::tree::LimitStates;
 use crate::statistics::Interval;
 
@@ -23,8 +24,26 @@ pub(crate) enum ModelPoint {
 }
 
 impl ModelPoint {
+    /// The value or the limit of an estimate by a model that has its errors itself.
+    pub fn of(self, p: Interval) -> f64 {
+        match self {
+            ModelPoint::Low(_) => p.low,
+            ModelPoint::High(_) => p.high,
+            ModelPoint::Estimate | ModelPoint::Error { .. } => p.value,
+        }
+    }
+
     pub fn at_limits(tau: Tau) -> [ModelPoint; 3] {
         [ModelPoint::Estimate, ModelPoint::Low(tau), ModelPoint::High(tau)]
+    }
+
+    /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
+    pub fn at_errors(directions: &[RockingDirection]) -> Vec<ModelPoint> {
+        let fewest =
+            directions.iter().map(|direction| direction.model.at_quantiles().len()).min().unwrap_or(0);
+        let errors =
+            (0..fewest).flat_map(|number| [false, true].map(|is_high| ModelPoint::Error { number, is_high }));
+        [ModelPoint::Estimate].into_iter().chain(errors).collect()
     }
 }
 

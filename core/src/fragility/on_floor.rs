@@ -1,6 +1,7 @@
 //! The motions of a floor given that of the ground: the distribution of its peaks, and the narrowness of its
 //! frequency band, which changes the probabilities.
 
+use super::ready::PerBranch;
 use crate::motion::Floor;
 use crate::motion::floor::{Amplification, CORRELATION, FloorModes};
 use crate::rocking::Structure;
@@ -41,21 +42,20 @@ pub(super) fn uplift_m_s2(structure: &Structure) -> UpliftIntensities {
     UpliftIntensities { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
 }
 
-#[derive(Debug, Clone, Copy)]
 pub(super) struct OnFloor {
     modes: FloorModes,
     /// Added to the logits of P_ro and P_ex by a motion that is all resonance.
-    shifts_at_resonance: [f64; 2],
+    shifts_at_resonance: PerBranch<f64>,
 }
 
 impl OnFloor {
     pub fn new(floor: Floor, structure: &Structure, limit_state: Option<f64>) -> OnFloor {
         let ln_periods = (structure.p_rad_s * floor.period_s).ln();
         let [a, b, by_limit] = EXCEEDING;
-        let shifts_at_resonance = [
-            OVERTURNING[0] + OVERTURNING[1] * ln_periods,
-            a + by_limit * limit_state.map_or(0.0, |limit| (limit / 0.1).ln()) + b * ln_periods,
-        ];
+        let shifts_at_resonance = PerBranch {
+            p_ro: OVERTURNING[0] + OVERTURNING[1] * ln_periods,
+            p_ex: a + by_limit * limit_state.map_or(0.0, |limit| (limit / 0.1).ln()) + b * ln_periods,
+        };
         OnFloor { modes: floor.modes(), shifts_at_resonance }
     }
 
@@ -72,7 +72,7 @@ impl OnFloor {
     }
 
     /// Added to the logits of P_ro and P_ex.
-    pub fn logit_shifts(&self, motions: &FloorMotionDistribution) -> [f64; 2] {
+    pub fn logit_shifts(&self, motions: &FloorMotionDistribution) -> PerBranch<f64> {
         self.shifts_at_resonance.map(|shift| motions.amplification.resonant_share * shift)
     }
 }

@@ -86,6 +86,25 @@ impl<T: Copy> LimitStates<T> {
     }
 }
 
+impl LimitStates<f64> {
+    /// Without a PGV, only rocking is known.
+    pub(super) fn known(self, ln_pgv_pga: f64) -> LimitStates<Option<f64>> {
+        let states = self.map(Some);
+        if ln_pgv_pga.is_finite() {
+            states
+        } else {
+            LimitStates { rocking: states.rocking, ..LimitStates::all(None) }
+        }
+    }
+}
+
+impl LimitStates<Option<f64>> {
+    /// The probability of either of two independent events.
+    pub(super) fn or(self, other: LimitStates<Option<f64>>) -> LimitStates<Option<f64>> {
+        self.zip(other, |a, b| a.zip(b).map(|(a, b)| a + b - a * b))
+    }
+}
+
 /// Failure given rocking (Eq. 12) of two independent estimates: the likelihood of all cases is
 /// that of overturning times that of the demand of the others. Survival is a product, so that limits of
 /// its logarithm follow from those of both by the recovery of variance estimates (Zou & Donner 2008,
@@ -126,6 +145,19 @@ impl Probabilities {
     pub(super) fn new(im4: f64, given_rocking: impl FnOnce() -> Option<GivenRocking>) -> Probabilities {
         let p_nr = p_no_rocking(im4);
         Probabilities { p_nr, given_rocking: if p_nr == 0.0 { given_rocking() } else { None } }
+    }
+
+    /// From the whole tree to given rocking, which a floor may or may not cause.
+    pub(super) fn on_floor(states: LimitStates<Option<Interval>>) -> Probabilities {
+        let rocking = states.rocking.map_or(0.0, |p| p.value);
+        let known = states.failure.zip(states.overturning).filter(|_| rocking > 0.0);
+        let given_rocking = known.map(|(failure, overturning)| {
+            let [p_failure, p_ro] = [failure, overturning].map(|state| state.map(|p| p / rocking));
+            let p_ex = p_failure
+                .zip(p_ro, |failure, overturning| ((failure - overturning) / (1.0 - overturning)).max(0.0));
+            GivenRocking { p_ex: Some(p_ex), p_ro, p_failure: Some(p_failure) }
+        });
+        Probabilities { p_nr: 1.0 - rocking, given_rocking }
     }
 
     /// Over the whole tree, exactly 0 without rocking. None where a measure or a plane is missing.
