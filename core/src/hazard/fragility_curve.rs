@@ -35,7 +35,7 @@ use crate::statistics::{Interval, least_squares, normal};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GenericSites {
-    /// The peak that is given.
+    /// The peak that motions are conditional on.
     pub over: Peak,
     pub mw: Option<f64>,
     pub vs30_m_s: Option<f64>,
@@ -177,9 +177,8 @@ impl Lognormal {
 
     fn new(given: &GivenPeak, points: &[FragilityPoint], state: LimitState) -> Lognormal {
         let mut lognormal = Lognormal::between(points, state);
-        lognormal.at_16.value = reaching(given, points, state, 0.16);
-        lognormal.theta.value = reaching(given, points, state, 0.5);
-        lognormal.at_84.value = reaching(given, points, state, 0.84);
+        [lognormal.at_16.value, lognormal.theta.value, lognormal.at_84.value] =
+            [0.16, 0.5, 0.84].map(|level| reaching(given, points, state, level));
         let least = reaching(given, points, state, LEAST_FITTED);
         let Some((from, median)) = least.zip(lognormal.theta.value) else {
             return lognormal;

@@ -69,25 +69,23 @@ impl GroundMotion {
         }
         let directions = &object.directions[..];
         let model = &directions[0].model;
-        let sensitivity = match self.given_peak(model) {
+        let taus = [Tau::Averaged, Tau::Included];
+        let (at_quantiles, [averaged, included]) = match self.given_peak(model) {
             // The limits of one motion include the uncertainty of its magnitude, with tau.
             None => {
                 let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
                 let at_quantiles = object.at_quantiles(|directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[ModelPoint::Estimate])[0]
                 });
-                let [averaged, included] =
-                    [Tau::Averaged, Tau::Included].map(|tau| ready.estimates(peaks, tau));
-                ProbabilitySensitivity { averaged, included, at_quantiles }
+                (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)))
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
                 let at_quantiles = motions.at_quantiles(object, |given| given.limit_states(intensity));
-                let [averaged, included] =
-                    [Tau::Averaged, Tau::Included].map(|tau| given.estimates(intensity, tau));
-                ProbabilitySensitivity { averaged, included, at_quantiles }
+                (at_quantiles, taus.map(|tau| given.estimates(intensity, tau)))
             }
         };
+        let sensitivity = ProbabilitySensitivity { averaged, included, at_quantiles };
         let (_, failure) = sensitivity.limited(LimitState::Failure);
         let (errors, overturning) = sensitivity.limited(LimitState::Overturning);
         let rocking = sensitivity.averaged.rocking;
