@@ -27,7 +27,7 @@ const STEEP: f64 = 1.15;
 /// PGV between which the uplift of any structure is sought, m/s.
 const SOUGHT_M_S: Range = Range { low: 1e-6, high: 1e3 };
 
-/// An object under motions of which one peak is given.
+/// An object under motions conditional on one peak.
 pub struct GivenPeak<'a> {
     pub directions: &'a [RockingDirection],
     ready: ReadyObject<'a>,

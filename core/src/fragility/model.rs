@@ -1,5 +1,3 @@
-//! The model that predicts: the calibrated surface, or the curve and planes of the paper.
-
 use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::joint_peaks::JointPeaks;

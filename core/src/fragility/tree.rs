@@ -131,6 +131,7 @@ pub struct Probabilities {
     pub given_rocking: Option<GivenRocking>,
 }
 
+/// Probabilities under a motion that uplifts, with limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivenRocking {
     /// In safe rocking; none where no plane is fitted.

@@ -10,7 +10,7 @@
 //! ratio               the rate after a change over that before
 //! share               the shares of a rate by intensity
 //! site                the rates of a structure at a site, with limits and warnings
-//! target              the base with which a rate is a target
+//! target              the base with which the rate of overturning is a target, all else unchanged
 //! fragility_curve     the probabilities of an object over one peak, with limits
 //! ```
 

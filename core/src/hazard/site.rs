@@ -13,6 +13,7 @@ use crate::statistics::Interval;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
+/// How often motions come to a site, 1/year.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hazard {
     /// Annual rates of exceedance of one peak.
@@ -21,6 +22,7 @@ pub enum Hazard {
     Joint(Vec<PairOfPeaks>),
 }
 
+/// The hazard curve of PGA or PGV, and what the hazard study says besides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeakHazard {
     pub peak: Peak,
@@ -30,7 +32,7 @@ pub struct PeakHazard {
     pub is_median: bool,
     /// The 16 and 84 % fractiles.
     pub fractiles: Option<[HazardCurve; 2]>,
-    /// PGV / PGA, by the curve of the other peak or as the user gives it.
+    /// PGV / PGA, by the curve of the other peak or as the user gives it; none for that of generic sites.
     pub pgv_pga: Option<PgvPgaRatio>,
 }
 
@@ -105,6 +107,7 @@ impl Site {
         Site { hazard, mw: None, vs30_m_s: None, extrapolate: false }
     }
 
+    /// Mean annual rates, 1/year, with 95 % limits; see [`SiteRates`] for what is none.
     pub fn rates(&self, object: &RockingObject) -> SiteRates {
         match &self.hazard {
             Hazard::Curve(hazard) => self.rates_over_curve(hazard, object),

@@ -1,5 +1,3 @@
-//! The base with which the rate of overturning of an object is a target, all other properties unchanged.
-
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 

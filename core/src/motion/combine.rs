@@ -1,5 +1,3 @@
-//! Combines high frequencies and pulse into one motion (section 2.1.3).
-
 use super::fourier::Complex64;
 use crate::spelling::unknown_word;
 

@@ -6,6 +6,7 @@ use crate::number::{plain, significant};
 use crate::plausibility::{PGV_PGA_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S, median};
 use crate::units::G_M_S2;
 
+/// Peak ground acceleration (m/s2) and velocity (m/s) of one motion.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Peaks {
     pub pga_m_s2: f64,

@@ -1,5 +1,3 @@
-//! The synthetic motions of one scenario on one time axis (section 2.1).
-
 use std::collections::HashMap;
 
 use rand_distr::{Distribution, StandardNormal};

@@ -1,5 +1,3 @@
-//! Changes of an object that change its probability of overturning, one at a time.
-
 use super::given::{Object, Place, Restitution};
 use super::rocking::{LowHigh, UncertaintySource};
 use crate::motion::Floor;

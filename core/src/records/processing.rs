@@ -149,6 +149,10 @@ pub struct Processing {
 }
 
 impl Processing {
+    /// Processes one component into a motion for each scale factor; `rotd` columns are none.
+    ///
+    /// # Errors
+    /// If it is implausible, or too short, too long or zero for what is asked.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
         self.scaled(self.corrected(record)?, None)
     }

@@ -114,6 +114,8 @@ impl Scan {
         });
         found.windows(2).zip(window_parts).enumerate().filter_map(move |(step, (pair, window_part))| {
             let [below, above] = [&pair[0], &pair[1]];
+            // Refined to the tolerance where the outcome changes; closer than the resolution where a peak may
+            // graze the tipping point; else to the resolution, in a window to a part of it.
             let widest = if below.overturns() != above.overturns() {
                 1.0 + TOLERANCE
             } else if above.response.outcome == Outcome::NoRocking {

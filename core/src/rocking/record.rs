@@ -1,5 +1,3 @@
-//! The ground motion of a simulation.
-
 use crate::plausibility::{LARGEST_M_S2, TIME_STEPS_S};
 
 /// Rounding error of a time over the step between samples.

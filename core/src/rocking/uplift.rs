@@ -1,5 +1,3 @@
-//! Uplift of a structure at rest (Eq. 5).
-
 use crate::units::G_PER_M_S2;
 
 /// When a structure at rest leaves its base.

@@ -1,5 +1,3 @@
-//! The design matrix of a regression.
-
 use nalgebra::{DMatrix, DVector};
 
 use super::fit::FitStatus;

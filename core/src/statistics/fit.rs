@@ -1,5 +1,3 @@
-//! The result of a regression: coefficients with their uncertainty, and a status.
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::spelling::unknown_word;

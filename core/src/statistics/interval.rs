@@ -1,5 +1,3 @@
-//! A value with limits, wherever one is known with an error.
-
 use serde::{Deserialize, Serialize};
 
 /// A value with its confidence limits. In `Interval<Option<f64>>` all three are none where nothing is known,

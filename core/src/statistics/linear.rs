@@ -1,5 +1,3 @@
-//! Ordinary least squares.
-
 use nalgebra::DVector;
 
 use super::clusters::sandwich;

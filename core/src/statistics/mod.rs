@@ -1,7 +1,7 @@
 //! Regressions and distributions.
 //!
 //! ```text
-//! linear         least squares (Eqs. 16 and 17)
+//! linear         ordinary least squares (Eqs. 16 and 17)
 //! binary         probit regression by maximum likelihood (Eqs. 19 to 22)
 //! interval       a value with limits
 //! fit            coefficients, covariance and status of a regression

@@ -1,5 +1,3 @@
-//! The values between two bounds.
-
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
