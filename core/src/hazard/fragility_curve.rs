@@ -52,7 +52,7 @@ pub struct Fragility {
     pub failure: Lognormal,
     pub overturning: Lognormal,
     /// Standard deviations of the logit of P(overturning), by source, where P is nearest to one half.
-    pub errors: Budget,
+    pub budget: Budget,
     /// The median motion there.
     pub motion: Peaks,
 }
@@ -123,7 +123,7 @@ impl Fragility {
     pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
         let [failure, overturning] =
             [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
-        Fragility { over, points, failure, overturning, errors: Budget::default(), motion: Peaks::default() }
+        Fragility { over, points, failure, overturning, budget: Budget::default(), motion: Peaks::default() }
     }
 
     fn new(motions: &ConditionalMotions, object: &RockingObject) -> Fragility {
@@ -157,7 +157,7 @@ impl Fragility {
             over: motions.peak,
             failure: Lognormal::new(&middle, &points, LimitState::Failure),
             overturning: Lognormal::new(&middle, &points, LimitState::Overturning),
-            errors: budget(median, LimitState::Overturning),
+            budget: budget(median, LimitState::Overturning),
             motion: middle.peaks(intensities[median], 0.0),
             points,
         }

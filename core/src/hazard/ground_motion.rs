@@ -40,7 +40,7 @@ pub struct GroundMotion {
 pub struct MotionProbabilities {
     pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of the logit of the probability of overturning, by source.
-    pub errors: Budget,
+    pub budget: Budget,
 }
 
 impl GroundMotion {
@@ -65,7 +65,7 @@ impl GroundMotion {
     pub fn probabilities(&self, object: &RockingObject) -> MotionProbabilities {
         if self.is_still() {
             let states = LimitStates::all(Interval::exact(0.0).into());
-            return MotionProbabilities { states, errors: Budget::default() };
+            return MotionProbabilities { states, budget: Budget::default() };
         }
         let directions = &object.directions[..];
         let model = &directions[0].model;
@@ -87,11 +87,11 @@ impl GroundMotion {
         };
         let sensitivity = ProbabilitySensitivity { averaged, included, at_quantiles };
         let (_, failure) = sensitivity.limited(LimitState::Failure);
-        let (errors, overturning) = sensitivity.limited(LimitState::Overturning);
+        let (budget, overturning) = sensitivity.limited(LimitState::Overturning);
         let rocking = sensitivity.averaged.rocking;
         MotionProbabilities {
             states: LimitStates { rocking, failure, overturning }.map(Interval::from),
-            errors,
+            budget,
         }
     }
 
@@ -122,16 +122,16 @@ impl ProbabilitySensitivity {
     fn limited(&self, state: LimitState) -> (Budget, Option<Interval>) {
         let (values, [averaged, included]) =
             (self.averaged.map(|p| p.map(|p| p.value)), [self.averaged, self.included].map(|p| p.get(state)));
-        let mut errors = Budget::new(&values, &self.at_quantiles, |states| states.get(state).map(logit));
-        let Some((averaged, included)) = averaged.zip(included) else { return (errors, None) };
+        let mut budget = Budget::new(&values, &self.at_quantiles, |states| states.get(state).map(logit));
+        let Some((averaged, included)) = averaged.zip(included) else { return (budget, None) };
         let [fit, in_all] = [averaged, included].map(sd_of_limits);
-        errors.add(UncertaintySource::Fit, [fit, fit]);
+        budget.add(UncertaintySource::Fit, [fit, fit]);
         let between = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
         match (averaged.value, values.rocking) {
             (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
-                (errors, Some(errors.limit_probability(p, rocking, between)))
+                (budget, Some(budget.limit_probability(p, rocking, between)))
             }
-            _ => (errors, Some(averaged)),
+            _ => (budget, Some(averaged)),
         }
     }
 }

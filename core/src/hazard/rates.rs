@@ -97,13 +97,13 @@ impl OverCurve {
         // Half of the rate at a node lies below it, half above.
         let (mut before, mut below, mut last) = (0.0, 0.0, None);
         for (node, states) in &self.within {
-            let part = states[0].overturning.unwrap_or(0.0) * node.annual_rate;
-            let at_node = below + 0.5 * part;
+            let rate = states[0].overturning.unwrap_or(0.0) * node.annual_rate;
+            let at_node = below + 0.5 * rate;
             let from = last.replace(node.intensity).unwrap_or(node.intensity);
             if at_node >= half {
                 return from * (node.intensity / from).powf((half - before) / (at_node - before));
             }
-            (before, below) = (at_node, below + part);
+            (before, below) = (at_node, below + rate);
         }
         self.beyond.0.intensity
     }

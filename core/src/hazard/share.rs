@@ -25,25 +25,25 @@ impl Site {
                 let given = self.motions(hazard, object).given(&object.directions, 0.0);
                 let curve = self.integrated(hazard, &given, &[ModelPoint::Estimate]).curve;
                 let [(first, _), (last, rate_beyond)] = curve.ends();
-                let mut parts = RateByIntensity::new(first, last, bins);
+                let mut split = RateByIntensity::new(first, last, bins);
                 let probability = |intensity: f64| given.limit_states(intensity).overturning.unwrap_or(0.0);
-                for node in curve.nodes(&[&parts.edges[..], &given.breaks()].concat(), PANEL) {
-                    parts.add(node.intensity, probability(node.intensity) * node.annual_rate);
+                for node in curve.nodes(&[&split.edges[..], &given.breaks()].concat(), PANEL) {
+                    split.add(node.intensity, probability(node.intensity) * node.annual_rate);
                 }
-                parts.beyond = probability(last) * rate_beyond;
-                parts
+                split.beyond = probability(last) * rate_beyond;
+                split
             }
             Hazard::Joint(pairs) => {
                 let peaks = pairs.iter().map(|pair| pair.peaks.pga_m_s2);
                 let (low, high) =
                     peaks.fold((f64::INFINITY, 0.0_f64), |(a, b), pga| (a.min(pga), b.max(pga)));
-                let mut parts = RateByIntensity::new(low, high * 1.001, bins);
+                let mut split = RateByIntensity::new(low, high * 1.001, bins);
                 for pair in pairs {
                     let ready = ReadyObject::new(&object.directions, pair.mw.or(self.mw));
                     let p = ready.limit_states(pair.peaks, &[ModelPoint::Estimate])[0].overturning;
-                    parts.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
+                    split.add(pair.peaks.pga_m_s2, p.unwrap_or(0.0) * pair.annual_rate);
                 }
-                parts
+                split
             }
         }
     }

@@ -86,7 +86,7 @@ pub struct Site {
 pub struct SiteRates {
     pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of ln of the rate of overturning, by source.
-    pub errors: Budget,
+    pub budget: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub pgv_pga_source: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of an extrapolated curve.
@@ -230,7 +230,7 @@ impl RateSensitivity {
                 failure: self.limited(LimitState::Failure, ends_early),
                 overturning: self.limited(LimitState::Overturning, ends_early),
             },
-            errors: self.budget(LimitState::Overturning, |rate| rate.value),
+            budget: self.budget(LimitState::Overturning, |rate| rate.value),
             pgv_pga_source: None,
             beyond: None,
             motion,

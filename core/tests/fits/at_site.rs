@@ -151,7 +151,7 @@ fn of_one_ratio() -> Site {
 fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
     let [before, after] = [0.5, 0.6].map(|width| {
         let rates = of_one_ratio().rates(&block(width));
-        let known = |source: &UncertaintySource| Some((*source, rates.errors.source_sd(*source)?));
+        let known = |source: &UncertaintySource| Some((*source, rates.budget.source_sd(*source)?));
         RateBySource {
             rate: rates.states.overturning.value.unwrap(),
             sds: UncertaintySource::VARIANTS.iter().filter_map(known).collect(),

@@ -152,14 +152,14 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let object =
         RockingObject { directions: vec![RockingDirection { structure, model }], perturbations: vec![] };
     let rates = Site::new(Hazard::Curve(hazard)).rates(&object);
-    let errors = rates.errors;
-    let of_velocity = errors.source_sd(UncertaintySource::Velocity).unwrap();
+    let budget = rates.budget;
+    let of_velocity = budget.source_sd(UncertaintySource::Velocity).unwrap();
     let expected = k * b[2] / (b[1] + b[2] * (1.0 + slope)) * velocity.at_quantiles().high / Z_95;
     assert!((of_velocity / expected - 1.0).abs() < 1e-5, "{of_velocity} for {expected}");
-    assert!((errors.source_sd(UncertaintySource::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
-    assert_eq!(errors.source_sd(UncertaintySource::Magnitude), None);
+    assert!((budget.source_sd(UncertaintySource::Hazard).unwrap() - 1.5_f64.ln()).abs() < 1e-9);
+    assert_eq!(budget.source_sd(UncertaintySource::Magnitude), None);
     let rate = rates.states.overturning.estimate().unwrap();
-    assert!(((rate.value / rate.low).ln() - 1.959_964 * errors.sds()[0]).abs() < 1e-6);
+    assert!(((rate.value / rate.low).ln() - 1.959_964 * budget.sds()[0]).abs() < 1e-6);
     assert!(rate.high > rate.value);
 }
 

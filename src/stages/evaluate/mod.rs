@@ -212,9 +212,9 @@ impl Evaluate {
         context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
         let objects = self.objects(Renames::new(&self.columns), models, context)?;
         let all = object::answers(&objects, models, context, |_, rocking_object| {
-            let (row, errors) = TreeRow::new(motion, rocking_object);
+            let (row, budget) = TreeRow::new(motion, rocking_object);
             let motion = motion.peaks(&rocking_object.directions[0].model);
-            Prediction { row, errors, motion, warnings: Vec::new() }
+            Prediction { row, budget, motion, warnings: Vec::new() }
         })?;
         let text = point::text(&all, self.out.as_deref());
         self.finish(&all, text, context, || Ok(pages::page(&pages::under_motion(&all))))
@@ -239,8 +239,8 @@ impl Evaluate {
         let all = object::answers(&objects, models, context, |_, rocking_object| {
             let at_site = site.as_ref().and_then(|site| site.fragility(rocking_object));
             let fragility = at_site.unwrap_or_else(|| general.fragility(rocking_object));
-            let (errors, motion) = (fragility.errors, fragility.motion);
-            Prediction { row: FragilityRow::new(fragility), errors, motion, warnings: Vec::new() }
+            let (budget, motion) = (fragility.budget, fragility.motion);
+            Prediction { row: FragilityRow::new(fragility), budget, motion, warnings: Vec::new() }
         })?;
         let text = fragility::text(&all, self.out.as_deref());
         let answers = [answer_rows(&all, context)?];
@@ -265,7 +265,7 @@ impl Evaluate {
             let bases =
                 target.map(|target| site.bases(object, &with_models, rates.states.overturning, target));
             let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
-            Prediction { row, errors: rates.errors, motion: rates.motion, warnings: rates.warnings }
+            Prediction { row, budget: rates.budget, motion: rates.motion, warnings: rates.warnings }
         })?;
         let page = || {
             let portrait = pages::portrait(&objects, models, Some(&site), self.years)?;

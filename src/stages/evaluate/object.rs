@@ -29,7 +29,7 @@ pub trait Predicted: Row + Default + Send + Sync {
 pub struct Prediction<R> {
     pub row: R,
     /// Errors of the logit of the probability of overturning, or of ln of its rate.
-    pub errors: Budget,
+    pub budget: Budget,
     /// The motion that matters.
     pub motion: Peaks,
     pub warnings: Vec<Warning>,
@@ -60,7 +60,7 @@ pub fn answers<R: Predicted>(
         Ok(Answer {
             object: ObjectRow::new(object, Some(weaker), models.args.limit_state),
             row: predicted.row,
-            doubts: UncertaintyRow::new(&warnings, &predicted.errors),
+            doubts: UncertaintyRow::new(&warnings, &predicted.budget),
             warnings,
             responses: match &weaker.model {
                 Model::Surface { overturning, .. } => overturning.n,

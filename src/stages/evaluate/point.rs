@@ -33,9 +33,9 @@ pub struct TreeRow {
 }
 
 impl TreeRow {
-    /// Predicts for an object under a motion, with the errors of the logit of P_ro.
+    /// Predicts for an object under a motion, with the budget of the logit of P_ro.
     pub fn new(motion: &GroundMotion, rocking_object: &RockingObject) -> (TreeRow, Budget) {
-        let MotionProbabilities { states, errors } = motion.probabilities(rocking_object);
+        let MotionProbabilities { states, budget } = motion.probabilities(rocking_object);
         let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&rocking_object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
@@ -57,7 +57,7 @@ impl TreeRow {
             p_f: states.failure.value,
             states,
         };
-        (row, errors)
+        (row, budget)
     }
 
     /// What a page shows of it.
