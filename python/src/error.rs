@@ -6,7 +6,6 @@ use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rockfrag::inputs::InputError;
 use rockfrag::pipeline::UsageError;
-use rockfrag::pipeline::options::in_one_line;
 use rockfrag::table::TableError;
 
 pyo3::create_exception!(
@@ -27,11 +26,10 @@ pub fn to_python(error: &anyhow::Error) -> PyErr {
             || matches!(cause.downcast_ref(), Some(TableError::Missing(_)))
             || cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::NotFound)
     };
-    let refused = error.downcast_ref::<clap::Error>();
-    let message = in_python(&refused.map_or_else(|| format!("{error:#}"), in_one_line));
+    let message = in_python(&format!("{error:#}"));
     if error.chain().any(is_missing) {
         PyFileNotFoundError::new_err(message)
-    } else if refused.is_some() || error.chain().any(|cause| cause.is::<UsageError>()) {
+    } else if error.chain().any(|cause| cause.is::<UsageError>()) {
         PyValueError::new_err(message)
     } else {
         Error::new_err(message)

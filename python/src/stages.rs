@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use rockfrag::cli::config::arguments;
-use rockfrag::cli::{calls_of, configured, stage_commands};
+use rockfrag::cli::{calls, stage_commands};
 use rockfrag::pipeline::cache::{self, Done};
 use rockfrag::pipeline::call::Call;
 use rockfrag::pipeline::context::{Caller, Context};
+use rockfrag::pipeline::given::{Base, UnknownOption, in_one_form};
 use rockfrag::stages::inspect::Inspect;
 use serde_json::Value;
 
@@ -52,10 +52,14 @@ pub fn call(
     let command = command.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
     let options: BTreeMap<String, Value> =
         serde_json::from_str(options).map_err(|error| PyTypeError::new_err(error.to_string()))?;
-    let words = arguments(&command, options, Path::new(""))
-        .map_err(|error| PyTypeError::new_err(in_python(&error.to_string())))?;
+    let given = in_one_form(&command, options, &Base::default()).map_err(|error| {
+        match error.is::<UnknownOption>() {
+            true => PyTypeError::new_err(in_python(&format!("{stage}: {error}"))),
+            false => to_python(&error),
+        }
+    })?;
     run(py, threads, progress.as_ref(), move |mut context| {
-        let call = configured(&command, &words)?;
+        let call = calls::of_stage(&command, given)?;
         context.common.force = call.common.force;
         make(&call, &context, &mut HashMap::new())
     })
@@ -80,7 +84,7 @@ pub fn run_pipeline(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Made>> {
     run(py, threads, progress.as_ref(), move |mut context| {
-        let calls = calls_of(&pipeline, out, seed)?;
+        let calls = calls::of_run(&pipeline, out, seed)?;
         (context.common.force, context.caller) = (force, Caller::Run);
         let mut made = HashMap::new();
         calls.iter().map(|call| make(call, &context, &mut made)).collect()

@@ -321,7 +321,7 @@ impl List<'_> {
     /// The size of the unit of a cell in m, s, rad or rad/s: that of its heading, of lengths else that of the
     /// row.
     fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
-        let (heading, quantity) = (&self.grid.headings[at], field.quantity());
+        let (heading, quantity) = (&self.grid.headings[at], field.entry().quantity);
         let cell = self.cell(row, ColumnRole::Unit).filter(|_| quantity == Some(Quantity::Length));
         let own = cell.and_then(Unit::parse);
         if let Some(cell) = cell.filter(|_| own.is_none() || heading.unit.is_some() && heading.unit != own) {

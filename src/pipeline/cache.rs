@@ -77,7 +77,7 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
 
 /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or of
 /// another program.
-fn expect_replaceable(outs: &[PathBuf], context: &Context) -> anyhow::Result<()> {
+pub fn expect_replaceable(outs: &[PathBuf], context: &Context) -> anyhow::Result<()> {
     let inputs = context.made().inputs.values().flatten();
     let read: HashSet<PathBuf> =
         inputs.filter_map(|file| split_sheet(&file.path).0.canonicalize().ok()).collect();

@@ -1,16 +1,16 @@
 //! What a call would make, and output, progress and warnings of the running stage.
 
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arrow_schema::SchemaRef;
-use clap::Args;
+use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::ThreadPoolBuilder;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::warning::Warnings;
+use serde::Deserialize;
 
 use super::options::{UsageError, number};
 use crate::table::TableError;
@@ -19,17 +19,15 @@ use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{Existing, PendingFile, TableWriter, persist};
 
-/// Threads that may be asked for: more than any machine runs at once take minutes to start.
-pub const THREADS: RangeInclusive<usize> = 1..=1024;
+/// More threads than any machine runs at once take minutes to start.
+const MOST_THREADS: usize = 1024;
 
 /// Returns as many threads as are asked for, by a number or by the environment; none if neither asks.
 pub fn threads_of(asked: Option<usize>) -> anyhow::Result<Option<ThreadPoolBuilder>> {
     let by_environment = std::env::var("RAYON_NUM_THREADS").ok().and_then(|threads| threads.parse().ok());
     match asked.or(by_environment.filter(|threads| *threads > 0)) {
-        Some(threads) if !THREADS.contains(&threads) => Err(UsageError::because(format!(
-            "threads is {threads} (--threads or RAYON_NUM_THREADS); expected {} to {}",
-            THREADS.start(),
-            THREADS.end()
+        Some(threads) if !(1..=MOST_THREADS).contains(&threads) => Err(UsageError::because(format!(
+            "threads is {threads} (--threads or RAYON_NUM_THREADS); expected 1 to {MOST_THREADS}"
         ))),
         asked => Ok(asked.map(|threads| ThreadPoolBuilder::new().num_threads(threads))),
     }
@@ -38,19 +36,20 @@ pub fn threads_of(asked: Option<usize>) -> anyhow::Result<Option<ThreadPoolBuild
 pub const COMMON: &str = "Common options";
 
 // Options of all stages. A doc comment would replace the description of every stage.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, Default, Args, Deserialize)]
 #[command(next_help_heading = COMMON)]
 pub struct Common {
     /// Pipeline file whose section gives further options
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[serde(skip)]
     pub config: Option<PathBuf>,
     /// Run even if up to date; replace what is there
     #[arg(long)]
     pub force: bool,
     /// Threads [default: all]
-    #[arg(long, value_name = "N", value_parser = number(THREADS, "1 to 1024 threads"))]
+    #[arg(long, value_name = "N", value_parser = number(1..=MOST_THREADS, "1 to 1024 threads"))]
     pub threads: Option<usize>,
-    /// Print only the result
+    /// Print no progress
     #[arg(long)]
     pub quiet: bool,
     /// Progress bars: auto or never

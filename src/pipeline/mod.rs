@@ -5,14 +5,16 @@
 //! call      one call of a stage: its options, and the files that it reads
 //! cache     runs a call unless its files are up to date
 //! context   what a call would make, and output, progress and warnings of the running stage
+//! given     what is given to a stage by the command line, a pipeline file or Python, in one form
 //! stream    concurrent reading, work and writing
-//! options   option types of several stages, and mistakes in options
+//! options   merges what is given; types of options, and mistakes in them
 //! terminal  all that is printed
 //! ```
 
 pub mod cache;
 pub mod call;
 pub mod context;
+pub mod given;
 pub mod options;
 pub mod paths;
 pub mod stream;
@@ -21,18 +23,32 @@ pub mod terminal;
 use std::path::PathBuf;
 
 use self::context::Context;
+use self::options::Rule;
 pub use self::options::UsageError;
 use self::paths::Read;
 use crate::table::frame::Format;
 
-/// A struct of options, parsed by clap, and a function that runs it. As serde writes them, without the
-/// paths, the options enter the key of what is made.
+/// A struct of options, which serde makes of what is given, and a function that runs it. As serde writes them,
+/// without the paths, the options enter the key of what is made.
 pub trait Stage {
+    /// Returns what its options exclude, and need.
+    fn rules() -> Vec<Rule>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
     /// Returns all files that it reads.
     fn inputs(&self) -> Vec<Read>;
 
     /// Returns all files that it writes, the last one written last; none if it only prints.
     fn outputs(&self) -> Vec<PathBuf>;
+
+    /// Returns how the name of its last output may end.
+    fn endings(&self) -> &[&'static str] {
+        &["parquet"]
+    }
 
     /// Checks the options, before any stage of a run begins.
     fn check(&self) -> anyhow::Result<()> {

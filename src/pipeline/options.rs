@@ -1,28 +1,27 @@
-//! Option types of several stages, and mistakes in options.
+//! The options of a call: one JSON object of what is given, whoever gives it (the command line, a pipeline file or
+//! Python), in which each value is a text, a list or mapping of texts or, of a switch, true or false. Defaults, the
+//! file and the user are merged, and serde makes the struct of a stage of it.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::str::FromStr;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 use crate::number::{self, count, rounded};
 
-/// A mistake in a call, rather than in a file: the command exits with 2.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct UsageError(String);
+/// What is given to a stage, by option.
+pub type Given = Map<String, Value>;
 
-impl UsageError {
-    pub fn because(message: impl Into<String>) -> anyhow::Error {
-        UsageError(message.into()).into()
-    }
+/// What options of a stage exclude, and need.
+#[derive(Debug, Clone, Copy)]
+pub enum Rule {
+    /// Those of either side exclude those of the other.
+    Either(&'static [&'static str], &'static [&'static str]),
+    /// Each of the first needs one of the second.
+    Needs(&'static [&'static str], &'static [&'static str]),
 }
-
-/// Several things that are wrong, a line each.
-#[derive(Debug, thiserror::Error)]
-#[error("{}", .0.join("; "))]
-pub struct SeveralErrors(pub Vec<String>);
 
 /// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
 pub fn number<T: FromStr + PartialOrd + Clone>(
@@ -37,10 +36,10 @@ pub fn number<T: FromStr + PartialOrd + Clone>(
 }
 
 /// Ascending numbers: one, several separated by commas, or first:last:step.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Steps(pub Vec<f64>);
 
-/// Largest number of values.
+/// Largest number of values of first:last:step.
 const MOST_STEPS: f64 = 10_000.0;
 const EXPECTED_STEPS: &str = "expected rising numbers separated by commas, or first:last:step";
 
@@ -80,6 +79,74 @@ pub fn periods(text: &str) -> Result<Steps, &'static str> {
     steps(0.01..=20.0, "expected periods in s, from 0.01 to 20")(text)
 }
 
+/// Finds the first of some options that is given.
+fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
+    options
+        .iter()
+        .copied()
+        .find(|option| given.get(*option).is_some_and(|value| *value != Value::Bool(false)))
+}
+
+/// Puts the options of the user over those of a file: one of the user drops its alternatives in the file, and
+/// what needs these.
+pub fn merge(file: &Given, user: &Given, rules: &[Rule]) -> Given {
+    let mut kept = file.clone();
+    for rule in rules {
+        match rule {
+            Rule::Either(these, those) => {
+                for (given, dropped) in [(these, those), (those, these)] {
+                    if first_of(given, user).is_some() {
+                        kept.retain(|option, _| !dropped.contains(&option.as_str()));
+                    }
+                }
+            }
+            Rule::Needs(these, those) => {
+                let is_met = |given| first_of(those, given).is_some();
+                if is_met(file) && !is_met(&kept) && !is_met(user) {
+                    kept.retain(|option, _| !these.contains(&option.as_str()));
+                }
+            }
+        }
+    }
+    kept.extend(user.clone());
+    kept
+}
+
+/// How options break a rule.
+pub enum Broken {
+    /// Both are given, which exclude each other.
+    Both(&'static str, &'static str),
+    /// The first is given, and none of those that it needs.
+    Lacks(&'static str, &'static [&'static str]),
+}
+
+/// Finds the first rule that options break.
+pub fn broken(given: &Given, rules: &[Rule]) -> Option<Broken> {
+    rules.iter().find_map(|rule| match rule {
+        Rule::Either(these, those) => Some(Broken::Both(first_of(these, given)?, first_of(those, given)?)),
+        Rule::Needs(these, those) => {
+            let option = first_of(these, given).filter(|_| first_of(those, given).is_none())?;
+            Some(Broken::Lacks(option, those))
+        }
+    })
+}
+
+/// A mistake in a call, rather than in a file: the command exits with 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct UsageError(String);
+
+impl UsageError {
+    pub fn because(message: impl Into<String>) -> anyhow::Error {
+        UsageError(message.into()).into()
+    }
+}
+
+/// Several things that are wrong, a line each.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", .0.join("; "))]
+pub struct SeveralErrors(pub Vec<String>);
+
 /// Lines that are printed of a list.
 pub const MOST_LINES: usize = 10;
 
@@ -92,13 +159,4 @@ pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {
     let first: String = text.lines().take(most - 1).map(|line| format!("{line}\n")).collect();
     let file = number::path(file.file_name().unwrap_or_default().as_ref());
     format!("{first}and {} more, in {file}\n", count(lines + 1 - most))
-}
-
-/// Returns what clap refuses and proposes in one line, without the usage of the command.
-pub fn in_one_line(refused: &clap::Error) -> String {
-    let text = refused.to_string();
-    let lines = text.trim_start_matches("error: ").lines().map(str::trim);
-    let lines =
-        lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"));
-    lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; ")
 }

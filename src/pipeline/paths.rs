@@ -1,128 +1,97 @@
-//! What a path is to a stage: a type for each kind, which clap parses.
+//! What a path is to a stage: a type for each kind.
 //!
 //! Paths are no part of the options that enter a key: what is read enters by name and content ([`Read`]),
 //! what is written does not enter.
 
-use std::any::TypeId;
 use std::ffi::OsString;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-use clap::Arg;
-use clap::builder::{OsStringValueParser, TypedValueParser, ValueParser, ValueParserFactory};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::table::file::Partition;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    Input,
-    Folder,
-    Output,
+/// A path below a folder, and as it is written.
+#[derive(Deserialize)]
+struct Located {
+    folder: PathBuf,
+    path: PathBuf,
+    written: String,
 }
 
-/// A kind of paths: how the names of its files may end (any way if empty), and words in place of a path.
-#[derive(Debug, Clone, Copy)]
-pub struct PathKind {
-    pub role: Role,
-    pub formats: &'static [&'static str],
-    pub words: &'static [&'static str],
-}
-
-impl PathKind {
-    /// Checks the ending of a file to write; what others wrote is known by its content.
-    fn checked(self, text: OsString) -> Result<PathBuf, String> {
-        let path = PathBuf::from(text);
-        let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        if self.role != Role::Output || ending.is_empty() || self.formats.contains(&&*ending) {
-            return Ok(path);
+impl Located {
+    /// Returns the path; words in place of one, and `-`, are in no folder.
+    fn resolved(self, words: &[&str]) -> PathBuf {
+        let Located { folder, path, written } = self;
+        match written == "-" || words.contains(&written.as_str()) {
+            true => written.into(),
+            false if path == Path::new("") => folder,
+            false => folder.join(path),
         }
-        Err(format!("expected a name that ends in .{}", self.formats.join(", .")))
     }
 }
 
+/// Declares types of paths, with words in place of one.
 macro_rules! path_types {
-    ($($(#[$meaning:meta])* $type:ident: $role:ident, $formats:expr, $words:expr;)*) => {
-        $(
-            $(#[$meaning])*
-            #[derive(Debug, Clone, PartialEq, Eq)]
-            pub struct $type(pub PathBuf);
+    ($($(#[$meaning:meta])* $type:ident: $words:expr;)*) => {$(
+        $(#[$meaning])*
+        #[derive(Debug, Clone, PartialEq, Eq)]
+        pub struct $type(pub PathBuf);
 
-            impl $type {
-                pub const KIND: PathKind = PathKind { role: Role::$role, formats: &$formats, words: &$words };
-
-                /// The word in place of a path, if it is one.
-                pub fn word(&self) -> Option<&str> {
-                    self.0.to_str().filter(|text| Self::KIND.words.contains(text))
-                }
+        impl $type {
+            /// The word in place of a path, if it is one.
+            pub fn word(&self) -> Option<&str> {
+                let words: &[&str] = &$words;
+                self.0.to_str().filter(|text| words.contains(text))
             }
-
-            impl Deref for $type {
-                type Target = Path;
-
-                fn deref(&self) -> &Path {
-                    &self.0
-                }
-            }
-
-            impl ValueParserFactory for $type {
-                type Parser = ValueParser;
-
-                fn value_parser() -> ValueParser {
-                    OsStringValueParser::new().try_map(|text| $type::KIND.checked(text).map($type)).into()
-                }
-            }
-
-            impl Serialize for $type {
-                fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                    self.word().serialize(serializer)
-                }
-            }
-        )*
-
-        /// Returns what kind of path an argument takes, if it takes one.
-        pub fn path_kind(arg: &Arg) -> Option<PathKind> {
-            let parsed = arg.get_value_parser().type_id();
-            let kinds = [$((TypeId::of::<$type>(), $type::KIND)),*];
-            kinds.into_iter().find(|(id, _)| parsed == *id).map(|(_, kind)| kind)
         }
-    };
+
+        impl Deref for $type {
+            type Target = Path;
+
+            fn deref(&self) -> &Path {
+                &self.0
+            }
+        }
+
+        impl AsRef<Path> for $type {
+            fn as_ref(&self) -> &Path {
+                &self.0
+            }
+        }
+
+        impl From<OsString> for $type {
+            fn from(path: OsString) -> $type {
+                $type(path.into())
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$type, D::Error> {
+                Ok($type(Located::deserialize(deserializer)?.resolved(&$words)))
+            }
+        }
+
+        impl Serialize for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.word().serialize(serializer)
+            }
+        }
+    )*};
 }
 
 path_types! {
-    /// A table, or a folder with the parts of one.
-    Input: Input, ["parquet"], [];
-    /// A list, curve or table as people keep it.
-    SheetInput: Input, ["csv"], [];
-    /// Intensities, as a table or as people keep them.
-    RowsInput: Input, ["parquet", "csv"], [];
+    /// A file to read, or a folder with the parts of a table.
+    Input: [];
     /// A list of structures, or the paper's two.
-    StructuresInput: Input, ["csv"], ["paper"];
+    StructuresInput: ["paper"];
     /// The factors of a site, or a known site.
-    SiteInput: Input, ["csv"], ["rock", "soil", "none"];
-    /// A file of records, or a folder of such files.
-    RecordsInput: Input, [], [];
-    /// A table, or a folder of which all tables are read.
-    InputFolder: Folder, ["parquet"], [];
-    /// A folder of fits.
-    FitsFolder: Folder, ["parquet"], [];
-    /// A table to write.
-    Output: Output, ["parquet"], [];
-    /// Answers to write.
-    AnswersOutput: Output, ["parquet", "csv", "json", "xlsx", "html", "svg", "png"], [];
-    /// Fragility to write for another program.
-    FragilityOutput: Output, ["xml", "csv"], [];
-    /// A page to write.
-    PageOutput: Output, ["html"], [];
+    SiteInput: ["rock", "soil", "none"];
+    /// A file to write.
+    Output: [];
 }
 
-/// Returns the paths of lists with commas.
-pub fn split_lists<P: Deref<Target = Path>>(lists: &[P]) -> Vec<PathBuf> {
-    let paths = lists.iter().flat_map(|list| split_list(Path::new(""), &list.to_string_lossy()));
-    paths.map(PathBuf::from).collect()
-}
-
-/// Returns the paths of a list, of which one may have a comma in its name if it is there.
+/// Returns the paths of a list with commas, of which one may have a comma in its name if it is there.
 pub fn split_list(folder: &Path, text: &str) -> Vec<String> {
     match folder.join(text).exists() {
         true => vec![text.to_string()],

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::DemandFit;
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::studies::comparison::{Comparison, compare};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Stages;
 use crate::number::{aligned, counted, fixed};
@@ -20,23 +21,23 @@ use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
 
 /// Compare fits of the paper's set-up with the published numbers
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag compare-paper\n\
     rockfrag compare-paper --pex fits/pex.parquet --pro fits/pro.parquet --all --out paper.parquet")]
 pub struct ComparePaper {
     /// Fits of fit-pex
-    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pex.parquet")]
     pex: Input,
     /// Fits of fit-pro
-    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
     pro: Input,
     /// Comparison to write
-    #[arg(long, value_name = "FILE", default_value = "paper.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "paper.parquet")]
     out: Output,
     /// Print every number, not only the planes of Table II and the worked example
     #[arg(long)]
-    #[serde(skip)]
+    #[serde(skip_serializing)]
     all: bool,
 }
 

@@ -1,27 +1,29 @@
 //! export: the fragility of structures for OpenQuake or pelicun.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{LimitStates, Peak};
 use rockfrag_core::hazard::{GenericSites, strongest};
 use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::warning::Warnings;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::ModelArgs;
 use super::shared::objects::{StructureArgs, named, on_ground};
 use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metadata, parameters};
 use crate::inputs::Renames;
 use crate::number;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::{FragilityOutput, Read};
-use crate::pipeline::{Stage, UsageError};
+use crate::pipeline::options::Rule;
+use crate::pipeline::paths::{Output, Read};
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag export --width 0.5 --height 1.9 --to openquake --out cabinet.xml\n\
     rockfrag export --structures objects.csv --to pelicun --over pga --fits fits --suite csgm")]
@@ -32,9 +34,9 @@ pub struct Export {
     /// Fragility over pga or pgv
     #[arg(long, value_name = "PEAK", default_value = "pga")]
     over: Peak,
-    /// File to write: .xml, for pelicun .csv [default: fragility.xml or fragility.csv]
-    #[arg(long, value_name = "FILE")]
-    out: Option<FragilityOutput>,
+    /// File to write, without an ending with .xml or, for pelicun, .csv
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "fragility")]
+    out: Output,
     #[command(flatten)]
     #[serde(flatten)]
     model: ModelArgs,
@@ -53,31 +55,34 @@ enum Program {
     Pelicun,
 }
 
-/// The file, without its ending, if none is given.
-pub const UNNAMED: &str = "fragility";
 /// Steps of equal ratio between the levels of a table, and how near to 1 its probabilities end.
 const STEPS: usize = 99;
 const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
+    fn rules() -> Vec<Rule> {
+        [&StructureArgs::RULES[..], &ModelArgs::RULES].concat()
+    }
+
     fn inputs(&self) -> Vec<Read> {
         vec![self.model.input(), self.structures.input()]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
-        let out = self.out.as_deref().unwrap_or(Path::new(UNNAMED));
-        let out =
-            if out.extension().is_none() { out.with_extension(self.ending()) } else { out.to_path_buf() };
+        let out = match self.out.extension() {
+            None => self.out.with_extension(self.endings()[0]),
+            Some(_) => self.out.to_path_buf(),
+        };
         let json = (self.to == Program::Pelicun).then(|| out.with_extension("json"));
         json.into_iter().chain([out]).collect()
     }
 
+    fn endings(&self) -> &[&'static str] {
+        if self.to == Program::Pelicun { &["csv"] } else { &["xml"] }
+    }
+
     fn check(&self) -> anyhow::Result<()> {
-        let (ending, out) = (self.ending(), self.outputs().pop().unwrap_or_default());
-        if out.extension() != Some(ending.as_ref()) {
-            let out = out.display();
-            return Err(UsageError::because(format!("out is {out}; expected a name that ends in .{ending}")));
-        }
+        self.model.check()?;
         self.objects().map(|_| ())
     }
 
@@ -119,13 +124,6 @@ impl Stage for Export {
 }
 
 impl Export {
-    fn ending(&self) -> &'static str {
-        match self.to {
-            Program::OpenQuake => "xml",
-            Program::Pelicun => "csv",
-        }
-    }
-
     /// Reads the objects, each of which must rock, on the ground.
     fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (objects, unused) = self.structures.objects(&Place::default(), &mut Renames::new(&[]))?;

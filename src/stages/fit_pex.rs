@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{
     Calibration, DemandFit, DemandModel, Parameter, Predictors, fit_demand, sd_of_one_plane,
 };
 use rockfrag_core::paper;
 use rockfrag_core::statistics::FitStatus;
-use serde::Serialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
 use super::shared::motion_columns::MotionColumns;
@@ -22,17 +24,18 @@ use crate::pipeline::options::number;
 use crate::pipeline::paths::{Input, Output, Read, part};
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag fit-pex\n\
     rockfrag fit-pex --in responses.parquet --limit-state 0.1,0.5 --all --out fits/pex.parquet\n\
     rockfrag fit-pex --motions motions.parquet --pairs im5:im3,housner_m")]
 pub struct FitPex {
     /// Responses to read
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
-    #[arg(long, value_name = "FILE", default_value = "pex.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pex.parquet")]
     out: Output,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
@@ -56,7 +59,7 @@ pub struct FitPex {
     #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',')]
     pairs: Vec<Predictors>,
     /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath)]
     motions: Option<Input>,
 }
 
@@ -78,6 +81,12 @@ impl FromStr for Transition {
             _ if text == "found" => Ok(Transition::Found),
             _ => Err(format!("expected an IM4 above 1, such as {}, or found", paper::TRANSITION)),
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for Transition {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Transition, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
     }
 }
 

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Calibration, CurveFit, Event, Measure, Parameter, Predictors, fit_curves};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
 use super::shared::motion_columns::MotionColumns;
@@ -12,21 +13,22 @@ use super::shared::{observed, responses};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Input, Output, Read, RowsInput, part};
+use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag fit-pro\n\
     rockfrag fit-pro --in responses.parquet --pairs im4:im5 --all --out fits/pro.parquet\n\
     rockfrag fit-pro --motions motions.parquet --pairs im4:im3_inv,housner_m,im4:arias_m_s")]
 pub struct FitPro {
     /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
-    input: RowsInput,
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
+    #[serde(rename = "in")]
+    input: Input,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
-    #[arg(long, value_name = "FILE", default_value = "pro.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
     out: Output,
     /// Event of the probability: overturning (given rocking) or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
@@ -35,7 +37,7 @@ pub struct FitPro {
     #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',', default_value = "im4:im3_inv")]
     pairs: Vec<Predictors>,
     /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath)]
     motions: Option<Input>,
     /// Confidence level of the limits
     #[arg(long, value_name = "P", default_value = "0.95",

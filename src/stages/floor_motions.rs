@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use arrow_array::RecordBatch;
 use arrow_schema::Schema;
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
 use rockfrag_core::object::Field;
 use serde::{Deserialize, Serialize};
@@ -26,16 +27,17 @@ use crate::table::rows;
 const AT_ONCE: usize = 32;
 
 /// Filter motions through a linear building to one of its floors
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag floor-motions --in motions.parquet --period 0.6 --level 0.5 \
     --out floor.parquet")]
 pub struct FloorMotions {
     /// Motions of the ground to read: motion_id, dt_s and acceleration_m_s2
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Motions of the floor to write, with all other columns
-    #[arg(long, value_name = "FILE", default_value = "floor.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "floor.parquet")]
     out: Output,
     /// First period of the building, s
     #[arg(long, value_name = "S", value_parser = field(Field::Period))]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
 use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
@@ -20,7 +21,7 @@ use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{MOST_LINES, first_lines, number};
+use crate::pipeline::options::{MOST_LINES, Rule, first_lines, number};
 use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
@@ -37,16 +38,17 @@ const ANALYSES: usize = 480;
 const MOST_SAMPLES: usize = 1 << 20;
 
 /// Scale motions until they overturn each structure (incremental dynamic analysis)
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag ida --width 0.5 --height 1.9 --measure pga --from 0.1 --to 3\n\
     rockfrag ida --in motions.parquet --structures objects.csv --out ida.parquet")]
 pub struct Ida {
     /// Motions to read, as in simulate
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Overturning intensities to write, with NAME.stripes.parquet and NAME.fragility.parquet beside
-    #[arg(long, value_name = "FILE", default_value = "ida.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "ida.parquet")]
     out: Output,
     /// Intensity to scale by: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
     #[arg(long, default_value = "scale")]
@@ -102,6 +104,10 @@ struct SingleRecordIda<'a> {
 }
 
 impl Stage for Ida {
+    fn rules() -> Vec<Rule> {
+        StructureArgs::RULES.to_vec()
+    }
+
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&*self.input]), self.structures.input()]
     }

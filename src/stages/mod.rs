@@ -6,12 +6,16 @@ pub mod run;
 pub mod shared;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use clap::{Command, FromArgMatches, Subcommand};
+use clap::{Command, Subcommand};
 use serde::Serialize;
+use serde::de::Error;
 use serde_json::Value;
 
 use crate::pipeline::Stage;
+use crate::pipeline::given::defaults;
+use crate::pipeline::options::{Given, Rule};
 
 /// Declares the stages, in the order of a run: the file and the struct of each.
 macro_rules! stages {
@@ -27,8 +31,24 @@ macro_rules! stages {
         }
 
         impl Stages {
-            /// The stage that clap has parsed.
-            pub fn parsed(self) -> Box<dyn Stage> {
+            /// Makes a stage of what is given to it, defaults included.
+            pub fn of(name: &str, given: Given) -> serde_json::Result<Stages> {
+                let given = Value::Object(given);
+                match name.replace('-', "_").as_str() {
+                    $(stringify!($module) => serde_json::from_value(given).map(Stages::$stage),)*
+                    _ => Err(serde_json::Error::custom(format_args!("no stage {name}"))),
+                }
+            }
+
+            /// What options of a stage exclude, and need.
+            pub fn rules(name: &str) -> Vec<Rule> {
+                match name.replace('-', "_").as_str() {
+                    $(stringify!($module) => $module::$stage::rules(),)*
+                    _ => Vec::new(),
+                }
+            }
+
+            pub fn boxed(self) -> Box<dyn Stage> {
                 match self {
                     $(Stages::$stage(stage) => Box::new(stage)),*
                 }
@@ -56,10 +76,16 @@ stages! {
 impl Stages {
     /// The options of a stage that is given none.
     pub fn defaults(stage: &str) -> BTreeMap<String, Value> {
-        let parser = Stages::augment_subcommands(Command::new("rockfrag"));
-        let parsed = parser.try_get_matches_from(["rockfrag", stage]);
-        let stage = parsed.and_then(|matches| Stages::from_arg_matches(&matches));
-        stage.map_or(BTreeMap::new(), |stage| stage.options())
+        let commands = Stages::commands();
+        let command = commands.iter().find(|command| command.get_name() == stage);
+        let made = command.map(|command| Stages::of(stage, defaults(command, Path::new(""))));
+        made.and_then(Result::ok).map_or(BTreeMap::new(), |stage| stage.options())
+    }
+
+    /// The commands of all stages, in the order of a run.
+    pub fn commands() -> Vec<Command> {
+        let stages = Stages::augment_subcommands(Command::new("stages"));
+        stages.get_subcommands().cloned().map(shared::objects::with_fields).collect()
     }
 
     /// The options of the stage by flag, without files and what is not given.

@@ -1,14 +1,12 @@
 //! run: all stages of a pipeline file, one after the other.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fmt::Write;
 use std::time::Instant;
 
 use anyhow::Context as _;
 use rockfrag_core::warning::Warnings;
-use serde_json::{Map, Value};
 
-use super::export::UNNAMED;
 use crate::number::{LONGEST_TEXT, shown};
 use crate::pipeline::cache;
 use crate::pipeline::call::{Call, Planned};
@@ -41,9 +39,7 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<()> {
             printed = done.summary;
         }
     }
-    if !context.common.quiet {
-        warn(&warnings);
-    }
+    warn(&warnings);
     print(&printed, calls[answer].stage.format())
 }
 
@@ -59,34 +55,20 @@ pub fn warn(warnings: &Warnings) {
     }
 }
 
-/// Returns the files of options that the section of a stage does not give, by flag, in the folder of the run.
-/// Options with a default have it there too, and need no word.
-pub fn files(
-    stage: &str,
-    sections: &BTreeMap<String, Map<String, Value>>,
-) -> Vec<(&'static str, &'static str)> {
-    let has = |stage: &str| sections.contains_key(stage);
-    let motions = if has("floor-motions") { "floor.parquet" } else { "motions.parquet" };
-    let fits = has("fit-pro").then_some(("fits", "."));
-    let files = match stage {
-        "simulate" | "ida" => vec![Some(("in", motions))],
-        "evaluate" => vec![fits, Some(("out", "evaluated.parquet"))],
-        "export" => vec![fits, Some(("out", UNNAMED))],
-        "validate" => vec![fits],
-        _ => Vec::new(),
-    };
-    files.into_iter().flatten().collect()
-}
-
-/// Lists what each stage would do, with its options, and why.
-pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
-    let mut text = String::new();
+/// Lists what each stage would do, with its options, and why; and whether any would run.
+pub fn dry_run(calls: &[Call], context: &Context) -> anyhow::Result<(String, bool)> {
+    let (mut text, mut is_due) = (String::new(), false);
     let mut planned = Planned::new();
     for call in calls {
         let plan = call.plan(&planned)?;
         let would = match cache::freshness(call, &plan) {
-            Ok(_) => "up to date".to_string(),
-            Err(reason) => format!("run: {reason}"),
+            Ok(_) if !context.common.force => "up to date".to_string(),
+            fresh => {
+                is_due |= plan.outputs.iter().any(|path| !cache::is_view(path) || !path.exists());
+                let reason = fresh.err().unwrap_or("--force".to_string());
+                let refused = cache::expect_replaceable(&plan.outputs, &context.begin(plan.clone())).err();
+                refused.map_or(format!("run: {reason}"), |refused| format!("cannot run: {refused}"))
+            }
         };
         writeln!(text, "{}: {}", call.name, shown(&would, LONGEST_TEXT))?;
         for (name, value) in &call.options {
@@ -98,5 +80,5 @@ pub fn dry_run(calls: &[Call]) -> anyhow::Result<String> {
         }
         planned.extend(plan.keys());
     }
-    Ok(text)
+    Ok((text, is_due))
 }

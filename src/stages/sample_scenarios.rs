@@ -4,11 +4,12 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rayon::prelude::*;
 use rockfrag_core::motion::{Design, Scenario, ScenarioGrid};
 use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
 use rockfrag_core::warning::{Warning, Warnings};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::number::counted;
 use crate::pipeline::Stage;
@@ -18,13 +19,13 @@ use crate::pipeline::paths::{Output, Read};
 use crate::table::rows;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag sample-scenarios\n\
     rockfrag sample-scenarios --mw 6:7:0.5 --re 5,10,20 --samples 200 --seed 7 --out scenarios.parquet")]
 pub struct SampleScenarios {
     /// Seed of the random parameters
-    #[arg(long, default_value = "42")]
+    #[arg(long, default_value = "42", value_parser = number(0..=u64::MAX, "a whole number of 0 or more"))]
     seed: u64,
     /// Scenarios in each cell of the grid
     #[arg(long, default_value = "100", value_name = "N",
@@ -42,7 +43,7 @@ pub struct SampleScenarios {
     #[arg(long, default_value = "lhs")]
     design: Design,
     /// Scenarios to write
-    #[arg(long, value_name = "FILE", default_value = "scenarios.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "scenarios.parquet")]
     out: Output,
 }
 

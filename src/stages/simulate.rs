@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::rocking::{Outcome, Problem, Record, Structure, simulate_all, trace};
 use rockfrag_core::warning::{Warning, Warnings};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
@@ -16,7 +17,7 @@ use crate::number;
 use crate::number::listed;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{MOST_LINES, first_lines};
+use crate::pipeline::options::{MOST_LINES, Rule, first_lines};
 use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
@@ -37,7 +38,7 @@ const NAMED: usize = 8;
 const ASSUMED: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
 
 /// Simulate the rocking response of structures to motions: the paper's two structures, or your own
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag simulate\n\
     rockfrag simulate --in motions.parquet --width 0.5 --height 1.9 --out responses.parquet\n\
@@ -45,10 +46,11 @@ const ASSUMED: &str = "frame and electrical-equipment of the paper; --width and 
     rockfrag simulate --structure name=frame,p=1,alpha=0.15,eta=0.92 --partition 0/8")]
 pub struct Simulate {
     /// Motions to read: motion_id, dt_s and acceleration_m_s2
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "motions.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Responses to write
-    #[arg(long, value_name = "FILE", default_value = "responses.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
     out: Output,
     #[command(flatten)]
     #[serde(flatten)]
@@ -58,11 +60,15 @@ pub struct Simulate {
     #[arg(long, value_name = "ID,...", value_delimiter = ',', help_heading = None::<&str>)]
     trace: Vec<String>,
     /// Only part i of n (0 to n - 1), into the folder --out
-    #[arg(long, value_name = "I/N", conflicts_with = "trace", help_heading = None::<&str>)]
+    #[arg(long, value_name = "I/N", help_heading = None::<&str>)]
     partition: Option<Partition>,
 }
 
 impl Stage for Simulate {
+    fn rules() -> Vec<Rule> {
+        [&StructureArgs::RULES[..], &[Rule::Either(&["partition"], &["trace"])]].concat()
+    }
+
     fn inputs(&self) -> Vec<Read> {
         vec![Read::partition("in", &self.input, self.partition), self.structures.input()]
     }

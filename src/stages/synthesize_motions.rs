@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use anyhow::Context as _;
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::motion::{
     Difference, Epoch, LONGEST_MOTION, MeasurePlan, MotionMeasures, MotionModel, Scenario, SiteAmplification,
     StochasticModel, Suite, Synthesizer,
@@ -28,7 +29,7 @@ const AT_ONCE: usize = 128;
 const MOST_SAMPLES: usize = 1 << 23;
 
 /// Synthesize near-fault ground motions: coherent pulse and stochastic high frequencies
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag synthesize-motions\n\
     rockfrag synthesize-motions --in scenarios.parquet --suite csgm --dt 0.01 --site soil --seed 7 \
@@ -36,13 +37,14 @@ const MOST_SAMPLES: usize = 1 << 23;
     rockfrag synthesize-motions --sa 0.2,1.0 --partition 0/8")]
 pub struct SynthesizeMotions {
     /// Scenarios to read
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "scenarios.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "scenarios.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Motions to write
-    #[arg(long, value_name = "FILE", default_value = "motions.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
     out: Output,
     /// Seed of the noise
-    #[arg(long, default_value = "42")]
+    #[arg(long, default_value = "42", value_parser = number(0..=u64::MAX, "a whole number of 0 or more"))]
     seed: u64,
     /// Suites: pulse (alone), hfc (high frequencies alone), csgm (both)
     #[arg(long, default_value = "pulse,csgm", value_delimiter = ',')]
@@ -59,7 +61,7 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "envelope-peak")]
     epoch: Epoch,
     /// Site: rock, soil, none, or a CSV file of frequencies (Hz) and factors
-    #[arg(long, default_value = "rock")]
+    #[arg(long, default_value = "rock", value_hint = FilePath)]
     site: SiteInput,
     /// Near-surface attenuation kappa, s
     #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]

@@ -3,15 +3,17 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Case, Cases, Event, Model, MotionKind, Tau};
 use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
 use rockfrag_core::warning::{Warning, Warnings};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
+use crate::pipeline::options::Rule;
 use crate::pipeline::paths::{Input, Output, Read, part};
 use crate::table::frame;
 use crate::table::keys::key_of;
@@ -19,16 +21,17 @@ use crate::table::provenance::Provenance;
 use crate::table::rows;
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag validate --in responses.parquet --fits fits --name frame \
     --suite csgm --out validation.parquet")]
 pub struct Validate {
     /// Responses to test on
-    #[arg(long = "in", id = "in", value_name = "FILE", default_value = "responses.parquet")]
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
+    #[serde(rename = "in")]
     input: Input,
     /// Scores to write, with NAME.reliability.parquet beside
-    #[arg(long, value_name = "FILE", default_value = "validation.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "validation.parquet")]
     out: Output,
     #[command(flatten)]
     #[serde(flatten)]
@@ -38,8 +41,16 @@ pub struct Validate {
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
+    fn rules() -> Vec<Rule> {
+        ModelArgs::RULES.to_vec()
+    }
+
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&*self.input]), self.fits.input()]
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        self.fits.check()
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

@@ -108,7 +108,7 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
     let properties = WriterProperties::builder().set_key_value_metadata(pairs).build();
     write_with(&path, &batch.slice(0, 5), properties);
     let (plan, _) = succeed(folder.path(), "run --dry-run");
-    assert!(plan.contains("synthesize-motions: run"), "{plan}");
+    assert!(plan.contains("synthesize-motions: cannot run") && plan.contains("--force"), "{plan}");
     fail(folder.path(), "run", 1, &["motions.parquet", "--force"]);
     let before = made(&folder.path().join("out/responses.parquet"));
     let simulate = "simulate --config pipeline.yaml --in out/motions.parquet --out out/responses.parquet";

@@ -66,7 +66,11 @@ fn a_floor_keeps_what_is_not_measured_and_level_0_is_the_ground() {
 
 #[test]
 fn a_run_with_a_floor_simulates_on_it() {
-    let folder = folder_with(&format!("{SMALL}floor-motions: {{ period: 0.8, level: 1 }}\n"));
+    let pipeline = format!("{SMALL}floor-motions: {{ period: 0.8, level: 1 }}\n");
+    let folder = folder_with(&pipeline);
+    fail(folder.path(), "run", 2, &["simulate", "in: out/floor.parquet"]);
+    let wired = pipeline.replace("simulate:\n", "simulate:\n  in: out/floor.parquet\n");
+    std::fs::write(folder.path().join("pipeline.yaml"), wired).unwrap();
     succeed(folder.path(), "run");
     let [floor, responses] =
         ["floor", "responses"].map(|name| folder.path().join(format!("out/{name}.parquet")));

@@ -157,7 +157,7 @@ fn the_word_paper_is_no_folder_and_a_path_may_be_written_in_two_ways() {
 fn an_option_stated_at_its_default_changes_nothing() {
     let folder = folder(&[]);
     let call = format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --period 0.5 --level 0.5 --out e.parquet");
-    for stated in ["--years 50", "--period-sd 0.25", "--centre-offset 0", "--centre-height-sd 0"] {
+    for stated in ["--period-sd 0.25", "--centre-offset 0", "--centre-height-sd 0"] {
         succeed(folder.path(), &format!("{call} --force"));
         let plain = fs::read(folder.path().join("e.parquet")).unwrap();
         assert!(is_kept(folder.path(), &format!("{call} {stated}")), "{stated}");
@@ -223,7 +223,8 @@ fn paths_of_a_pipeline_are_relative_to_its_file() {
         succeed(folder.path(), "run sub/pipeline.yaml");
     };
     let rate = |hazard: &str| {
-        run(&format!("evaluate: {{ width: 0.5, height: 2, hazard: {hazard} }}\n"));
+        let out = "out/evaluated.parquet";
+        run(&format!("evaluate: {{ width: 0.5, height: 2, hazard: {hazard}, out: {out} }}\n"));
         rows(folder.path(), "sub/out/evaluated.parquet")
     };
     let as_text = rate("\"h.csv,second.csv\"");
@@ -249,12 +250,12 @@ fn names_of_a_pipeline_are_texts() {
         ("007", "007"),
         ("1e3", "1e3"),
         ("yes", "yes"),
-        ("~", "~"),
         ("\"~\"", "~"),
         ("\"rack,height=2\"", "\"rack,height=2\""),
     ] {
         let folder = folder_with(&format!(
-            "evaluate: {{ pga: 0.4, pgv: 0.5, structure: [{{ name: {name}, width: 0.6, height: 1.9 }}] }}\n"
+            "evaluate:\n  {{ pga: 0.4, pgv: 0.5, out: out/evaluated.parquet, \
+             structure: [{{ name: {name}, width: 0.6, height: 1.9 }}] }}\n"
         ));
         succeed(folder.path(), "run");
         let rows = rows(folder.path(), "out/evaluated.parquet");

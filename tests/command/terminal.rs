@@ -298,13 +298,17 @@ fn nothing_of_a_file_moves_or_reorders_the_terminal_or_begins_a_line() {
         ("list.csv", &list),
         ("wrong.csv", &format!("name,width,height\n{quoted},0.5,{quoted}\nB,0.5,2\n")),
         ("heading.csv", &format!("name,width,{quoted}\na,0.5,2\n")),
-        ("run.yaml", &format!("evaluate:\n  structure: [{json}]\n  pga: 0.5\n  pgv: 0.4\n")),
+        (
+            "run.yaml",
+            &format!("evaluate:\n  structure: [{json}]\n  pga: 0.5\n  pgv: 0.4\n  out: out/e.parquet\n"),
+        ),
         ("option.yaml", &format!("evaluate:\n  \"{ESCAPED}\": 1\n")),
         ("value.yaml", &format!("evaluate:\n  pga: \"{ESCAPED}\"\n")),
     ]);
     let sine: Vec<f64> = (0..300).map(|k| 9.0 * (0.05 * f64::from(k)).sin()).collect();
     write_motions(&folder.path().join("motions.parquet"), 0.01, &[&sine, &[0.1; 50]]);
-    let simulate = rockfrag(folder.path(), "simulate --structure").arg(&json).output().unwrap();
+    let text = format!("name={HOSTILE},p=1.0,alpha=0.2,eta=0.9");
+    let simulate = rockfrag(folder.path(), "simulate --structure").arg(text).output().unwrap();
     assert!(simulate.status.success());
     let page = "evaluate --structures list.csv --pga 0.5 --pgv 0.4 --out page.html";
     succeed(folder.path(), page);
@@ -379,7 +383,7 @@ fn a_run_warns_of_the_objects_of_all_its_stages() {
     let [one, other] = [["a", "b"], ["c", "d"]].map(|names| names.map(slender).join(", "));
     let pipeline = format!(
         "simulate: {{ in: motions.parquet, structure: [{one}] }}\n\
-         evaluate: {{ pga: 0.5, pgv: 0.4, structure: [{other}] }}\n"
+         evaluate: {{ pga: 0.5, pgv: 0.4, out: out/e.parquet, structure: [{other}] }}\n"
     );
     let folder = folder(&[("pipeline.yaml", &pipeline)]);
     write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[0.1; 300]]);

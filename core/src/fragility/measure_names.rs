@@ -141,6 +141,12 @@ impl Serialize for Predictors {
     }
 }
 
+impl<'de> serde::Deserialize<'de> for Predictors {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Predictors, D::Error> {
+        <String as serde::Deserialize>::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
+}
+
 impl FromStr for Predictors {
     type Err = String;
 

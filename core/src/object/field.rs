@@ -3,9 +3,10 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
+use super::given::{Object, Restitution};
 use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
 use crate::spelling::unknown_word;
-use crate::units::Quantity;
+use crate::units::{Quantity, Unit};
 
 /// A number that may be known of an object. Lengths are in m.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -46,54 +47,107 @@ const SIDE: &str = "a side above 0 m, up to 50 m: is it in cm or mm?";
 const HEIGHT: &str = "a height above 0 m, up to 100 m: is it in cm or mm?";
 const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
 
+/// What the command, lists and messages say of a field.
+pub struct Entry {
+    /// Unit or symbol of the number, as `--help` names it.
+    pub symbol: &'static str,
+    /// What a unit must measure; none where the number has no unit, or none that a list may change.
+    pub quantity: Option<Quantity>,
+    /// The least and the largest value that an object can have.
+    pub range: RangeInclusive<f64>,
+    pub expected: &'static str,
+    pub help: &'static str,
+    pub set: fn(&mut Object, f64),
+}
+
 impl Field {
-    /// The least and the largest value that an object can have, and what is expected. No rocking
-    /// structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
+    /// The words of the fields of [`Shape`](super::Shape).
+    pub const OF_SHAPE: [&str; 10] = [
+        "width",
+        "height",
+        "depth",
+        "centre-height",
+        "centre-offset",
+        "inertia",
+        "beam-mass-ratio",
+        "p",
+        "alpha",
+        "eta",
+    ];
+    /// The words of the fields of [`Place`](super::Place).
+    pub const OF_PLACE: [&str; 7] =
+        ["period", "level", "period-sd", "friction", "eta-sd", "centre-height-sd", "centre-offset-sd"];
+
+    /// No rocking structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
     /// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
-    pub fn range(self) -> (RangeInclusive<f64>, &'static str) {
-        match self {
-            Field::Width | Field::Depth => (1e-4..=50.0, SIDE),
-            Field::Height => (1e-3..=100.0, HEIGHT),
-            Field::CentreHeight => (1e-6..=100.0, HEIGHT),
-            Field::CentreOffset => (-100.0..=100.0, "a length up to 100 m: is it in cm or mm?"),
-            Field::Inertia => (1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?"),
-            Field::BeamMassRatio => (0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?"),
-            Field::P => (GIVEN_FREQUENCIES_RAD_S,
-                "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?"),
-            Field::Alpha => (0.01..=FRAC_PI_4,
-                "rad, from 0.01 to 0.7854 (45 degrees): is it in degrees, height over width, or p?"),
-            Field::Eta => (f64::MIN_POSITIVE..=1.0, "a number above 0 and up to 1, or housner"),
-            Field::Period => (0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?"),
-            Field::Level => (0.0..=1.0, "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5"),
-            Field::PeriodSd => (0.0..=1.0,
-                "a standard deviation of ln(period), 0 to 1: is it in s or percent?"),
-            Field::Friction => (0.01..=2.0, "a coefficient of friction from 0.01 to 2"),
-            Field::EtaSd => (0.0..=0.5, "a standard deviation from 0 to 0.5"),
-            Field::CentreHeightSd | Field::CentreOffsetSd => (0.0..=100.0, SD),
-        }
+    pub fn entry(self) -> Entry {
+        use Quantity::{Angle, AngularFrequency, Length, Time};
+        let (symbol, quantity, range, expected, help, set): (_, _, _, _, _, fn(&mut Object, f64)) = match self {
+            Field::Width => ("M", Some(Length), 1e-4..=50.0, SIDE,
+                "Width of the base of a block, body or column, m; the smaller side unless --depth is given",
+                |of, m| of.shape.width = Some(m)),
+            Field::Depth => ("M", Some(Length), 1e-4..=50.0, SIDE,
+                "Depth of the base, m: the object may also fall that way; simulate and ida take the weaker direction",
+                |of, m| of.shape.depth = Some(m)),
+            Field::Height => ("M", Some(Length), 1e-3..=100.0, HEIGHT,
+                "Height of the block, body or column, m", |of, m| of.shape.height = Some(m)),
+            Field::CentreHeight => ("M", Some(Length), 1e-6..=100.0, HEIGHT,
+                "Height of the centre of mass above the base, m [default: half the height]",
+                |of, m| of.shape.centre_height = Some(m)),
+            Field::CentreOffset => ("M", Some(Length), -100.0..=100.0, "a length up to 100 m: is it in cm or mm?",
+                "Distance of the centre of mass from the middle of the width, m [default: 0]",
+                |of, m| of.shape.centre_offset = Some(m)),
+            Field::Inertia => ("M2", None, 1e-9..=2e4, "m2, above 0: is it about an edge, or times mass?",
+                "Moment of inertia about the centre of mass, per unit mass, m2 [default: that of a solid block]",
+                |of, m2| of.shape.inertia = Some(m2)),
+            Field::BeamMassRatio => ("RATIO", None, 0.0..=20.0, "a mass ratio from 0 to 20: is it in percent?",
+                "Frame: mass of the beam over that of all columns", |of, y| of.shape.beam_mass_ratio = Some(y)),
+            Field::P => ("RAD/S", Some(AngularFrequency), GIVEN_FREQUENCIES_RAD_S,
+                "rad/s, from 0.2 to 50: is it in Hz, or of dimensions in cm or mm?",
+                "Frequency parameter, rad/s", |of, p| of.shape.p = Some(p)),
+            Field::Alpha => ("RAD", Some(Angle), 0.01..=FRAC_PI_4,
+                "rad, from 0.01 to 0.7854 (45 degrees): is it in degrees (8.5deg), height over width, or p?",
+                "Slenderness, rad, or in degrees as 8.5deg", |of, alpha| of.shape.alpha = Some(alpha)),
+            Field::Eta => ("ETA", None, f64::MIN_POSITIVE..=1.0, "a number above 0 and up to 1, or housner",
+                "Coefficient of restitution, or housner for 1 - 1.5 sin^2(alpha) [default: from the dimensions]",
+                |of, eta| of.shape.eta = Some(Restitution::Number(eta))),
+            Field::Period => ("S", Some(Time), 0.02..=10.0, "a period from 0.02 to 10 s: is it in Hz?",
+                "First period of the building, s [default: the object stands on the ground]",
+                |of, s| of.place.period = Some(s)),
+            Field::Level => ("Z", None, 0.0..=1.0,
+                "the height over that of the roof, 0 to 1: 0.6 for storey 3 of 5",
+                "Height of the floor over that of the roof, 0 to 1", |of, z| of.place.level = Some(z)),
+            Field::PeriodSd => ("SD", None, 0.0..=1.0,
+                "a standard deviation of ln(period), 0 to 1: is it in s or percent?",
+                "Standard deviation of ln(period) [default: 0.25]", |of, sd| of.place.period_sd = Some(sd)),
+            Field::Friction => ("MU", None, 0.01..=2.0, "a coefficient of friction from 0.01 to 2",
+                "Coefficient of friction; if tan(alpha) exceeds it, the object slides",
+                |of, mu| of.place.friction = Some(mu)),
+            Field::EtaSd => ("SD", None, 0.0..=0.5, "a standard deviation from 0 to 0.5",
+                "Standard deviation of eta [default: 0 if eta is given; that of tests if it is computed]",
+                |of, sd| of.place.eta_sd = Some(sd)),
+            Field::CentreHeightSd => ("M", Some(Length), 0.0..=100.0, SD,
+                "Standard deviation of the height of the centre of mass, m",
+                |of, sd| of.place.centre_height_sd = Some(sd)),
+            Field::CentreOffsetSd => ("M", Some(Length), 0.0..=100.0, SD,
+                "Standard deviation of the offset of the centre of mass, m",
+                |of, sd| of.place.centre_offset_sd = Some(sd)),
+        };
+        Entry { symbol, quantity, range, expected, help, set }
     }
 
-    /// None where it has no unit, or none that a list may change.
-    pub fn quantity(self) -> Option<Quantity> {
-        match self {
-            Field::P => Some(Quantity::AngularFrequency),
-            Field::Alpha => Some(Quantity::Angle),
-            Field::Period => Some(Quantity::Time),
-            Field::Width | Field::Depth | Field::Height | Field::CentreHeight | Field::CentreOffset => {
-                Some(Quantity::Length)
-            }
-            Field::CentreHeightSd | Field::CentreOffsetSd => Some(Quantity::Length),
-            _ => None,
-        }
-    }
-
+    /// Reads a number that an object can have; with a unit, it is converted.
+    ///
     /// # Errors
     /// With what is expected, if no object can have this value.
     pub fn parse_value(self, text: &str) -> Result<f64, String> {
-        let (range, expected) = self.range();
-        match text.parse::<f64>() {
-            Ok(value) if range.contains(&value) => Ok(value),
+        let Entry { quantity, range, expected, .. } = self.entry();
+        let number = text.trim_end_matches(|sign: char| sign.is_alphabetic() || sign == '\u{b0}');
+        let unit = Unit::parse(&text[number.len()..]).filter(|unit| Some(unit.quantity) == quantity);
+        let value = text.parse().ok().or_else(|| Some(number.trim_end().parse::<f64>().ok()? * unit?.si));
+        match value.filter(|value| range.contains(value)) {
+            Some(value) => Ok(value),
             _ if text.contains(',') => Err(format!("expected {expected}, with a point before the decimals")),
             _ => Err(format!("expected {expected}")),
         }

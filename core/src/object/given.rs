@@ -1,24 +1,25 @@
 //! An object as given: its shape, its place, and the uncertainty of both.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 use std::str::FromStr;
 
-use super::field::Field;
-use serde::Serialize;
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 
+use super::field::Field;
+use super::rocking::SD_OF_PERIOD;
 use crate::motion::Floor;
 use crate::rocking::{Structure, StructureError};
 use crate::warning::UNNAMED;
 
 /// Dimensions of a block, body or frame, or p, alpha and eta: see [`Field`].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Shape {
     pub width: Option<f64>,
     pub depth: Option<f64>,
     pub height: Option<f64>,
     pub centre_height: Option<f64>,
+    #[serde(skip_serializing_if = "is_zero")]
     pub centre_offset: Option<f64>,
     pub inertia: Option<f64>,
     pub beam_mass_ratio: Option<f64>,
@@ -28,19 +29,31 @@ pub struct Shape {
 }
 
 /// Where an object stands, and the uncertainty of its properties: see [`Field`].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Place {
     pub period: Option<f64>,
     pub level: Option<f64>,
+    #[serde(skip_serializing_if = "is_sd_of_period")]
     pub period_sd: Option<f64>,
     pub friction: Option<f64>,
     pub eta_sd: Option<f64>,
+    #[serde(skip_serializing_if = "is_zero")]
     pub centre_height_sd: Option<f64>,
+    #[serde(skip_serializing_if = "is_zero")]
     pub centre_offset_sd: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Whether a number says what its absence says.
+fn is_zero(number: &Option<f64>) -> bool {
+    number.is_none_or(|number| number == 0.0)
+}
+
+fn is_sd_of_period(number: &Option<f64>) -> bool {
+    number.is_none_or(|number| number == SD_OF_PERIOD)
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Restitution {
     /// Housner's, 1 - 1.5 sin^2(alpha).
@@ -82,7 +95,7 @@ impl From<StructureError> for ObjectError {
 }
 
 /// An object: what is known of it, or why there is no answer.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Object {
     pub name: String,
     /// Number of such objects.
@@ -102,33 +115,32 @@ pub struct Object {
 impl FromStr for Object {
     type Err = String;
 
-    /// Reads an object as NAME=VALUE,...
+    /// Reads an object as `name=cabinet,width=0.5,height=2`.
     fn from_str(text: &str) -> Result<Object, String> {
-        let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
-        // A mapping of a pipeline file or of Python is JSON, whose values may have commas.
-        let Ok(mapping) = serde_json::from_str::<BTreeMap<String, Value>>(text) else {
-            let mut given = HashSet::new();
-            for pair in text.split(',') {
-                let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
-                let name = name.trim().replace('_', "-");
-                object.set(&name, value.trim())?;
-                if let Some(name) = given.replace(name) {
-                    return Err(format!("{name} is given twice; expected one value"));
-                }
-            }
-            return Ok(object);
-        };
-        for (name, value) in mapping.into_iter().filter(|(_, value)| !value.is_null()) {
-            let text = value.as_str().map_or_else(|| value.to_string(), str::to_string);
-            object.set(&name.replace('_', "-"), &text)?;
-        }
-        Ok(object)
+        Object::of_fields(text.split(',').map(|pair| pair.split_once('=').unwrap_or((pair, ""))))
     }
 }
 
 pub const MOST_OBJECTS: u32 = 1_000_000;
 
 impl Object {
+    /// Reads an object of its fields, each by its word and as text.
+    ///
+    /// # Errors
+    /// If there is no such field, one is given twice, or an object cannot have this value.
+    pub fn of_fields<'a>(fields: impl Iterator<Item = (&'a str, &'a str)>) -> Result<Object, String> {
+        let mut object = Object { name: UNNAMED.to_string(), ..Object::default() };
+        let mut given = HashSet::new();
+        for (name, text) in fields {
+            let name = name.trim().replace('_', "-");
+            object.set(&name, text.trim())?;
+            if let Some(name) = given.replace(name) {
+                return Err(format!("{name} is given twice; expected one value"));
+            }
+        }
+        Ok(object)
+    }
+
     /// A solid block on the ground.
     pub fn block(name: &str, width_m: f64, height_m: f64) -> Object {
         let shape = Shape { width: Some(width_m), height: Some(height_m), ..Shape::default() };
@@ -157,37 +169,10 @@ impl Object {
             "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
             _ => {
                 let field: Field = name.parse()?;
-                let value = field.parse_value(text).map_err(refuse)?;
-                if let Some(number) = self.number_mut(field) {
-                    *number = Some(value);
-                }
+                (field.entry().set)(self, field.parse_value(text).map_err(refuse)?);
             }
         }
         Ok(())
-    }
-
-    /// None of eta, which may be a word.
-    fn number_mut(&mut self, field: Field) -> Option<&mut Option<f64>> {
-        let (shape, place) = (&mut self.shape, &mut self.place);
-        Some(match field {
-            Field::Width => &mut shape.width,
-            Field::Depth => &mut shape.depth,
-            Field::Height => &mut shape.height,
-            Field::CentreHeight => &mut shape.centre_height,
-            Field::CentreOffset => &mut shape.centre_offset,
-            Field::Inertia => &mut shape.inertia,
-            Field::BeamMassRatio => &mut shape.beam_mass_ratio,
-            Field::P => &mut shape.p,
-            Field::Alpha => &mut shape.alpha,
-            Field::Eta => return None,
-            Field::Period => &mut place.period,
-            Field::Level => &mut place.level,
-            Field::PeriodSd => &mut place.period_sd,
-            Field::Friction => &mut place.friction,
-            Field::EtaSd => &mut place.eta_sd,
-            Field::CentreHeightSd => &mut place.centre_height_sd,
-            Field::CentreOffsetSd => &mut place.centre_offset_sd,
-        })
     }
 
     /// Fills in what the object does not say of where it stands.

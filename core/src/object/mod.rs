@@ -16,7 +16,7 @@ mod rocking;
 mod sides;
 
 pub use changes::Changed;
-pub use field::Field;
+pub use field::{Entry, Field};
 pub use given::{Object, ObjectError, Place, Restitution, Shape};
 pub use rocking::{
     LowHigh, Perturbation, RockingObject, SD_OF_PERIOD, UncertaintySource, structure_warnings,

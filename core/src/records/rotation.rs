@@ -123,6 +123,12 @@ pub enum Orientation {
     Azimuth(f64),
 }
 
+impl<'de> serde::Deserialize<'de> for Orientation {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Orientation, D::Error> {
+        <String as serde::Deserialize>::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+    }
+}
+
 impl FromStr for Orientation {
     type Err = String;
 

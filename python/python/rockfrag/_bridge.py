@@ -22,6 +22,8 @@ from ._result import Result
 WIDTH = 100
 #: Words of Python, which cannot be names of options.
 RESERVED = ("from", "in")
+#: Options of lists and curves as people keep them, which are text.
+LISTS = ("about", "hazard", "site", "structures")
 
 
 class Option(NamedTuple):
@@ -30,8 +32,6 @@ class Option(NamedTuple):
     name: str
     #: flag, value, or of paths: input, output.
     kind: str
-    #: How the names of its files may end, the best first.
-    formats: list[str]
     default: str
     help: str
     positional: bool
@@ -57,7 +57,7 @@ class Stage(NamedTuple):
 
     @property
     def makes_table(self) -> bool:
-        return any(option.kind == "output" and "parquet" in option.formats for option in self.options)
+        return self.command not in ("export", "report")
 
     @property
     def named(self) -> list[Option]:
@@ -144,7 +144,7 @@ def file_of(table: Any, path: Path, option: Option) -> object:
     if type(table).__name__ == "LazyFrame":
         table = table.collect()
     if hasattr(table, "__arrow_c_stream__"):
-        path = path.with_suffix(f".{option.formats[0] if option.formats else 'parquet'}")
+        path = path.with_suffix(".csv" if option.name in LISTS else ".parquet")
         _rockfrag.write_table(table.__arrow_c_stream__(), path)
         return path
     paths = table if isinstance(table, (list, tuple)) else [table]

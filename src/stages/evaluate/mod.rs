@@ -21,25 +21,26 @@ mod words;
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
-use clap::{ArgGroup, Args};
+use clap::Args;
+use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site};
 use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, Restitution};
+use rockfrag_core::object::{Object, Place, Restitution};
 use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use rockfrag_core::records::implausibility::rarity;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use self::object::{Predicted, Prediction};
 use self::point::TreeRow;
 use super::shared::model_args::{ModelArgs, Models};
-use super::shared::objects::{PlaceArgs, StructureArgs, named};
+use super::shared::objects::{StructureArgs, named};
 use crate::inputs::{Rename, Renames, hazard};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::number;
-use crate::pipeline::paths::{AnswersOutput, Read, RowsInput, SheetInput, split_lists};
+use crate::pipeline::options::{Rule, number};
+use crate::pipeline::paths::{Input, Output, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::report::answers::Evaluation;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
@@ -49,90 +50,105 @@ use crate::table::rows;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag evaluate --width 0.5 --height 2.0\n\
     rockfrag evaluate --width 0.5 --height 2.0 --pga 0.5 --pgv 0.6\n\
     rockfrag evaluate --width 0.5 --height 2.0 --depth 0.4 --hazard pga.csv,sa.csv\n\
     rockfrag evaluate --structures objects.csv --hazard pga.csv --out objects.parquet\n\
     rockfrag evaluate --width 0.5 --height 2.0 --period 0.6 --level 0.5 --hazard pga.csv")]
-#[command(group(ArgGroup::new("site").multiple(true)))]
 pub struct Evaluate {
     /// Peak ground acceleration, g
-    #[arg(long, value_name = "G", conflicts_with_all = ["in", "site"], allow_negative_numbers = true,
+    #[arg(long, value_name = "G",
           value_parser = number(0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"))]
     pga: Option<f64>,
     /// Peak ground velocity, m/s
-    #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "site"], allow_negative_numbers = true,
+    #[arg(long, value_name = "M/S",
           value_parser = number(0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
     pgv: Option<f64>,
     /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
     /// eta where they vary
-    #[arg(long = "in", id = "in", value_name = "FILE", conflicts_with = "site")]
-    input: Option<RowsInput>,
+    #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath)]
+    #[serde(rename = "in")]
+    input: Option<Input>,
     /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
-    #[arg(long, value_name = "FILE,...", group = "site")]
-    hazard: Vec<SheetInput>,
+    #[arg(long, value_name = "FILE,...", value_hint = FilePath)]
+    hazard: Vec<Input>,
     /// Years represented by the ground-motion fields of --hazard
-    #[arg(long, value_name = "YEARS", requires = "hazard", group = "site", value_parser = number(1.0..=1e9, "years of 1 and more"))]
+    #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Moment magnitude of motions without one; at a site the mean of the disaggregation at 2475 years, of
     /// SA(1.0 s) with that curve, else of PGA (not used with PGV alone)
     #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
-    #[arg(long, value_name = "M/S", conflicts_with_all = ["in", "ratio", "fits", "suite"],
-          value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
+    #[arg(long, value_name = "M/S", value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
     /// Column names for headings of --hazard, --structures or --in
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Rename>,
     /// Exposure time, years
-    #[arg(long, value_name = "YEARS", default_value = "50", requires = "hazard",
-          value_parser = number(1e-3..=1e6, "years above 0"))]
+    #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
-    #[arg(long, value_name = "S", group = "site",
+    #[arg(long, value_name = "S",
           value_parser = number(PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
-    #[arg(long, value_name = "P", requires = "hazard", group = "site", value_parser = parse_target)]
+    #[arg(long, value_name = "P", value_parser = parse_target)]
     target: Option<f64>,
     /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its
     /// site
-    #[arg(long, value_name = "PEAK", conflicts_with_all = ["in", "pga", "pgv", "target", "extrapolate"])]
+    #[arg(long, value_name = "PEAK")]
     over: Option<Peak>,
     /// Continue the hazard curve with its last slope
-    #[arg(long, requires = "hazard", group = "site")]
+    #[arg(long)]
     extrapolate: bool,
     /// text, csv or json
     #[arg(long, default_value = "text")]
-    #[serde(skip)]
+    #[serde(skip_serializing)]
     format: Format,
     /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default:
     /// none; with --in, evaluated.parquet beside it]
-    #[arg(long, value_name = "FILE")]
-    out: Option<AnswersOutput>,
+    #[arg(long, value_name = "FILE", value_hint = FilePath)]
+    out: Option<Output>,
     #[command(flatten)]
     #[serde(flatten)]
     model: ModelArgs,
     #[command(flatten)]
     #[serde(flatten)]
     structures: StructureArgs,
-    #[command(flatten)]
+    #[arg(skip)]
     #[serde(flatten)]
-    place: PlaceArgs,
+    place: Place,
 }
 
-/// Endings of pages and figures.
-const DRAWN: [&str; 3] = ["html", "svg", "png"];
+/// Options of a hazard.
+const SITE: [&str; 5] = ["hazard", "effective-years", "ratio", "target", "extrapolate"];
+const RULES: [Rule; 8] = [
+    Rule::Either(&["pga", "pgv"], &SITE),
+    Rule::Either(&["in"], &SITE),
+    Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
+    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "extrapolate"]),
+    Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
+    Rule::Needs(&["effective-years", "years", "target", "extrapolate"], &["hazard"]),
+    Rule::Needs(&["columns"], &["hazard", "structures", "in"]),
+    Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
+];
+
+/// Endings of files of rows and, from the fifth on, of pages and figures.
+const ENDINGS: [&str; 7] = ["parquet", "csv", "json", "xlsx", "html", "svg", "png"];
 
 impl Stage for Evaluate {
+    fn rules() -> Vec<Rule> {
+        [&StructureArgs::RULES[..], &ModelArgs::RULES, &RULES].concat()
+    }
+
     fn inputs(&self) -> Vec<Read> {
         vec![
             Read::new("in", self.input.iter().map(|path| &**path)),
-            Read::new("hazard", split_lists(&self.hazard)),
+            Read::new("hazard", self.hazard.iter().map(|path| &**path)),
             self.model.input(),
             self.structures.input(),
         ]
@@ -143,21 +159,16 @@ impl Stage for Evaluate {
         self.out.as_deref().map(Path::to_path_buf).or_else(beside).into_iter().collect()
     }
 
+    fn endings(&self) -> &[&'static str] {
+        // A page or figure is of objects.
+        if self.input.is_some() { &ENDINGS[..4] } else { &ENDINGS }
+    }
+
     fn check(&self) -> anyhow::Result<()> {
-        if let Some(out) = &self.out {
-            let mut formats = AnswersOutput::KIND.formats.to_vec();
-            // A page or figure is of objects.
-            formats.retain(|ending| self.input.is_none() || !DRAWN.contains(ending));
-            if !formats.iter().any(|ending| out.extension().is_some_and(|found| found == *ending)) {
-                let (out, expected) = (out.display(), formats.join(", ."));
-                let problem = format!("out is {out}; expected a name that ends in .{expected}");
-                return Err(UsageError::because(problem));
-            }
-        }
         if self.pga.or(self.pgv).is_some() {
             self.motion()?;
         }
-        Ok(())
+        self.model.check()
     }
 
     fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
@@ -277,7 +288,7 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, renames: &mut Renames, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&split_lists(&self.hazard), renames, self.effective_years)?;
+        let (mut hazard, unused) = hazard::read(&self.hazard, renames, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
@@ -301,7 +312,7 @@ impl Evaluate {
         models: &Models,
         context: &Context,
     ) -> anyhow::Result<Vec<Object>> {
-        let place = self.place.place();
+        let place = self.place;
         if !self.structures.is_given() && self.model.fits.is_some() {
             renames.expect_used()?;
             let fitted = models.structures()?.into_iter();

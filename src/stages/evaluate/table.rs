@@ -37,7 +37,7 @@ pub fn evaluate(
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
-    let (structures, place) = (&call.structures, call.place.place());
+    let (structures, place) = (&call.structures, call.place);
     let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
         true => read_parquet(path, renames)?,
         false => {

@@ -8,21 +8,23 @@ use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
 use clap::Args;
+use clap::ValueHint::{AnyPath, FilePath};
 use rockfrag_core::motion::MeasurePlan;
 use rockfrag_core::records::processing::{ImportedMotion, Processing, PulseSearch};
 use rockfrag_core::records::rotation::Orientation;
 use rockfrag_core::records::signal::{Baseline, Scaling};
 use rockfrag_core::units::{G_M_S2, Unit};
 use rockfrag_core::warning::Warning;
-use serde::Serialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use self::importer::Importer;
 use self::summary::Summary;
 use crate::inputs::About;
 use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Steps, number, periods, steps};
-use crate::pipeline::paths::{Output, Read, RecordsInput, SheetInput};
+use crate::pipeline::options::{Rule, Steps, number, periods, steps};
+use crate::pipeline::paths::{Input, Output, Read};
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::{motions, rows};
@@ -31,17 +33,17 @@ use crate::table::{motions, rows};
 const AT_ONCE: usize = 32;
 
 /// Import recorded ground motions from the files of strong-motion networks, or CSV
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag import-motions records --about records.csv --out motions.parquet\n\
     rockfrag import-motions a.csv b.csv --unit g --dt 0.01 --column 2\n\
     rockfrag import-motions records --keep-going --scale 0.5,1,2 --rotate strongest-pulse")]
 pub struct ImportMotions {
     /// Files and folders of records
-    #[arg(value_name = "FILE|DIR", required = true)]
-    files: Vec<RecordsInput>,
+    #[arg(value_name = "FILE|DIR", value_hint = AnyPath, required = true)]
+    files: Vec<Input>,
     /// Motions to write
-    #[arg(long, value_name = "FILE", default_value = "motions.parquet")]
+    #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
     out: Output,
     /// Format: at2, cosmos, esm, knet or csv [default: by content]
     #[arg(long)]
@@ -52,6 +54,7 @@ pub struct ImportMotions {
     /// Unit of acceleration, where files do not state it: g, m/s2, cm/s2 (gal), mm/s2, mg, %g, ft/s2
     /// or in/s2
     #[arg(long, value_parser = Unit::parse_acceleration)]
+    #[serde(default, deserialize_with = "unit")]
     unit: Option<Unit>,
     /// Column of acceleration in CSV: number, heading, or all where one series wraps over lines
     #[arg(long, value_name = "N|NAME|all")]
@@ -71,11 +74,11 @@ pub struct ImportMotions {
     #[arg(long, value_name = "AZIMUTH|strongest-pulse")]
     rotate: Option<Orientation>,
     /// Scale by these factors; each gives a separate motion
-    #[arg(long, value_name = "F,...", conflicts_with_all = ["scale_pga", "scale_pgv"],
+    #[arg(long, value_name = "F,...",
           value_parser = steps(f64::MIN_POSITIVE..=f64::MAX, "expected factors above 0"))]
     scale: Option<Steps>,
     /// Scale each motion to this PGA, g
-    #[arg(long, value_name = "G", conflicts_with = "scale_pgv",
+    #[arg(long, value_name = "G",
           value_parser = number(1e-9..=100.0, "a PGA above 0 g"))]
     scale_pga: Option<f64>,
     /// Scale each motion to this PGV, m/s
@@ -92,8 +95,8 @@ pub struct ImportMotions {
     housner: bool,
     /// Table with the magnitude, distance (km) or earthquake of each file (columns file, magnitude,
     /// distance, earthquake), or PEER's search results or flatfile
-    #[arg(long, value_name = "FILE")]
-    about: Option<SheetInput>,
+    #[arg(long, value_name = "FILE", value_hint = FilePath)]
+    about: Option<Input>,
     /// Import vertical components too
     #[arg(long)]
     vertical: bool,
@@ -105,7 +108,18 @@ pub struct ImportMotions {
     keep_going: bool,
 }
 
+fn unit<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Unit>, D::Error> {
+    Unit::parse_acceleration(&String::deserialize(deserializer)?).map(Some).map_err(D::Error::custom)
+}
+
 impl Stage for ImportMotions {
+    fn rules() -> Vec<Rule> {
+        vec![
+            Rule::Either(&["scale"], &["scale-pga", "scale-pgv"]),
+            Rule::Either(&["scale-pga"], &["scale-pgv"]),
+        ]
+    }
+
     fn inputs(&self) -> Vec<Read> {
         let records = Read::new("files", self.files.iter().map(|path| &**path));
         let about = Read::new("about", self.about.iter().map(|path| &**path));

@@ -6,29 +6,31 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::ValueHint::{AnyPath, FilePath};
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::{InputFolder, PageOutput, Read, split_lists};
+use crate::pipeline::paths::{Input, Output, Read};
 use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::file;
 use tables::Tables;
 
 /// Write a page with tables and figures of everything in a folder, or of files
-#[derive(Debug, Args, Serialize)]
+#[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag report --in out --title \"Server room\" \
     --author \"A. Engineer\" --out report.html")]
 pub struct Report {
     /// Folder or files of other commands; two evaluations of the same objects are before and after
-    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", default_value = ".")]
-    input: Vec<InputFolder>,
+    #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_hint = AnyPath, default_value = ".")]
+    #[serde(rename = "in")]
+    input: Vec<Input>,
     /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
-    #[arg(long, value_name = "FILE")]
-    out: Option<PageOutput>,
+    #[arg(long, value_name = "FILE", value_hint = FilePath)]
+    out: Option<Output>,
     /// Title of the page [default: from what it shows]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
@@ -42,9 +44,10 @@ pub struct Report {
 
 impl Report {
     fn page(&self) -> PathBuf {
-        let first = split_lists(&self.input).into_iter().next().unwrap_or_default();
+        let first = self.input.first().map_or(PathBuf::new(), |path| path.to_path_buf());
         match &self.out {
-            Some(out) => out.with_extension("html"),
+            Some(out) if out.extension().is_none() => out.with_extension("html"),
+            Some(out) => out.to_path_buf(),
             None if first.is_dir() => first.join("report.html"),
             None => first.with_file_name("report.html"),
         }
@@ -52,11 +55,17 @@ impl Report {
 }
 
 impl Stage for Report {
+    fn endings(&self) -> &[&'static str] {
+        &["html"]
+    }
+
     fn inputs(&self) -> Vec<Read> {
-        let paths = split_lists(&self.input).into_iter().flat_map(|path| {
+        let paths = self.input.iter().flat_map(|path| {
             // Partitions stand in folders in the folder.
-            let entries = file::entries(&path).into_iter().flatten();
-            std::iter::once(path).chain(entries.filter(|entry| entry.is_dir())).collect::<Vec<_>>()
+            let entries = file::entries(path).into_iter().flatten();
+            std::iter::once(path.to_path_buf())
+                .chain(entries.filter(|entry| entry.is_dir()))
+                .collect::<Vec<_>>()
         });
         vec![Read::new("in", paths)]
     }
@@ -66,7 +75,7 @@ impl Stage for Report {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let mut tables = Tables::read(&split_lists(&self.input))?;
+        let mut tables = Tables::read(&self.input)?;
         let (whole, figures) = page::page(&mut tables)?;
         let (page, folder) = (self.page(), self.page().with_extension(""));
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use anyhow::bail;
 use clap::Args;
+use clap::ValueHint::DirPath;
 use rockfrag_core::fragility::{
     Calibration, CurveFit, DemandFit, DemandModel, Event, Measure, Model, MotionKind,
 };
@@ -12,12 +13,12 @@ use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::warning::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::number::listed;
 use crate::pipeline::UsageError;
-use crate::pipeline::options::number;
-use crate::pipeline::paths::{FitsFolder, Read};
+use crate::pipeline::options::{Rule, number};
+use crate::pipeline::paths::{Input, Read};
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
@@ -35,21 +36,21 @@ pub enum ModelName {
     Paper,
 }
 
-#[derive(Debug, Clone, Args, Serialize)]
+#[derive(Debug, Clone, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Model")]
 pub struct ModelArgs {
     /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
-    #[arg(long, value_name = "DIR")]
-    pub fits: Option<FitsFolder>,
+    #[arg(long, value_name = "DIR", value_hint = DirPath)]
+    pub fits: Option<Input>,
     /// Which structure of the fits to use [default: the one with the same p, alpha and eta]
-    #[arg(long, value_name = "NAME", requires = "fits")]
+    #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
     /// Kind of motion: recorded, csgm, pulse or hfc [default: the kind of the fits, else recorded]
     #[arg(long, value_name = "KIND")]
     pub suite: Option<MotionKind>,
     /// calibrated (the surface, by the fits) or paper (its planes and hybrid curve)
-    #[arg(long, default_value = "calibrated", requires_if("paper", "fits"))]
+    #[arg(long, default_value = "calibrated")]
     pub model: ModelName,
     /// Limit state, as demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
@@ -68,6 +69,16 @@ pub struct Models {
 }
 
 impl ModelArgs {
+    pub const RULES: [Rule; 1] = [Rule::Needs(&["name"], &["fits"])];
+
+    /// Checks that there are fits where these alone predict.
+    pub fn check(&self) -> anyhow::Result<()> {
+        match self.model == ModelName::Paper && self.fits.is_none() {
+            true => Err(UsageError::because("model is paper; expected its fits, too: --fits")),
+            false => Ok(()),
+        }
+    }
+
     /// The files of the fits that the model reads.
     fn files(&self) -> &'static [&'static str] {
         const FILES: [&str; 4] =
@@ -84,7 +95,7 @@ impl ModelArgs {
 
     /// Reads the fits, if there are any.
     pub fn read(&self) -> anyhow::Result<Models> {
-        fn read<R: Row>(folder: Option<&FitsFolder>, name: &str) -> Result<Vec<R>, TableError> {
+        fn read<R: Row>(folder: Option<&Input>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
         let fits = self.fits.as_ref();
