@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use rockfrag::pipeline::context::Context;
-use rockfrag::pipeline::paths::Input;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
 use rockfrag::table::rows::Row;
 use rockfrag_core::fragility::{
@@ -51,7 +50,7 @@ fn folder(suites: &[&str]) -> tempfile::TempDir {
 
 fn args(folder: &tempfile::TempDir) -> ModelArgs {
     ModelArgs {
-        fits: Some(Input(folder.path().to_path_buf())),
+        fits: Some(folder.path().to_path_buf()),
         name: None,
         suite: None,
         model: ModelName::Calibrated,

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use rockfrag::cli::{calls, stage_commands};
+use rockfrag::cli::calls;
 use rockfrag::pipeline::cache::{self, Done};
 use rockfrag::pipeline::call::Call;
 use rockfrag::pipeline::context::{Caller, Context};
@@ -48,18 +48,18 @@ pub fn call(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Made> {
-    let command = stage_commands().into_iter().find(|command| command.get_name() == stage);
-    let command = command.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
+    let kind = rockfrag::stages::all().into_iter().find(|kind| kind.name() == stage);
+    let kind = kind.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
     let options: BTreeMap<String, Value> =
         serde_json::from_str(options).map_err(|error| PyTypeError::new_err(error.to_string()))?;
-    let given = in_one_form(&command, options, &Base::default()).map_err(|error| {
-        match error.is::<UnknownOption>() {
-            true => PyTypeError::new_err(in_python(&format!("{stage}: {error}"))),
-            false => to_python(&error),
-        }
+    let given = in_one_form(&kind.command, options, &Base::default()).map_err(|error| match error
+        .is::<UnknownOption>(
+    ) {
+        true => PyTypeError::new_err(in_python(&format!("{stage}: {error}"))),
+        false => to_python(&error),
     })?;
     run(py, threads, progress.as_ref(), move |mut context| {
-        let call = calls::of_stage(&command, given)?;
+        let call = calls::of_stage(&kind, given)?;
         context.common.force = call.common.force;
         make(&call, &context, &mut HashMap::new())
     })
@@ -67,8 +67,7 @@ pub fn call(
 
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> anyhow::Result<Made> {
-    let Done { summary, warnings, keys, .. } = cache::run(call, context, made)?;
-    made.extend(keys);
+    let Done { summary, warnings, .. } = cache::run(call, context, made)?;
     Ok((call.name.clone(), call.stage.outputs(), summary, warnings.lines()))
 }
 

@@ -3,52 +3,51 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use clap::Command;
 use serde_json::Value;
 
+use super::command;
 use super::pipeline_file::PipelineFile;
-use super::{command, stage_commands};
 use crate::pipeline::UsageError;
 use crate::pipeline::cache::is_view;
 use crate::pipeline::call::Call;
 use crate::pipeline::given::{by_user, defaults, name_of};
-use crate::pipeline::options::{Broken, Given, broken, merge};
+use crate::pipeline::options::{Given, Rule, first_of, merge};
 use crate::source::split_sheet;
-use crate::stages::Stages;
+use crate::stages::{self, StageKind};
 use crate::table::keys::resolved;
 
 /// Makes the call of a stage from a command line, program name first.
-pub fn of_line(stage: &Command, line: &[std::ffi::OsString]) -> anyhow::Result<Call> {
+pub fn of_line(stage: &StageKind, line: &[std::ffi::OsString]) -> anyhow::Result<Call> {
     // As part of the whole command line, which usage lines name. A pipeline file may have what is required.
-    let whole = command().mut_subcommand(stage.get_name(), |stage| {
+    let whole = command().mut_subcommand(stage.name(), |stage| {
         stage.mut_args(|arg| arg.required(false).value_parser(clap::value_parser!(std::ffi::OsString)))
     });
     let line = [std::ffi::OsString::from("rockfrag")].into_iter().chain(line.iter().skip(1).cloned());
     let matches = whole.try_get_matches_from(line)?;
-    let matches = matches.subcommand_matches(stage.get_name()).cloned().unwrap_or_default();
-    of_stage(stage, by_user(stage, &matches)?)
+    let matches = matches.subcommand_matches(stage.name()).cloned().unwrap_or_default();
+    of_stage(stage, by_user(&stage.command, &matches)?)
 }
 
 /// Makes the call of a stage from the options of the user, and those of its section where `config` names a file.
-pub fn of_stage(stage: &Command, user: Given) -> anyhow::Result<Call> {
-    let file = match user.get("config").and_then(|path| path["written"].as_str()) {
-        Some(path) => Some(PipelineFile::read(Path::new(path), &stage_commands())?),
+pub fn of_stage(stage: &StageKind, user: Given) -> anyhow::Result<Call> {
+    let file = match user.get("config").and_then(Value::as_str) {
+        Some(path) => Some(PipelineFile::read(Path::new(path), &stages::all())?),
         None => None,
     };
-    let section = file.as_ref().map_or(Ok(Given::new()), |file| file.section(stage, &user, None))?;
+    let section = file.as_ref().map_or(Ok(Given::new()), |file| file.section(&stage.command, &user, None))?;
     Options { stage, file: file.as_ref(), section, user }.call(Path::new(""))
 }
 
 /// Makes the calls of a pipeline file, in the order of a run.
 pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyhow::Result<Vec<Call>> {
-    let stages = stage_commands();
+    let stages = stages::all();
     let mut file = PipelineFile::read(pipeline, &stages)?;
     file.seed = seed.map(|seed| seed.to_string()).or(file.seed);
     let out = out.unwrap_or_else(|| file.folder().join(&file.out));
     let (mut calls, mut written): (Vec<Call>, HashMap<PathBuf, &str>) = (Vec::new(), HashMap::new());
-    for stage in stages.iter().filter(|stage| file.has(stage.get_name())) {
-        let name = stage.get_name();
-        let section = file.section(stage, &Given::new(), Some(&out))?;
+    for stage in stages.iter().filter(|stage| file.has(stage.name())) {
+        let name = stage.name();
+        let section = file.section(&stage.command, &Given::new(), Some(&out))?;
         if let Some(line) = missing_line(name, &file, &section) {
             return Err(refuse(pipeline, &format!("{name}: {line}")));
         }
@@ -114,7 +113,7 @@ fn other_fits(call: &Call, before: &[Call]) -> Option<String> {
 
 /// What is given to a stage, by whom.
 struct Options<'a> {
-    stage: &'a Command,
+    stage: &'a StageKind,
     file: Option<&'a PipelineFile>,
     section: Given,
     user: Given,
@@ -123,27 +122,33 @@ struct Options<'a> {
 impl Options<'_> {
     /// Merges defaults, the file and the user, and makes the call. Default files are in `folder`.
     fn call(&self, folder: &Path) -> anyhow::Result<Call> {
-        let (name, rules) = (self.stage.get_name(), Stages::rules(self.stage.get_name()));
-        let given = merge(&self.section, &self.user, &rules);
-        match broken(&given, &rules) {
-            Some(Broken::Both(one, other)) => {
-                return Err(self.refuse(&[one, other], ": expected one of them"));
+        let StageKind { command, rules, .. } = self.stage;
+        let given = merge(&self.section, &self.user, rules);
+        for rule in rules {
+            match rule {
+                Rule::Either(these, those) => {
+                    if let Some((one, other)) = first_of(these, &given).zip(first_of(those, &given)) {
+                        return Err(self.refuse(&[one, other], ": expected one of them"));
+                    }
+                }
+                Rule::Needs(these, those) => {
+                    if let (Some(option), None) = (first_of(these, &given), first_of(those, &given)) {
+                        let needed: Vec<String> =
+                            those.iter().map(|needed| self.word(&[option], needed)).collect();
+                        return Err(self.refuse(&[option], &format!(" needs {}", needed.join(" or "))));
+                    }
+                }
             }
-            Some(Broken::Lacks(option, needed)) => {
-                let needed: Vec<String> = needed.iter().map(|needed| self.word(&[option], needed)).collect();
-                return Err(self.refuse(&[option], &format!(" needs {}", needed.join(" or "))));
-            }
-            None => {}
         }
-        let mut required = self.stage.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
+        let mut required = command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
         if let Some(option) = required.find(|option| !given.contains_key(*option)) {
             return Err(self.refuse(&[option], " is missing"));
         }
-        let mut all = defaults(self.stage, folder);
+        let mut all = defaults(command, folder);
         all.extend(given);
-        let stage = Stages::of(name, all.clone()).map_err(|error| self.refuse(&[], &error.to_string()))?;
+        let made = self.stage.make(all.clone());
+        let (stage, options) = made.map_err(|error| self.refuse(&[], &error.to_string()))?;
         let common = serde_json::from_value(Value::Object(all))?;
-        let (options, stage) = (stage.options(), stage.boxed());
         let inputs = stage.inputs();
         let piped = inputs.iter().filter(|read| read.paths.contains(&PathBuf::from("-")));
         let piped: Vec<&str> = piped.map(|read| read.flag).collect();
@@ -160,13 +165,13 @@ impl Options<'_> {
             return Err(self.refuse(&["out"], &format!(" is {}; {expected}", out.display())));
         }
         stage.check()?;
-        Ok(Call { name: name.to_string(), stage, common, options })
+        Ok(Call { name: self.stage.name().to_string(), stage, common, options })
     }
 
     /// Names an option as who gave the first of these does.
     fn word(&self, given: &[&str], option: &str) -> String {
         let is_of_file = self.file.is_some() && !given.iter().any(|option| self.user.contains_key(*option));
-        let mut positional = self.stage.get_positionals();
+        let mut positional = self.stage.command.get_positionals();
         match is_of_file || positional.any(|arg| name_of(arg) == option) {
             true => option.to_string(),
             false => format!("--{option}"),
@@ -178,7 +183,7 @@ impl Options<'_> {
         let text = format!("{}{problem}", words.join(" and "));
         let is_of_user = options.iter().any(|option| self.user.contains_key(*option));
         match self.file.filter(|_| !is_of_user) {
-            Some(file) => refuse(&file.path, &format!("{}: {text}", self.stage.get_name())),
+            Some(file) => refuse(&file.path, &format!("{}: {text}", self.stage.name())),
             None => UsageError::because(text),
         }
     }

@@ -13,7 +13,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::builder::StyledStr;
-use clap::{Arg, ArgAction, Args, Command, FromArgMatches, Parser, Subcommand};
+use clap::{Arg, ArgAction, Command, FromArgMatches, Parser};
 use clap_complete::Shell;
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ use crate::pipeline::given::{is_path, name_of};
 use crate::pipeline::options::SeveralErrors;
 use crate::pipeline::terminal::{print, tell};
 use crate::source::silence_decoder_panics;
-use crate::stages::{Stages, init, inspect, run};
+use crate::stages::{self, StageKind, init, inspect, run};
 use crate::table::frame::Format;
 
 const PIPELINE: &str = "pipeline.yaml";
@@ -76,14 +76,7 @@ enum Tool {
 }
 
 pub fn command() -> Command {
-    let stages = Stages::commands().into_iter().enumerate().map(|(place, stage)| {
-        let about = stage.get_about().cloned().unwrap_or_default();
-        let stage = Common::augment_args(
-            stage.args_override_self(true).mut_args(|arg| arg.allow_negative_numbers(true)),
-        )
-        .about(about);
-        with_short_help(stage).display_order(10 + place)
-    });
+    let stages = stages::all().into_iter().map(|kind| with_short_help(kind.command));
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
@@ -100,17 +93,9 @@ fn with_short_help(command: Command) -> Command {
     })
 }
 
-/// Returns the commands of stages, in the order of a run.
-pub fn stage_commands() -> Vec<Command> {
-    let mut command = command();
-    command.build();
-    let commands = command.get_subcommands().filter(|command| Stages::has_subcommand(command.get_name()));
-    commands.cloned().collect()
-}
-
 /// Describes all stages and their options, as JSON.
 pub fn describe() -> Value {
-    let stages = stage_commands().into_iter().map(|command| {
+    let stages = stages::all().into_iter().map(|StageKind { command, .. }| {
         let options = command.get_arguments().filter(|arg| arg.get_id() != "help").map(option);
         let options: Vec<Value> = options.collect();
         json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
@@ -170,7 +155,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
     if let [_, name, ..] = arguments
-        && let Some(stage) = stage_commands().into_iter().find(|stage| stage.get_name() == *name)
+        && let Some(stage) = stages::all().into_iter().find(|stage| stage.name() == *name)
     {
         return run_stage(&stage, arguments).map(|()| 0);
     }
@@ -203,11 +188,11 @@ fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
     print(&text, Format::Text).map(|()| 0)
 }
 
-fn run_stage(stage: &Command, line: &[OsString]) -> anyhow::Result<()> {
+fn run_stage(stage: &StageKind, line: &[OsString]) -> anyhow::Result<()> {
     let call = calls::of_line(stage, line)?;
     set_threads(&call.common)?;
     let context = Context::new(call.common.clone(), Caller::Command);
-    let done = cache::run(&call, &context, &HashMap::new())?;
+    let done = cache::run(&call, &context, &mut HashMap::new())?;
     if !done.ran && !context.common.quiet {
         tell(&format!("{}: up to date", call.name));
     }

@@ -21,8 +21,6 @@ pub struct Done {
     pub warnings: Warnings,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
-    /// The keys of its files.
-    pub keys: Planned,
 }
 
 /// Returns the provenance of the last table of a call, with what it prints, if all are up to date, else the
@@ -54,13 +52,13 @@ pub fn freshness(call: &Call, plan: &Plan) -> Result<Provenance, String> {
 
 /// Runs a call unless its files are up to date. `made` has the keys of files that the same run made before:
 /// its inputs must still be these.
-pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Done> {
+pub fn run(call: &Call, context: &Context, made: &mut Planned) -> anyhow::Result<Done> {
     let plan = call.plan(made)?;
-    let keys = plan.keys().collect();
+    made.extend(plan.keys());
     if !context.common.force
         && let Ok(made) = freshness(call, &plan)
     {
-        return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false, keys });
+        return Ok(Done { summary: made.summary, warnings: made.warnings, ran: false });
     }
     let context = context.begin(plan);
     expect_replaceable(&context.plan.outputs, &context)?;
@@ -72,13 +70,13 @@ pub fn run(call: &Call, context: &Context, made: &Planned) -> anyhow::Result<Don
     // Something else may have come meanwhile.
     expect_replaceable(&context.written(), &context)?;
     context.persist()?;
-    Ok(Done { summary, warnings: context.warnings(), ran: true, keys })
+    Ok(Done { summary, warnings: context.warnings(), ran: true })
 }
 
 /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or of
 /// another program.
 pub fn expect_replaceable(outs: &[PathBuf], context: &Context) -> anyhow::Result<()> {
-    let inputs = context.made().inputs.values().flatten();
+    let inputs = context.plan.made.inputs.values().flatten();
     let read: HashSet<PathBuf> =
         inputs.filter_map(|file| split_sheet(&file.path).0.canonicalize().ok()).collect();
     for out in outs {

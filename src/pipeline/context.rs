@@ -8,7 +8,6 @@ use arrow_schema::SchemaRef;
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::ThreadPoolBuilder;
-use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::warning::Warnings;
 use serde::Deserialize;
 
@@ -53,21 +52,19 @@ pub struct Common {
     #[arg(long)]
     pub quiet: bool,
     /// Progress bars: auto or never
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
-    pub progress: Bars,
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = bars)]
+    pub progress: String,
 }
 
-/// When to draw progress bars: if stderr is a terminal, or never.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[derive(Default)]
-#[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Bars>)]
-pub enum Bars {
-    #[default]
-    Auto,
-    Never,
+/// Reads when to draw progress bars: if stderr is a terminal, or never.
+fn bars(text: &str) -> Result<String, String> {
+    match text {
+        "auto" | NEVER => Ok(text.to_string()),
+        _ => Err(format!("expected auto or {NEVER}")),
+    }
 }
+
+const NEVER: &str = "never";
 
 /// What a call would make.
 #[derive(Debug, Clone, Default)]
@@ -150,11 +147,6 @@ impl Context {
         Context { common, caller: self.caller, observed, plan, ..Context::default() }
     }
 
-    /// Returns what is made, before it has a text.
-    pub fn made(&self) -> &Provenance {
-        &self.plan.made
-    }
-
     pub fn warn(&self, warnings: Warnings) {
         locked(&self.warnings).extend(warnings);
     }
@@ -235,7 +227,7 @@ impl Context {
     /// Begins progress over `total` steps.
     pub fn bar(&self, total: usize) -> Progress {
         self.observed.total.fetch_add(total, Ordering::Relaxed);
-        let is_wanted = self.common.progress == Bars::Auto && !self.common.quiet;
+        let is_wanted = self.common.progress != NEVER && !self.common.quiet;
         // Without a terminal, indicatif draws nothing.
         let target = if is_wanted { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");

@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::options::{Given, Steps, UsageError};
-use super::paths::split_list;
+use super::paths::{is_word, split_list};
 use crate::table::provenance::text_of;
 
 /// There is no such option.
@@ -31,9 +31,12 @@ impl Base {
     fn located(&self, path: &str) -> Result<Value, String> {
         let out =
             self.out.as_ref().and_then(|(named, out)| Some((out, Path::new(path).strip_prefix(named).ok()?)));
-        let (folder, rest) = out.unwrap_or((&self.folder, Path::new(path)));
-        let folder = folder.to_str().ok_or("expected a folder whose name is UTF-8")?;
-        Ok(json!({ "folder": folder, "path": rest, "written": path }))
+        let located = match out {
+            Some((out, rest)) if rest == Path::new("") => out.clone(),
+            Some((out, rest)) => out.join(rest),
+            None => self.folder.join(path),
+        };
+        Ok(located.to_str().ok_or("expected a folder whose name is UTF-8")?.into())
     }
 }
 
@@ -106,6 +109,7 @@ fn parts(arg: &Arg, item: &Value, base: &Base) -> Vec<Value> {
 fn one(arg: &Arg, value: Value, base: &Base) -> Result<Value, String> {
     match value {
         Value::String(text) if text.is_empty() => Err("expected a value".to_string()),
+        Value::String(text) if text == "-" || is_word(name_of(arg), &text) => Ok(text.into()),
         Value::String(text) if is_path(arg) => base.located(&text),
         Value::String(text) => read(arg, text.trim()),
         Value::Object(fields) if name_of(arg) == "structure" => {

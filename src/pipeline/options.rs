@@ -80,7 +80,7 @@ pub fn periods(text: &str) -> Result<Steps, &'static str> {
 }
 
 /// Finds the first of some options that is given.
-fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
+pub fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
     options
         .iter()
         .copied()
@@ -110,25 +110,6 @@ pub fn merge(file: &Given, user: &Given, rules: &[Rule]) -> Given {
     }
     kept.extend(user.clone());
     kept
-}
-
-/// How options break a rule.
-pub enum Broken {
-    /// Both are given, which exclude each other.
-    Both(&'static str, &'static str),
-    /// The first is given, and none of those that it needs.
-    Lacks(&'static str, &'static [&'static str]),
-}
-
-/// Finds the first rule that options break.
-pub fn broken(given: &Given, rules: &[Rule]) -> Option<Broken> {
-    rules.iter().find_map(|rule| match rule {
-        Rule::Either(these, those) => Some(Broken::Both(first_of(these, given)?, first_of(those, given)?)),
-        Rule::Needs(these, those) => {
-            let option = first_of(these, given).filter(|_| first_of(those, given).is_none())?;
-            Some(Broken::Lacks(option, those))
-        }
-    })
 }
 
 /// A mistake in a call, rather than in a file: the command exits with 2.

@@ -1,94 +1,17 @@
-//! What a path is to a stage: a type for each kind.
+//! What a stage reads, and the names of what it writes.
 //!
 //! Paths are no part of the options that enter a key: what is read enters by name and content ([`Read`]),
 //! what is written does not enter.
 
-use std::ffi::OsString;
-use std::ops::Deref;
 use std::path::{Path, PathBuf};
-
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::table::file::Partition;
 
-/// A path below a folder, and as it is written.
-#[derive(Deserialize)]
-struct Located {
-    folder: PathBuf,
-    path: PathBuf,
-    written: String,
-}
+/// Words in place of a path, by option.
+const WORDS: [(&str, &[&str]); 2] = [("structures", &["paper"]), ("site", &["rock", "soil", "none"])];
 
-impl Located {
-    /// Returns the path; words in place of one, and `-`, are in no folder.
-    fn resolved(self, words: &[&str]) -> PathBuf {
-        let Located { folder, path, written } = self;
-        match written == "-" || words.contains(&written.as_str()) {
-            true => written.into(),
-            false if path == Path::new("") => folder,
-            false => folder.join(path),
-        }
-    }
-}
-
-/// Declares types of paths, with words in place of one.
-macro_rules! path_types {
-    ($($(#[$meaning:meta])* $type:ident: $words:expr;)*) => {$(
-        $(#[$meaning])*
-        #[derive(Debug, Clone, PartialEq, Eq)]
-        pub struct $type(pub PathBuf);
-
-        impl $type {
-            /// The word in place of a path, if it is one.
-            pub fn word(&self) -> Option<&str> {
-                let words: &[&str] = &$words;
-                self.0.to_str().filter(|text| words.contains(text))
-            }
-        }
-
-        impl Deref for $type {
-            type Target = Path;
-
-            fn deref(&self) -> &Path {
-                &self.0
-            }
-        }
-
-        impl AsRef<Path> for $type {
-            fn as_ref(&self) -> &Path {
-                &self.0
-            }
-        }
-
-        impl From<OsString> for $type {
-            fn from(path: OsString) -> $type {
-                $type(path.into())
-            }
-        }
-
-        impl<'de> Deserialize<'de> for $type {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<$type, D::Error> {
-                Ok($type(Located::deserialize(deserializer)?.resolved(&$words)))
-            }
-        }
-
-        impl Serialize for $type {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                self.word().serialize(serializer)
-            }
-        }
-    )*};
-}
-
-path_types! {
-    /// A file to read, or a folder with the parts of a table.
-    Input: [];
-    /// A list of structures, or the paper's two.
-    StructuresInput: ["paper"];
-    /// The factors of a site, or a known site.
-    SiteInput: ["rock", "soil", "none"];
-    /// A file to write.
-    Output: [];
+pub fn is_word(option: &str, text: &str) -> bool {
+    WORDS.iter().any(|(of, words)| *of == option && words.contains(&text))
 }
 
 /// Returns the paths of a list with commas, of which one may have a comma in its name if it is there.
@@ -117,7 +40,7 @@ impl Read {
     }
 
     /// Reads a table or, of a folder, the one file of a partition, whatever comes and goes beside it.
-    pub fn partition(flag: &'static str, input: &Input, partition: Option<Partition>) -> Read {
+    pub fn partition(flag: &'static str, input: &Path, partition: Option<Partition>) -> Read {
         let file = partition.filter(|_| input.is_dir()).and_then(|partition| partition.file_of(input).ok());
         Read::new(flag, [file.unwrap_or(input.to_path_buf())])
     }

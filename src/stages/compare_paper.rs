@@ -11,11 +11,11 @@ use rockfrag_core::rocking::Structure;
 use rockfrag_core::studies::comparison::{Comparison, compare};
 use serde::{Deserialize, Serialize};
 
-use super::Stages;
+use super::default_options;
 use crate::number::{aligned, counted, fixed};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::{Input, Output, Read};
+use crate::pipeline::paths::Read;
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
@@ -28,13 +28,13 @@ use crate::table::rows;
 pub struct ComparePaper {
     /// Fits of fit-pex
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pex.parquet")]
-    pex: Input,
+    pex: PathBuf,
     /// Fits of fit-pro
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
-    pro: Input,
+    pro: PathBuf,
     /// Comparison to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "paper.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Print every number, not only the planes of Table II and the worked example
     #[arg(long)]
     #[serde(skip_serializing)]
@@ -131,7 +131,7 @@ fn other_options(fits: &Path) -> Vec<String> {
         if reader.input("in") != Some(made.key()) {
             break;
         }
-        let paper = Stages::defaults(&made.stage);
+        let paper = default_options(&made.stage);
         let flags: BTreeSet<&String> = made.arguments.keys().chain(paper.keys()).collect();
         for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
             let now = made.arguments.get(flag).map(text_of).or(made.names(flag));

@@ -20,7 +20,7 @@ use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::Rule;
-use crate::pipeline::paths::{Output, Read};
+use crate::pipeline::paths::Read;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Export {
     over: Peak,
     /// File to write, without an ending with .xml or, for pelicun, .csv
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "fragility")]
-    out: Output,
+    out: PathBuf,
     #[command(flatten)]
     #[serde(flatten)]
     model: ModelArgs,

@@ -21,7 +21,7 @@ use crate::number::significant;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Input, Output, Read, part};
+use crate::pipeline::paths::{Read, part};
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -33,10 +33,10 @@ pub struct FitPex {
     /// Responses to read
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pex.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
           value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
@@ -60,7 +60,7 @@ pub struct FitPex {
     pairs: Vec<Predictors>,
     /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
-    motions: Option<Input>,
+    motions: Option<PathBuf>,
 }
 
 /// Where two planes meet.
@@ -92,7 +92,10 @@ impl<'de> Deserialize<'de> for Transition {
 
 impl Stage for FitPex {
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
+        vec![
+            Read::new("in", [&self.input]),
+            Read::new("motions", self.motions.iter().map(|path| path.as_path())),
+        ]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

@@ -13,7 +13,7 @@ use super::shared::{observed, responses};
 use crate::number::THREE_DIGITS;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Input, Output, Read, part};
+use crate::pipeline::paths::{Read, part};
 use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
@@ -26,10 +26,10 @@ pub struct FitPro {
     /// Responses to read; or a list of what stood and what fell, CSV or Parquet: sizes, PGA, PGV, fell
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Event of the probability: overturning (given rocking) or rocking (of all motions)
     #[arg(long, default_value = "overturning")]
     event: Event,
@@ -38,7 +38,7 @@ pub struct FitPro {
     pairs: Vec<Predictors>,
     /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
-    motions: Option<Input>,
+    motions: Option<PathBuf>,
     /// Confidence level of the limits
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
@@ -50,7 +50,10 @@ pub struct FitPro {
 
 impl Stage for FitPro {
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input]), Read::new("motions", self.motions.iter().map(|path| &**path))]
+        vec![
+            Read::new("in", [&self.input]),
+            Read::new("motions", self.motions.iter().map(|path| path.as_path())),
+        ]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

@@ -15,7 +15,7 @@ use super::shared::objects::field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Input, Output, Read, out_of_partition};
+use crate::pipeline::paths::{Read, out_of_partition};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::dictionary;
@@ -35,10 +35,10 @@ pub struct FloorMotions {
     /// Motions of the ground to read: motion_id, dt_s and acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Motions of the floor to write, with all other columns
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "floor.parquet")]
-    out: Output,
+    out: PathBuf,
     /// First period of the building, s
     #[arg(long, value_name = "S", value_parser = field(Field::Period))]
     period: f64,

@@ -22,7 +22,7 @@ use super::shared::objects::StructureArgs;
 use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, Rule, first_lines, number};
-use crate::pipeline::paths::{Input, Output, Read, part};
+use crate::pipeline::paths::{Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
 use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
@@ -46,10 +46,10 @@ pub struct Ida {
     /// Motions to read, as in simulate
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Overturning intensities to write, with NAME.stripes.parquet and NAME.fragility.parquet beside
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "ida.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Intensity to scale by: scale (a factor), pga (g), pgv (m/s), im4, im5 or im6
     #[arg(long, default_value = "scale")]
     measure: ScaledMeasure,
@@ -109,7 +109,7 @@ impl Stage for Ida {
     }
 
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input]), self.structures.input()]
+        vec![Read::new("in", [&self.input]), self.structures.input()]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

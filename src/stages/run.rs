@@ -27,13 +27,12 @@ pub fn run(calls: &[Call], context: &Context) -> anyhow::Result<()> {
         calls.iter().rposition(|call| STAGES_WITH_ANSWER.contains(&&*call.name)).unwrap_or(calls.len() - 1);
     for (place, call) in calls.iter().enumerate() {
         let start = Instant::now();
-        let done = cache::run(call, context, &made).with_context(|| call.name.clone())?;
+        let done = cache::run(call, context, &mut made).with_context(|| call.name.clone())?;
         if !context.common.quiet {
             let seconds = start.elapsed().as_secs_f64();
             let took = if done.ran { format!("{seconds:.2} s") } else { "up to date".to_string() };
             tell(&format!("{:20} {took}", call.name));
         }
-        made.extend(done.keys);
         warnings.join(&done.warnings);
         if place == answer {
             printed = done.summary;

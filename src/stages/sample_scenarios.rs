@@ -15,7 +15,7 @@ use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, steps};
-use crate::pipeline::paths::{Output, Read};
+use crate::pipeline::paths::Read;
 use crate::table::rows;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
@@ -44,7 +44,7 @@ pub struct SampleScenarios {
     design: Design,
     /// Scenarios to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "scenarios.parquet")]
-    out: Output,
+    out: PathBuf,
 }
 
 /// Scenarios that are in memory at once.

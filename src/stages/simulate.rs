@@ -18,7 +18,7 @@ use crate::number::listed;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, Rule, first_lines};
-use crate::pipeline::paths::{Input, Output, Read, out_of_partition, part};
+use crate::pipeline::paths::{Read, out_of_partition, part};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
 use crate::table::responses::{ResponseRow, TraceRow};
@@ -48,10 +48,10 @@ pub struct Simulate {
     /// Motions to read: motion_id, dt_s and acceleration_m_s2
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Responses to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
-    out: Output,
+    out: PathBuf,
     #[command(flatten)]
     #[serde(flatten)]
     structures: StructureArgs,

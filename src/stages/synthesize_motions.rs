@@ -16,7 +16,7 @@ use crate::inputs::{Grid, Heading};
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
-use crate::pipeline::paths::{Input, Output, Read, SiteInput, out_of_partition};
+use crate::pipeline::paths::{Read, is_word, out_of_partition};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{ParquetTable, Partition};
@@ -39,10 +39,10 @@ pub struct SynthesizeMotions {
     /// Scenarios to read
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "scenarios.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Motions to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Seed of the noise
     #[arg(long, default_value = "42", value_parser = number(0..=u64::MAX, "a whole number of 0 or more"))]
     seed: u64,
@@ -62,7 +62,7 @@ pub struct SynthesizeMotions {
     epoch: Epoch,
     /// Site: rock, soil, none, or a CSV file of frequencies (Hz) and factors
     #[arg(long, default_value = "rock", value_hint = FilePath)]
-    site: SiteInput,
+    site: PathBuf,
     /// Near-surface attenuation kappa, s
     #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
     kappa: f64,
@@ -98,8 +98,11 @@ struct SyntheticMotion {
 impl Stage for SynthesizeMotions {
     fn inputs(&self) -> Vec<Read> {
         vec![
-            Read::new("in", [&*self.input]),
-            Read::new("site", Some(&*self.site).filter(|_| self.site.word().is_none())),
+            Read::new("in", [&self.input]),
+            Read::new(
+                "site",
+                Some(&self.site).filter(|site| !site.to_str().is_some_and(|text| is_word("site", text))),
+            ),
         ]
     }
 

@@ -14,7 +14,7 @@ use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::Rule;
-use crate::pipeline::paths::{Input, Output, Read, part};
+use crate::pipeline::paths::{Read, part};
 use crate::table::frame;
 use crate::table::keys::key_of;
 use crate::table::provenance::Provenance;
@@ -29,10 +29,10 @@ pub struct Validate {
     /// Responses to test on
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath, default_value = "responses.parquet")]
     #[serde(rename = "in")]
-    input: Input,
+    input: PathBuf,
     /// Scores to write, with NAME.reliability.parquet beside
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "validation.parquet")]
-    out: Output,
+    out: PathBuf,
     #[command(flatten)]
     #[serde(flatten)]
     fits: ModelArgs,
@@ -46,7 +46,7 @@ impl Stage for Validate {
     }
 
     fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&*self.input]), self.fits.input()]
+        vec![Read::new("in", [&self.input]), self.fits.input()]
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use clap::Command;
-use rockfrag::cli::{calls, stage_commands};
+use rockfrag::cli::calls;
 use rockfrag::pipeline::given::{Base, in_one_form, name_of};
 use rockfrag::pipeline::options::{Given, Rule, merge};
-use rockfrag::stages::Stages;
+use rockfrag::stages::{self, StageKind};
 use serde_json::Value;
 
 use crate::common::{SMALL, fail, folder_with, rockfrag, succeed};
@@ -84,10 +83,10 @@ fn every_start_is_a_pipeline_that_can_be_planned() {
 
 #[test]
 fn every_stage_has_a_description_of_its_own() {
-    let commands = stage_commands();
+    let stages = stages::all();
     let descriptions: std::collections::BTreeSet<String> =
-        commands.iter().map(|command| command.get_about().unwrap().to_string()).collect();
-    assert_eq!(descriptions.len(), commands.len());
+        stages.iter().map(|stage| stage.command.get_about().unwrap().to_string()).collect();
+    assert_eq!(descriptions.len(), stages.len());
 }
 
 /// A value that an option can have.
@@ -106,9 +105,9 @@ fn value_of(option: &str) -> &'static str {
     }
 }
 
-fn given(stage: &Command, options: &[&str]) -> Given {
+fn given(stage: &StageKind, options: &[&str]) -> Given {
     let options = options.iter().map(|option| (option.to_string(), Value::from(value_of(option))));
-    in_one_form(stage, options, &Base::default()).unwrap()
+    in_one_form(&stage.command, options, &Base::default()).unwrap()
 }
 
 /// Whether a rule of a stage lets only one of two options stand.
@@ -125,13 +124,13 @@ fn exclude(rules: &[Rule], one: &str, other: &str) -> bool {
 #[test]
 fn of_every_pair_the_flag_beats_the_file_and_alternatives_are_refused_within_one() {
     let mut excluded = 0;
-    for stage in stage_commands() {
-        let (name, rules) = (stage.get_name(), Stages::rules(stage.get_name()));
-        let options: Vec<&str> = stage.get_arguments().map(name_of).collect();
+    for stage in stages::all() {
+        let (name, rules) = (stage.name(), &stage.rules);
+        let options: Vec<&str> = stage.command.get_arguments().map(name_of).collect();
         for (&one, &other) in options.iter().flat_map(|one| options.iter().map(move |other| (one, other))) {
-            let is_excluded = one != other && exclude(&rules, one, other);
+            let is_excluded = one != other && exclude(rules, one, other);
             let texts = |option: &str| Given::from_iter([(option.to_string(), Value::from("text"))]);
-            let merged = merge(&texts(one), &texts(other), &rules);
+            let merged = merge(&texts(one), &texts(other), rules);
             assert!(merged.contains_key(other), "{name}: --{other} over {one}");
             assert_eq!(merged.contains_key(one), !is_excluded, "{name}: --{other} over {one}");
             if is_excluded {

@@ -173,7 +173,7 @@ fn a_run_ends_with_the_rate_and_its_fits_answer_validate_and_export() {
          simulate: { structure: [{ name: cabinet, width: 0.8, height: 2.2 }] }\n\
          fit-pex: {}\nfit-pro: {}\n\
          evaluate: { hazard: hazard.csv, fits: out, out: out/evaluated.parquet,\n\
-           structure: [{ name: cabinet, width: 0.8, height: 2.2 }] }\n\
+         \x20 structure: [{ name: cabinet, width: 0.8, height: 2.2 }] }\n\
          validate: { fits: out }\n",
     );
     std::fs::write(folder.path().join("hazard.csv"), CURVE).unwrap();

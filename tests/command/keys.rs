@@ -262,8 +262,8 @@ fn names_of_a_pipeline_are_texts() {
         assert!(rows.lines().nth(1).unwrap().starts_with(&format!("{expected},")), "{name}: {rows}");
     }
     for (text, named) in [
-        ("fit-pro: { confidence: 0.9, confidence: 0.8 }\n", "confidence"),
-        ("fit-pro: {}\n---\nfit-pex: {}\n", "line 3"),
+        ("fit-pro: { confidence: 0.9, confidence: 0.8 }\n", "line 1"),
+        ("fit-pro: {}\n---\nfit-pex: {}\n", "2 documents"),
     ] {
         let output = crate::common::rockfrag(folder_with(text).path(), "run").output().unwrap();
         let stderr = String::from_utf8(output.stderr).unwrap();

@@ -1,6 +1,6 @@
 //! What one sees at a terminal: words, lists, traces.
 
-use rockfrag::cli::stage_commands;
+use rockfrag::stages;
 use rockfrag::table::capacities::CapacityFitRow;
 use rockfrag::table::file::ParquetTable;
 use rockfrag::table::responses::TraceRow;
@@ -88,7 +88,7 @@ fn short_help_has_the_usual_options_and_long_help_all() {
     for advised in ["--magnitude", "--target", "--vs30", "--eta"] {
         assert!(options(&short).contains(&advised), "{short}");
     }
-    for stage in stage_commands().iter().map(|command| command.get_name()) {
+    for stage in stages::all().iter().map(|stage| stage.name()) {
         let short = succeed(folder.path(), &format!("{stage} -h")).0;
         let long = succeed(folder.path(), &format!("{stage} --help")).0;
         let (few, all) = (options(&short), options(&long));

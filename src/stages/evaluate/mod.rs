@@ -40,7 +40,7 @@ use super::shared::objects::{StructureArgs, named};
 use crate::inputs::{Rename, Renames, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
-use crate::pipeline::paths::{Input, Output, Read};
+use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
 use crate::report::answers::Evaluation;
 use crate::report::{DPI, Page, fragility as fragilities, png, svg, workbook};
@@ -70,11 +70,11 @@ pub struct Evaluate {
     /// eta where they vary
     #[arg(long = "in", id = "in", value_name = "FILE", value_hint = FilePath)]
     #[serde(rename = "in")]
-    input: Option<Input>,
+    input: Option<PathBuf>,
     /// Hazard curves, CSV: PGA, best with PGV or SA(1.0 s), by annual rates, probabilities or return periods;
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
     #[arg(long, value_name = "FILE,...", value_hint = FilePath)]
-    hazard: Vec<Input>,
+    hazard: Vec<PathBuf>,
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
@@ -112,7 +112,7 @@ pub struct Evaluate {
     /// File to write: .parquet, .csv, .json, .xlsx, a page (.html) or its main figure (.svg, .png) [default:
     /// none; with --in, evaluated.parquet beside it]
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
-    out: Option<Output>,
+    out: Option<PathBuf>,
     #[command(flatten)]
     #[serde(flatten)]
     model: ModelArgs,
@@ -147,8 +147,8 @@ impl Stage for Evaluate {
 
     fn inputs(&self) -> Vec<Read> {
         vec![
-            Read::new("in", self.input.iter().map(|path| &**path)),
-            Read::new("hazard", self.hazard.iter().map(|path| &**path)),
+            Read::new("in", self.input.iter().map(|path| path.as_path())),
+            Read::new("hazard", self.hazard.iter().map(|path| path.as_path())),
             self.model.input(),
             self.structures.input(),
         ]
@@ -257,7 +257,7 @@ impl Evaluate {
         let answers = [answer_rows(&all, context)?];
         let page = || {
             let outline = pages::portrait(&objects, models, None, self.years)?.outline;
-            let hazard = site.as_ref().and_then(|_| context.made().names("hazard"));
+            let hazard = site.as_ref().and_then(|_| context.plan.made.names("hazard"));
             Ok(fragilities::page(&all, outline, hazard.as_deref()))
         };
         self.write(&[rows::batch(&fragility::curves(&all))?], &text, context, page)?;
@@ -280,7 +280,7 @@ impl Evaluate {
         })?;
         let page = || {
             let portrait = pages::portrait(&objects, models, Some(&site), self.years)?;
-            Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), context.made()) }))
+            Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), &context.plan.made) }))
         };
         let text = rates::text(&all, &site, self.target, self.out.as_deref());
         self.finish(&all, text, context, page)

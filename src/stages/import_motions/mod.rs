@@ -24,7 +24,7 @@ use crate::inputs::About;
 use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, Steps, number, periods, steps};
-use crate::pipeline::paths::{Input, Output, Read};
+use crate::pipeline::paths::Read;
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::{motions, rows};
@@ -41,10 +41,10 @@ const AT_ONCE: usize = 32;
 pub struct ImportMotions {
     /// Files and folders of records
     #[arg(value_name = "FILE|DIR", value_hint = AnyPath, required = true)]
-    files: Vec<Input>,
+    files: Vec<PathBuf>,
     /// Motions to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "motions.parquet")]
-    out: Output,
+    out: PathBuf,
     /// Format: at2, cosmos, esm, knet or csv [default: by content]
     #[arg(long)]
     format: Option<RecordFormat>,
@@ -96,7 +96,7 @@ pub struct ImportMotions {
     /// Table with the magnitude, distance (km) or earthquake of each file (columns file, magnitude,
     /// distance, earthquake), or PEER's search results or flatfile
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
-    about: Option<Input>,
+    about: Option<PathBuf>,
     /// Import vertical components too
     #[arg(long)]
     vertical: bool,
@@ -121,8 +121,8 @@ impl Stage for ImportMotions {
     }
 
     fn inputs(&self) -> Vec<Read> {
-        let records = Read::new("files", self.files.iter().map(|path| &**path));
-        let about = Read::new("about", self.about.iter().map(|path| &**path));
+        let records = Read::new("files", self.files.iter().map(|path| path.as_path()));
+        let about = Read::new("about", self.about.iter().map(|path| path.as_path()));
         vec![Read { whole_folders: true, ..records }, about]
     }
 
@@ -139,7 +139,7 @@ impl Stage for ImportMotions {
         context.warn(unused.collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
-        let files = context.made().inputs.get("files").into_iter().flatten();
+        let files = context.plan.made.inputs.get("files").into_iter().flatten();
         let files = importer::named(files.map(|file| file.path.clone()).collect());
         let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;

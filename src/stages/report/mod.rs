@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::{Input, Output, Read};
+use crate::pipeline::paths::Read;
 use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::file;
 use tables::Tables;
@@ -27,10 +27,10 @@ pub struct Report {
     /// Folder or files of other commands; two evaluations of the same objects are before and after
     #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_hint = AnyPath, default_value = ".")]
     #[serde(rename = "in")]
-    input: Vec<Input>,
+    input: Vec<PathBuf>,
     /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
-    out: Option<Output>,
+    out: Option<PathBuf>,
     /// Title of the page [default: from what it shows]
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,

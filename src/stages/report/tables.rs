@@ -10,7 +10,6 @@ use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
 use rockfrag_core::units::G_M_S2;
 
-use crate::pipeline::paths::Input;
 use crate::report::answers::Evaluation;
 use crate::report::figures::Fits;
 use crate::report::response::Trace;
@@ -139,7 +138,7 @@ pub struct Tables {
 impl Tables {
     /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed
     /// over.
-    pub fn read(paths: &[Input]) -> anyhow::Result<Tables> {
+    pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
         let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
         for path in paths {
             let files = files_of(path)?;

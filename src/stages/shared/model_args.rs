@@ -1,6 +1,7 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
@@ -18,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::number::listed;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
-use crate::pipeline::paths::{Input, Read};
+use crate::pipeline::paths::Read;
 use crate::stages::shared::fit_tables::{suite_name, verdict};
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
@@ -42,7 +43,7 @@ pub enum ModelName {
 pub struct ModelArgs {
     /// Folder of fits, from fit-pex and fit-pro [default: the universal surface as shipped]
     #[arg(long, value_name = "DIR", value_hint = DirPath)]
-    pub fits: Option<Input>,
+    pub fits: Option<PathBuf>,
     /// Which structure of the fits to use [default: the one with the same p, alpha and eta]
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -95,7 +96,7 @@ impl ModelArgs {
 
     /// Reads the fits, if there are any.
     pub fn read(&self) -> anyhow::Result<Models> {
-        fn read<R: Row>(folder: Option<&Input>, name: &str) -> Result<Vec<R>, TableError> {
+        fn read<R: Row>(folder: Option<&PathBuf>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
         }
         let fits = self.fits.as_ref();

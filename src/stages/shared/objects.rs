@@ -1,5 +1,7 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
+use std::path::{Path, PathBuf};
+
 use clap::{Arg, Args, Command, ValueHint, value_parser};
 use rockfrag_core::object::{Entry, Field, Object, Place, Restitution, Shape, structure_warnings};
 use rockfrag_core::paper;
@@ -11,7 +13,7 @@ use crate::inputs::Renames;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
-use crate::pipeline::paths::{Read, StructuresInput};
+use crate::pipeline::paths::Read;
 
 /// Returns a parser of a number that may be known of an object.
 pub fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
@@ -36,6 +38,13 @@ pub fn with_fields(stage: Command) -> Command {
     }))
 }
 
+/// The word for the paper's structures.
+const PAPER: &str = "paper";
+
+fn is_paper(list: &Path) -> bool {
+    list == Path::new(PAPER)
+}
+
 /// The structures of a call.
 #[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -51,7 +60,7 @@ pub struct StructureArgs {
     /// List with a name and these options as columns (m, cm or mm by the heading): CSV or a workbook
     /// (list.xlsx#SHEET), or the word paper for the paper's two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub structures: Option<StructuresInput>,
+    pub structures: Option<PathBuf>,
     /// Number that the floors of --structures give the ground floor: 0 or 1
     #[arg(long, value_name = "N", value_parser = number(0..=1_u32, "0 or 1"))]
     ground_floor: Option<u32>,
@@ -78,8 +87,8 @@ impl StructureArgs {
     ];
 
     pub fn input(&self) -> Read {
-        let list = self.structures.as_ref().filter(|list| list.word().is_none());
-        Read::new("structures", list.map(|path| &**path))
+        let list = self.structures.as_ref().filter(|list| !is_paper(list));
+        Read::new("structures", list.map(|path| path.as_path()))
     }
 
     pub fn is_given(&self) -> bool {
@@ -88,7 +97,7 @@ impl StructureArgs {
 
     /// Takes the paper's two structures where none is given.
     pub fn or_paper(&self) -> StructureArgs {
-        let paper = (!self.is_given()).then(|| StructuresInput("paper".into()));
+        let paper = (!self.is_given()).then(|| PathBuf::from(PAPER));
         StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
     }
 
@@ -125,7 +134,7 @@ impl StructureArgs {
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (mut all, mut unused): (Vec<Object>, _) = Default::default();
         match &self.structures {
-            Some(list) if list.word().is_some() => {
+            Some(list) if is_paper(list) => {
                 let paper = paper::structures().into_iter();
                 all.extend(
                     paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))),
