@@ -1,8 +1,10 @@
 //! Calls of stages, of what is given to them.
 
 use std::collections::HashMap;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use clap::value_parser;
 use serde_json::Value;
 
 use super::command;
@@ -17,12 +19,12 @@ use crate::stages::{self, StageKind};
 use crate::table::keys::resolved;
 
 /// Makes the call of a stage from a command line, program name first.
-pub fn of_line(stage: &StageKind, line: &[std::ffi::OsString]) -> anyhow::Result<Call> {
+pub fn of_line(stage: &StageKind, line: &[OsString]) -> anyhow::Result<Call> {
     // As part of the whole command line, which usage lines name. A pipeline file may have what is required.
     let whole = command().mut_subcommand(stage.name(), |stage| {
-        stage.mut_args(|arg| arg.required(false).value_parser(clap::value_parser!(std::ffi::OsString)))
+        stage.mut_args(|arg| arg.required(false).value_parser(value_parser!(OsString)))
     });
-    let line = [std::ffi::OsString::from("rockfrag")].into_iter().chain(line.iter().skip(1).cloned());
+    let line = [OsString::from("rockfrag")].into_iter().chain(line.iter().skip(1).cloned());
     let matches = whole.try_get_matches_from(line)?;
     let matches = matches.subcommand_matches(stage.name()).cloned().unwrap_or_default();
     of_stage(stage, by_user(&stage.command, &matches)?)

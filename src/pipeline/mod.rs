@@ -1,7 +1,7 @@
 //! The frame of all stages: options, up-to-date check, output, progress.
 //!
 //! ```text
-//! paths     what a path is to a stage: a type for each kind
+//! paths     what a stage reads, and the names of what it writes
 //! call      one call of a stage: its options, and the files that it reads
 //! cache     runs a call unless its files are up to date
 //! context   what a call would make, and output, progress and warnings of the running stage

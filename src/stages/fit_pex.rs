@@ -92,10 +92,7 @@ impl<'de> Deserialize<'de> for Transition {
 
 impl Stage for FitPex {
     fn inputs(&self) -> Vec<Read> {
-        vec![
-            Read::new("in", [&self.input]),
-            Read::new("motions", self.motions.iter().map(|path| path.as_path())),
-        ]
+        vec![Read::new("in", [&self.input]), Read::new("motions", self.motions.iter())]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

@@ -50,10 +50,7 @@ pub struct FitPro {
 
 impl Stage for FitPro {
     fn inputs(&self) -> Vec<Read> {
-        vec![
-            Read::new("in", [&self.input]),
-            Read::new("motions", self.motions.iter().map(|path| path.as_path())),
-        ]
+        vec![Read::new("in", [&self.input]), Read::new("motions", self.motions.iter())]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {

@@ -6,7 +6,7 @@ mod motions;
 mod openquake;
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{Hazard, HazardCurve, PairOfPeaks, PgvPgaRatio, VelocitySource, exceedance};
@@ -24,12 +24,12 @@ use crate::number::period;
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
 /// ground-motion fields stand for. Also returns warnings about columns that are not used.
 pub fn read(
-    paths: &[impl AsRef<Path>],
+    paths: &[PathBuf],
     renames: &mut Renames,
     effective_years: Option<f64>,
 ) -> Result<(Hazard, Warnings), InputError> {
     let mut found = Found::default();
-    for path in paths.iter().map(AsRef::as_ref) {
+    for path in paths {
         found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
     }
     let hazard = match (found.joint, paths) {

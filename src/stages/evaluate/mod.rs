@@ -147,8 +147,8 @@ impl Stage for Evaluate {
 
     fn inputs(&self) -> Vec<Read> {
         vec![
-            Read::new("in", self.input.iter().map(|path| path.as_path())),
-            Read::new("hazard", self.hazard.iter().map(|path| path.as_path())),
+            Read::new("in", self.input.iter()),
+            Read::new("hazard", self.hazard.iter()),
             self.model.input(),
             self.structures.input(),
         ]

@@ -121,8 +121,8 @@ impl Stage for ImportMotions {
     }
 
     fn inputs(&self) -> Vec<Read> {
-        let records = Read::new("files", self.files.iter().map(|path| path.as_path()));
-        let about = Read::new("about", self.about.iter().map(|path| path.as_path()));
+        let records = Read::new("files", self.files.iter());
+        let about = Read::new("about", self.about.iter());
         vec![Read { whole_folders: true, ..records }, about]
     }
 

@@ -88,7 +88,7 @@ impl StructureArgs {
 
     pub fn input(&self) -> Read {
         let list = self.structures.as_ref().filter(|list| !is_paper(list));
-        Read::new("structures", list.map(|path| path.as_path()))
+        Read::new("structures", list)
     }
 
     pub fn is_given(&self) -> bool {
