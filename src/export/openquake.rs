@@ -5,7 +5,7 @@ use rockfrag_core::units::{CM_PER_M, G_M_S2};
 use strum::VariantArray;
 
 use super::FragilityModel;
-use crate::report::text::escape;
+use crate::chart::text::escape;
 
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.

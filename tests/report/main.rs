@@ -1,14 +1,15 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
 use resvg::{tiny_skia::Pixmap, usvg};
+use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, png, svg};
+use rockfrag::document::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
+use rockfrag::document::fragility;
+use rockfrag::document::response::{self, Trace};
+use rockfrag::document::{Page, Section, Table};
+use rockfrag::document::{compare, list, object};
+use rockfrag::figures::common::{observed_shares, ratio_bins};
+use rockfrag::figures::*;
 use rockfrag::number;
-use rockfrag::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
-use rockfrag::report::figures::common::{observed_shares, ratio_bins};
-use rockfrag::report::figures::*;
-use rockfrag::report::fragility;
-use rockfrag::report::response::{self, Trace};
-use rockfrag::report::{Axis, Figure, Ink, Layer, Mark, Page, Panel, Section, Table, png, svg};
-use rockfrag::report::{compare, list, object};
 use rockfrag::table::answers::{Answer, FragilityRow, ObjectRow, RatesRow, UncertaintyRow};
 use rockfrag::table::motions::MotionRow;
 use rockfrag::table::responses::TraceRow;

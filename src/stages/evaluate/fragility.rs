@@ -9,8 +9,8 @@ use rockfrag_core::units::G_M_S2;
 
 use super::object::Predicted;
 use super::words::{about_buildings, line, model, model_of_all, mostly_unknown, table, validity};
+use crate::document::fragility::{cells, half_in_words};
 use crate::number::{aligned, significant};
-use crate::report::fragility::{cells, half_in_words};
 use crate::table::answers::{Answer, CurveRow, FragilityRow};
 
 impl Predicted for FragilityRow {

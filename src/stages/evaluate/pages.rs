@@ -7,8 +7,8 @@ use rockfrag_core::statistics::Interval;
 use serde_json::Value;
 
 use super::point::{self, TreeRow};
-use crate::report::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
-use crate::report::{Page, list, object};
+use crate::document::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, in_years};
+use crate::document::{Page, list, object};
 use crate::stages::shared::model_args::Models;
 use crate::table::answers::Answer;
 use crate::table::provenance::Provenance;

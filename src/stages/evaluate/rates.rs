@@ -9,8 +9,8 @@ use rockfrag_core::units::G_M_S2;
 
 use super::object::Predicted;
 use super::words::{about_buildings, friction, line, model, model_of_all, mostly_unknown, table, validity};
+use crate::document::answers::{Expected, NO_RATE, State, in_years};
 use crate::number::{self, PERCENT, RATE, aligned, count, name, period, plain, significant};
-use crate::report::answers::{Expected, NO_RATE, State, in_years};
 use crate::table::answers::{Answer, RatesRow};
 
 impl Predicted for RatesRow {

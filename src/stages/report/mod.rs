@@ -10,11 +10,12 @@ use clap::ValueHint::{AnyPath, FilePath};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::chart::{DPI, Figure, png, svg};
+use crate::document::Page;
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
-use crate::report::{DPI, Figure, Page, png, svg};
 use crate::table::file;
 use tables::Tables;
 

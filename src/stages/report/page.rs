@@ -10,12 +10,13 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::tables::{Kind, Tables};
+use crate::chart::Figure;
+use crate::chart::text::{literal, minus};
+use crate::document::answers::Evaluation;
+use crate::document::{Page, Section, Table, compare, fragility, object, response};
+use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
+use crate::figures::*;
 use crate::number::{self, TWO_DIGITS, listed};
-use crate::report::answers::Evaluation;
-use crate::report::figures::common::{by, called, name, rocked, scaled_label, short_label};
-use crate::report::figures::*;
-use crate::report::text::{literal, minus};
-use crate::report::{Figure, Page, Section, Table, compare, fragility, object, response};
 use crate::stages::compare_paper::table_two;
 use crate::stages::evaluate::pages;
 use crate::table::capacities::CapacityFitRow;

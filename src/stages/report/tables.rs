@@ -10,9 +10,9 @@ use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
 use rockfrag_core::units::G_M_S2;
 
-use crate::report::answers::Evaluation;
-use crate::report::figures::Fits;
-use crate::report::response::Trace;
+use crate::document::answers::Evaluation;
+use crate::document::response::Trace;
+use crate::figures::Fits;
 use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
 use crate::table::TableError;

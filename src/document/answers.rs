@@ -5,7 +5,7 @@ use rockfrag_core::hazard::{Bases, Fragility, HazardCurve, RateByIntensity, SLEN
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::UNNAMED;
 
-use super::text::literal;
+use crate::chart::text::literal;
 use crate::number::{self, PERCENT};
 use crate::table::answers::{Answer, ObjectRow, RatesRow};
 

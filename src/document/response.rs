@@ -4,12 +4,12 @@ use rockfrag_core::rocking::{SolverEvent, Structure};
 use rockfrag_core::statistics::Range;
 use rockfrag_core::units::G_M_S2;
 
-use super::figure::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Words};
-use super::figures::common::called;
-use super::figures::envelope;
 use super::page::Page;
-use super::pen::round;
-use super::text::{escape, file_words, literal, words};
+use crate::chart::round;
+use crate::chart::text::{escape, file_words, literal, words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Words};
+use crate::figures::common::called;
+use crate::figures::envelope;
 use crate::number;
 use crate::table::responses::TraceRow;
 

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use rockfrag_core::fragility::{Cases, DemandFit, DemandModel, PLANE};
 
 use super::common::{Fits, compare, demands, name};
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
 use crate::number;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, Panel};
 
 /// Figure 9: the demand in safe rocking and both planes edge-on, one panel a group.
 pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {

@@ -7,9 +7,9 @@ use rockfrag_core::statistics::Range;
 use rockfrag_core::studies::observed_share;
 use rockfrag_core::warning::UNNAMED;
 
+use crate::chart::Mark;
+use crate::chart::text::literal;
 use crate::number;
-use crate::report::Mark;
-use crate::report::text::literal;
 use crate::table::capacities::ScaledMeasure;
 
 /// The fits that figures show.

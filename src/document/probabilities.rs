@@ -3,7 +3,7 @@
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::Range;
 
-use super::figure::{Axis, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
+use crate::chart::{Axis, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number::{OF_HUNDRED, PERCENT};
 
 /// A row of a panel.

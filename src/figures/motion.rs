@@ -6,8 +6,8 @@ use rockfrag_core::motion::{Suite, measures};
 use rockfrag_core::rocking::{Record, Structure, simulate, trace};
 
 use super::common::compare;
+use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::motions::MotionRow;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.

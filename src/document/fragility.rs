@@ -4,11 +4,11 @@ use rockfrag_core::fragility::{LimitState, Peak};
 use rockfrag_core::hazard::{Fragility, Lognormal, format_intensity};
 
 use super::answers::Outline;
-use super::figure::{Figure, Ink, Layer};
 use super::list::doubts;
 use super::object::{HEIGHT, averaged, curve, curves_panel, fragility_panel, model_in_words, sketch};
 use super::page::{Page, Table};
-use super::text::{literal, words};
+use crate::chart::text::{literal, words};
+use crate::chart::{Figure, Ink, Layer};
 use crate::number::{self, significant};
 use crate::table::answers::{Answer, FragilityRow, ObjectRow};
 

@@ -6,8 +6,8 @@ use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
 
 use super::common::{by, observed_shares, scaled_label, title};
-use crate::report::text::literal;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
+use crate::chart::text::literal;
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
 

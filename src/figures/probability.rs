@@ -8,8 +8,8 @@ use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::{Fits, by, called, compare, demands, label};
 use super::common::{observed_shares, ratio_bins, rocked};
+use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;

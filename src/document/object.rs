@@ -8,10 +8,10 @@ use rockfrag_core::statistics::normal::Z_95;
 use strum::VariantArray;
 
 use super::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard, State};
-use super::figure::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, ProbabilityRow};
-use super::text::{literal, words};
+use crate::chart::text::{literal, words};
+use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number::{self, PERCENT, RATE};
 use crate::table::answers::ObjectRow;
 

@@ -1,9 +1,9 @@
 //! One static HTML page that needs nothing else: the result, a table and a figure first; then figures; then
 //! what is folded.
 
-use super::draw::html_of_panels;
-use super::figure::Figure;
-use super::text::{escape, html, words};
+use crate::chart::Figure;
+use crate::chart::html_of_panels;
+use crate::chart::text::{escape, html, words};
 
 /// A page from top to bottom. Title, byline and headings are plain text; sentences, heads and cells are
 /// marked text, see [`super::text`].
@@ -100,8 +100,8 @@ impl Page {
             }
         };
         format!(
-            include_str!("assets/page.html"),
-            style = include_str!("assets/page.css"),
+            include_str!("page.html"),
+            style = include_str!("page.css"),
             title = escape(&self.title),
             byline = escape(&self.byline),
             place = html(&self.place),

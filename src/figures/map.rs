@@ -7,7 +7,7 @@ use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, called, name, rocked};
-use crate::report::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
+use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 /// The probabilities of which lines are drawn.
 const LEVELS: [(f64, Dash); 4] =

@@ -96,9 +96,9 @@ pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
     use resvg::{tiny_skia, usvg};
     let mut options = usvg::Options { dpi, font_family: "Fira Sans".to_string(), ..usvg::Options::default() };
     let faces: [&[u8]; 3] = [
-        include_bytes!("assets/fonts/FiraSans-Regular.ttf"),
-        include_bytes!("assets/fonts/FiraSans-Italic.ttf"),
-        include_bytes!("assets/fonts/FiraSans-SemiBold.ttf"),
+        include_bytes!("fonts/FiraSans-Regular.ttf"),
+        include_bytes!("fonts/FiraSans-Italic.ttf"),
+        include_bytes!("fonts/FiraSans-SemiBold.ttf"),
     ];
     faces.iter().for_each(|face| options.fontdb_mut().load_font_data(face.to_vec()));
     let tree = usvg::Tree::from_str(svg, &options)?;

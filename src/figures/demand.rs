@@ -9,9 +9,9 @@ use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::Range;
 
 use super::common::{DEMAND, Fits, by, compare, demands, label, name, rocked, short_label};
+use crate::chart::text::file_words;
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
-use crate::report::text::file_words;
-use crate::report::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
 type FitValue = fn(&DemandFit) -> Option<f64>;

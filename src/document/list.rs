@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::answers::{BANDS, Evaluation, Expected, Rated};
-use super::figure::{Figure, Ink};
-use super::figures::common::by;
 use super::object::facts;
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, ProbabilityRow};
-use super::text::literal;
+use crate::chart::text::literal;
+use crate::chart::{Figure, Ink};
+use crate::figures::common::by;
 use crate::number::{self, OF_HUNDRED, PERCENT};
 use crate::table::answers::Answer;
 

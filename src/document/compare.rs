@@ -5,11 +5,11 @@ use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::answers::{Evaluation, Expected, Rated};
-use super::figure::{Figure, Ink};
 use super::object::limits_in_words;
 use super::page::{Page, Table, Tile};
 use super::probabilities::{self, ProbabilityRow, Value};
-use super::text::literal;
+use crate::chart::text::literal;
+use crate::chart::{Figure, Ink};
 use crate::number::{self, OF_HUNDRED, PERCENT, TWO_DIGITS};
 
 /// Objects that are named in a sentence and in a line.
