@@ -8,7 +8,7 @@ use rockfrag::pipeline::options::{Given, Rule, merge};
 use rockfrag::stages::{self, StageKind};
 use serde_json::Value;
 
-use crate::common::{SMALL, fail, folder_with, rockfrag, succeed};
+use crate::common::{fail, folder_with, succeed};
 
 #[test]
 fn mistakes_in_a_pipeline_file_are_named() {
@@ -18,17 +18,21 @@ fn mistakes_in_a_pipeline_file_are_named() {
         ("fit-pro: { confidence: 2 }", vec!["fit-pro", "confidence", "2"]),
         ("fit-pro: 3", vec!["pipeline.yaml", "fit-pro", "3"]),
         ("simulate: { structure: [{ name: a, q: 1 }] }", vec!["simulate", "'q'"]),
-        (
-            "fit-pex: { out: a.parquet }\nfit-pro: { out: b/../a.parquet }",
-            vec!["fit-pex", "fit-pro", "b/../a."],
-        ),
+        ("fit-pex: { out: a.parquet }\nfit-pro: { out: b/../a.parquet }", vec!["fit-pro", "b/../a."]),
         ("a: [", vec!["pipeline.yaml"]),
-        ("fit-pro: { confidense: }", vec!["pipeline.yaml: fit-pro", "confidense"]),
+        ("fit-pro: { confidence: 0.9, confidence: 0.8 }", vec!["line 1"]),
+        ("fit-pro: {}\n---\nfit-pex: {}", vec!["2 documents"]),
+        ("simulate: { structure: [{ name: a, p: 100, alpha: 0.1, eta: 0.9 }] }", vec!["a", "p is 100"]),
         ("fit-pex: { limit-state: 0.1, limit_state: 0.2 }", vec!["limit-state", "twice"]),
         ("evaluate: { hazard: { pga: h.csv } }", vec!["evaluate", "hazard", "mapping"]),
         ("simulate: { structures: \"\" }", vec!["simulate", "structures", "value"]),
         ("{}", vec!["pipeline.yaml", "no stage"]),
         ("seed: x\nfit-pro: {}\nsample-scenarios: {}", vec!["seed", "x"]),
+        ("evaluate: { width: 1, height: 2, p: 1, pga: 1, out: a.csv }", vec!["evaluate: width and p"]),
+        ("fit-pro: {}\nevaluate: { width: 1, height: 2, fits: other, out: a.csv }", vec!["fits is other"]),
+        ("fit-pro: {}\nevaluate: { p: 1, alpha: 0.2, eta: 0.9, pga: 0.5 }", vec!["fits: out"]),
+        ("evaluate: { p: 1, alpha: 0.2, eta: 0.9, pga: 0.5 }", vec!["out: out/evaluated.parquet"]),
+        ("floor-motions: { period: 1, level: 1 }\nida: { structures: paper }", vec!["in: out/floor.parquet"]),
     ] {
         let folder = folder_with(wrong);
         fail(folder.path(), "run", 2, &named);
@@ -40,15 +44,16 @@ fn mistakes_in_a_pipeline_file_are_named() {
 
 #[test]
 fn mistakes_on_the_command_line_are_named() {
-    let folder = folder_with(SMALL);
+    let folder = folder_with("evaluate: { width: 0.5, height: 2, eta: 2, pga: 0.5, pgv: 0.6 }\n");
     for (call, named) in [
+        ("evaluate --config pipeline.yaml", vec!["pipeline.yaml: evaluate: eta is 2"]),
         ("simulat", vec!["simulat", "simulate"]),
         ("simulate --pp 3", vec!["--pp", "--p"]),
-        ("simulate --p 1 --width 2", vec!["--p", "--width"]),
         ("simulate --p 1 --alpha 0.2", vec!["eta"]),
         ("simulate --width 2 --height 0.5", vec!["width"]),
         ("simulate --p 1,0 --alpha 0.2 --eta 0.9", vec!["--p"]),
         ("simulate --structures paper --threads 0", vec!["--threads"]),
+        ("evaluate --width 0.5 --height 2 --pga 0.5 --threads 20000", vec!["threads"]),
         ("sample-scenarios --mw 5:4:1", vec!["--mw"]),
         ("sample-scenarios --re 5,5", vec!["--re"]),
         ("sample-scenarios --mw 12", vec!["mw"]),
@@ -63,6 +68,7 @@ fn mistakes_on_the_command_line_are_named() {
         ("evaluate --width 1 --height 2 --pga 0.3 --ground-floor 1", vec!["--ground-floor"]),
         ("evaluate --width 1 --height 2 --years 30", vec!["--hazard"]),
         ("evaluate --width 1 --height 2 --model paper", vec!["--fits"]),
+        ("evaluate --width 1 --height 2 --hazard pga.csv --vs30 90", vec!["vs30"]),
         ("evaluate --structures - --hazard -", vec!["--structures", "--hazard", "stdin"]),
     ] {
         let code = if call.contains("out.parquet") { 1 } else { 2 };
@@ -77,16 +83,26 @@ fn every_start_is_a_pipeline_that_can_be_planned() {
         succeed(folder.path(), &format!("init {start}"));
         std::fs::create_dir_all(folder.path().join("records")).unwrap();
         succeed(folder.path(), "run --dry-run");
+        fail(folder.path(), "run --check", 1, &[]);
         fail(folder.path(), &format!("init {start}"), 2, &["pipeline.yaml"]);
     }
 }
 
 #[test]
-fn every_stage_has_a_description_of_its_own() {
-    let stages = stages::all();
-    let descriptions: std::collections::BTreeSet<String> =
-        stages.iter().map(|stage| stage.command.get_about().unwrap().to_string()).collect();
-    assert_eq!(descriptions.len(), stages.len());
+fn short_help_has_the_options_of_its_examples_and_of_what_answers_advise() {
+    for stage in stages::all() {
+        let name = stage.name();
+        let [short, long] = ["-h", "--help"].map(|help| succeed(Path::new("."), &format!("{name} {help}")).0);
+        assert!(long.contains("--threads") && !short.contains("--threads"), "{name}");
+        let examples: Vec<&str> = short.lines().filter(|line| line.starts_with("rockfrag ")).collect();
+        assert!(!examples.is_empty(), "{name}");
+        let advised = if name == "evaluate" { " --magnitude --target --vs30 --eta" } else { "" };
+        let words = examples.join(" ") + advised;
+        for word in words.split(' ').filter_map(|word| word.strip_prefix("--")) {
+            let option = stage.command.get_arguments().find(|option| name_of(option) == word);
+            assert!(option.is_some_and(|option| !option.is_hide_short_help_set()), "{name}: {word}");
+        }
+    }
 }
 
 /// A value that an option can have.
@@ -147,51 +163,13 @@ fn of_every_pair_the_flag_beats_the_file_and_alternatives_are_refused_within_one
 }
 
 #[test]
-fn what_is_wrong_is_named_as_who_gave_it_does() {
-    let folder = folder_with("evaluate: { width: 0.5, height: 2, eta: 2, pga: 0.5, pgv: 0.6 }\n");
-    let evaluate = "evaluate --config pipeline.yaml";
-    fail(folder.path(), evaluate, 2, &["pipeline.yaml: evaluate: eta is 2"]);
-    fail(folder.path(), "evaluate --width 0.5 --height 2 --eta 2", 2, &["--eta is 2"]);
-    fail(folder.path(), "evaluate --hazard h.csv --pga 0.5", 2, &["--pga", "--hazard"]);
-    let both = "evaluate: { width: 0.5, height: 2, p: 1, pga: 0.5, out: a.csv }\n";
-    std::fs::write(folder.path().join("pipeline.yaml"), both).unwrap();
-    fail(folder.path(), "run", 2, &["pipeline.yaml: evaluate: width and p"]);
-}
-
-#[test]
 fn an_angle_and_a_length_may_have_their_unit() {
     let here = Path::new(".");
-    let printed = |call: &str| {
-        let output = rockfrag(here, call).output().unwrap();
-        assert!(output.status.success(), "{call}");
-        output.stdout
-    };
+    let printed = |call: &str| succeed(here, call).0;
     let alpha = 8.5_f64.to_radians().to_string();
-    let call =
-        |alpha: &str| format!("evaluate --p 2 --alpha {alpha} --eta 0.9 --pga 0.3 --pgv 0.4 --format csv");
+    let call = |alpha: &str| format!("evaluate --p 2 --alpha {alpha} --eta 0.9 --pga 0.3 --format csv");
     assert_eq!(printed(&call("8.5deg")), printed(&call(&alpha)));
     let block = |width: &str| format!("evaluate --width {width} --height 2 --pga 0.3 --pgv 0.4 --format csv");
     assert_eq!(printed(&block("50cm")), printed(&block("0.5")));
     fail(here, &call("8.5s"), 2, &["--alpha", "rad"]);
-}
-
-#[test]
-fn a_run_says_which_line_is_missing_and_a_check_whether_any_stage_is_due() {
-    let evaluate = "evaluate: { p: 1, alpha: 0.2, eta: 0.9, pga: 0.5, pgv: 0.6";
-    let fits = "fits: other, out: a.csv }";
-    for (wrong, line) in [
-        (format!("fit-pro: {{}}\n{evaluate}, {fits}\n"), "fits is other"),
-        (format!("fit-pro: {{}}\n{evaluate} }}\n"), "fits: out"),
-        (format!("{evaluate} }}\n"), "out: out/evaluated.parquet"),
-        (
-            "floor-motions: { period: 1, level: 1 }\nida: { structures: paper }\n".into(),
-            "in: out/floor.parquet",
-        ),
-    ] {
-        fail(folder_with(&wrong).path(), "run --dry-run", 2, &["pipeline.yaml", line]);
-    }
-    let folder = folder_with("sample-scenarios: &a { mw: &m 7, re: *m, samples: 2 }\nreport: {}\n");
-    fail(folder.path(), "run --check", 1, &[]);
-    succeed(folder.path(), "run");
-    succeed(folder.path(), "run --check");
 }

@@ -4,10 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{SMALL, fail, folder, folder_with, ran, rows, succeed};
-
-const BLOCK: &str = "--width 0.5 --height 2";
-const HAZARD: &str = "pga_g,annual_rate\n0.1,0.01\n0.3,0.001\n1.0,0.00005\n";
+use crate::common::{BLOCK, SMALL, fail, folder, folder_with, objects, ran, rows, small_run, succeed};
 
 /// Whether a command found its result up to date.
 #[track_caller]
@@ -23,11 +20,8 @@ fn record(peak_g: f64) -> String {
 }
 
 fn ids(folder: &Path, table: &str) -> Vec<String> {
-    rows(folder, table)
-        .lines()
-        .skip(1)
-        .map(|row| row.split(',').next().unwrap_or_default().to_string())
-        .collect()
+    let rows = rows(folder, table);
+    rows.lines().skip(1).map(|row| row.split(',').next().unwrap_or_default().to_string()).collect()
 }
 
 const IMPORT: &str = "import-motions --accept-implausible --pulses skip";
@@ -36,6 +30,9 @@ const IMPORT: &str = "import-motions --accept-implausible --pulses skip";
 fn records_are_known_by_name_and_content() {
     let folder = folder(&[("r.csv", &record(0.3))]);
     let path = |name: &str| folder.path().join(name);
+    succeed(folder.path(), &format!("{IMPORT} r.csv --scale 0.1:0.3:0.1 --out s.parquet"));
+    let steps = ids(folder.path(), "s.parquet");
+    assert!(steps.iter().all(|id| id.len() < 10), "steps have the digits that were given: {steps:?}");
     succeed(folder.path(), &format!("{IMPORT} r.csv --out m.parquet"));
     fs::rename(path("r.csv"), path("q.csv")).unwrap();
     assert!(!is_kept(folder.path(), &format!("{IMPORT} q.csv --out m.parquet")), "renamed");
@@ -49,20 +46,15 @@ fn records_are_known_by_name_and_content() {
 }
 
 #[test]
-fn steps_have_the_digits_that_were_given() {
-    let folder = folder(&[("r.csv", &record(0.3))]);
-    succeed(folder.path(), &format!("{IMPORT} r.csv --scale 0.1:0.3:0.1 --out m.parquet"));
-    let ids = ids(folder.path(), "m.parquet");
-    assert!(ids.iter().all(|id| id.len() < 10), "{ids:?}");
-}
-
-#[test]
 fn all_records_of_a_folder_are_read_and_nothing_that_was_written_there() {
     let folder = folder(&[]);
     let path = |name: &str| folder.path().join("records").join(name);
     fs::create_dir_all(path("b")).unwrap();
     fs::write(path("a.csv"), record(0.3)).unwrap();
     fs::write(path("b/a.csv"), record(0.2)).unwrap();
+    // Links in circles and pipes are no records.
+    let _ = ["x", "y"].map(|link| std::os::unix::fs::symlink(".", path(link)).unwrap());
+    assert!(std::process::Command::new("mkfifo").arg(path("fifo")).status().unwrap().success());
     let call = format!("{IMPORT} records --out records/m.parquet --keep-going");
     succeed(folder.path(), &call);
     assert_eq!(ids(folder.path(), "records/m.parquet"), ["a.csv", "b/a.csv"]);
@@ -74,18 +66,6 @@ fn all_records_of_a_folder_are_read_and_nothing_that_was_written_there() {
     let moved = folder.path().join("moved");
     fs::rename(folder.path().join("records"), &moved).unwrap();
     assert!(is_kept(&moved, &format!("{IMPORT} . --out m.parquet --keep-going")), "moved");
-}
-
-#[test]
-fn links_in_circles_and_pipes_in_a_folder_are_no_records() {
-    let folder = folder(&[("a.csv", &record(0.3))]);
-    let path = |name: &str| folder.path().join(name);
-    for link in ["x", "y"] {
-        std::os::unix::fs::symlink(".", path(link)).unwrap();
-    }
-    assert!(std::process::Command::new("mkfifo").arg(path("fifo")).status().unwrap().success());
-    succeed(folder.path(), &format!("{IMPORT} . --out m.parquet"));
-    assert_eq!(ids(folder.path(), "m.parquet"), ["a"]);
 }
 
 #[test]
@@ -113,26 +93,19 @@ fn a_run_is_kept_where_it_goes_and_made_anew_where_a_file_is_missing() {
 }
 
 #[test]
-fn a_comparison_knows_the_tables_before_the_fits() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
+fn what_is_read_beside_the_fits_is_what_is_needed() {
+    let folder = small_run();
     let there = |name: &str| folder.path().join("alone").join(name);
     fs::create_dir(folder.path().join("alone")).unwrap();
-    let copy = |name: &str| fs::copy(folder.path().join("out").join(name), there(name)).unwrap();
+    let out = |name: &str| folder.path().join("out").join(name);
+    let copy = |name: &str| fs::copy(out(name), there(name)).unwrap();
     let _ = ["pex.parquet", "pro.parquet"].map(copy);
     let call = "compare-paper --pex alone/pex.parquet --pro alone/pro.parquet --out alone/paper.parquet";
     assert!(!succeed(folder.path(), call).0.contains("not the paper's set-up"));
     let _ = ["responses.parquet", "motions.parquet", "scenarios.parquet"].map(copy);
     assert!(succeed(folder.path(), call).0.contains("not the paper's set-up"));
-}
-
-#[test]
-fn fits_that_the_model_does_not_read_need_not_be_there() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
-    for name in ["pro.parquet", "pex.parquet"] {
-        fs::remove_file(folder.path().join("out").join(name)).unwrap();
-    }
+    // Fits that the model does not read need not be there.
+    let _ = ["pro.parquet", "pex.parquet"].map(|name| fs::remove_file(out(name)).unwrap());
     let call = "evaluate --fits out --suite csgm --name frame --pga 0.4 --pgv 0.5";
     succeed(folder.path(), call);
     fail(folder.path(), &format!("{call} --model paper"), 1, &["pro.parquet"]);
@@ -140,7 +113,7 @@ fn fits_that_the_model_does_not_read_need_not_be_there() {
 
 #[test]
 fn the_word_paper_is_no_folder_and_a_path_may_be_written_in_two_ways() {
-    let yaml = "out: paper\nsample-scenarios: { mw: \"7\", re: \"5\", samples: 3 }\nsynthesize-motions: {}\n\
+    let yaml = "out: paper\nsample-scenarios: &a { mw: &m 7, re: *m, samples: 3 }\nsynthesize-motions: {}\n\
         simulate: { structures: paper, in: ../w/paper/motions.parquet }\n";
     let folder = folder(&[]);
     let work = folder.path().join("w");
@@ -148,6 +121,7 @@ fn the_word_paper_is_no_folder_and_a_path_may_be_written_in_two_ways() {
     fs::write(work.join("pipeline.yaml"), yaml).unwrap();
     succeed(&work, "run");
     let (plan, _) = succeed(&work, "run --dry-run");
+    succeed(&work, "run --check");
     assert!(!plan.contains(": run"), "{plan}");
     let (plan, _) = succeed(folder.path(), "run w/pipeline.yaml --seed 5 --dry-run");
     assert!(plan.contains("simulate: run"), "{plan}");
@@ -169,29 +143,18 @@ fn an_option_stated_at_its_default_changes_nothing() {
 
 #[test]
 fn options_of_what_is_printed_change_no_table() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
+    let folder = small_run();
     let compare = "compare-paper --pex out/pex.parquet --pro out/pro.parquet --out out/paper.parquet";
     let (table_two, _) = succeed(folder.path(), compare);
     let (all, told) = succeed(folder.path(), &format!("{compare} --all"));
     assert!(told.contains("up to date") && all.lines().count() > table_two.lines().count(), "{told}");
     assert_eq!(all, succeed(folder.path(), &format!("{compare} --all --force")).0);
     assert_eq!(succeed(folder.path(), compare).0, table_two);
-    let evaluate = format!("evaluate {BLOCK} --pga 0.4 --pgv 0.5 --out e.parquet");
-    let (text, _) = succeed(folder.path(), &evaluate);
-    let (csv, _) = succeed(folder.path(), &format!("{evaluate} --format csv"));
-    assert_eq!(
-        csv,
-        succeed(folder.path(), &format!("{evaluate} --format csv").replace("--out e.parquet", "")).0
-    );
-    let (again, told) = succeed(folder.path(), &evaluate);
-    assert!(again == text && told.contains("up to date"), "{told}");
 }
 
 #[test]
 fn partitions_of_different_runs_are_no_table() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
+    let folder = small_run();
     let call = |part: &str, more: &str| {
         format!("synthesize-motions --in out/scenarios.parquet --out parts --partition {part} {more}")
     };
@@ -216,7 +179,7 @@ fn paths_of_a_pipeline_are_relative_to_its_file() {
     let folder = folder(&[("second.csv", other), ("h.csv", "no hazard\n")]);
     let sub = folder.path().join("sub");
     fs::create_dir_all(sub.join("fits")).unwrap();
-    fs::write(sub.join("h.csv"), HAZARD).unwrap();
+    fs::write(sub.join("h.csv"), "pga_g,annual_rate\n0.1,0.01\n0.3,0.001\n1.0,0.00005\n").unwrap();
     fs::write(sub.join("second.csv"), "pgv_m_s,annual_rate\n0.1,0.01\n0.3,0.001\n1.0,0.00005\n").unwrap();
     let run = |yaml: &str| {
         fs::write(sub.join("pipeline.yaml"), yaml).unwrap();
@@ -246,28 +209,14 @@ fn paths_of_a_pipeline_are_relative_to_its_file() {
 
 #[test]
 fn names_of_a_pipeline_are_texts() {
-    for (name, expected) in [
-        ("007", "007"),
-        ("1e3", "1e3"),
-        ("yes", "yes"),
-        ("\"~\"", "~"),
-        ("\"rack,height=2\"", "\"rack,height=2\""),
-    ] {
-        let folder = folder_with(&format!(
-            "evaluate:\n  {{ pga: 0.4, pgv: 0.5, out: out/evaluated.parquet, \
-             structure: [{{ name: {name}, width: 0.6, height: 1.9 }}] }}\n"
-        ));
-        succeed(folder.path(), "run");
-        let rows = rows(folder.path(), "out/evaluated.parquet");
-        assert!(rows.lines().nth(1).unwrap().starts_with(&format!("{expected},")), "{name}: {rows}");
-    }
-    for (text, named) in [
-        ("fit-pro: { confidence: 0.9, confidence: 0.8 }\n", "line 1"),
-        ("fit-pro: {}\n---\nfit-pex: {}\n", "2 documents"),
-    ] {
-        let output = crate::common::rockfrag(folder_with(text).path(), "run").output().unwrap();
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        let is_advice = ["DuplicateKeyPolicy", "from_str"].iter().any(|word| stderr.contains(word));
-        assert!(output.status.code() == Some(2) && stderr.contains(named) && !is_advice, "{stderr}");
-    }
+    let names = ["007", "1e3", "yes", "\"~\"", "\"rack,height=2\""];
+    let structures = names.map(|name| format!("{{ name: {name}, width: 0.6, height: 1.9 }}")).join(", ");
+    let folder = folder_with(&format!(
+        "evaluate: {{ pga: 0.4, pgv: 0.5, out: out/evaluated.parquet, structure: [{structures}] }}\n"
+    ));
+    succeed(folder.path(), "run");
+    let found = objects(folder.path(), "out/evaluated.parquet");
+    let mut found: Vec<&str> = found.iter().map(|row| row["structure"].as_str().unwrap()).collect();
+    found.sort_unstable();
+    assert_eq!(found, ["007", "1e3", "rack,height=2", "yes", "~"]);
 }

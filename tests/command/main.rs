@@ -4,6 +4,7 @@ mod common;
 mod config;
 mod evaluate;
 mod files;
+mod fits;
 mod floors;
 mod foreign;
 mod hazard;

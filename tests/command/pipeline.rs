@@ -1,7 +1,7 @@
 //! A run: what depends on a change is run again, and nothing else; threads and partitions do not matter.
 
 use crate::common::{
-    FILES, SMALL, bytes, fail, folder_with, lists, made, numbers, ran, rows, succeed, texts, write,
+    FILES, SMALL, bytes, fail, folder_with, motions_of, numbers, ran, rows, small_run, succeed, texts, write,
 };
 
 #[test]
@@ -39,38 +39,8 @@ fn files_are_the_same_on_any_number_of_threads_and_others_with_another_seed() {
 }
 
 #[test]
-fn a_flag_wins_over_the_file_and_the_file_over_the_default() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
-    let simulate = |more: &str, out: &str| {
-        succeed(
-            folder.path(),
-            &format!("simulate --config pipeline.yaml --in out/motions.parquet --out {out} {more}"),
-        );
-        made(&folder.path().join(out)).arguments
-    };
-    assert_eq!(simulate("", "both.parquet")["structure"].as_array().unwrap().len(), 2);
-    let one = simulate("--width 0.5 --height 2", "one.parquet");
-    assert!(!one.contains_key("structure") && one["width"] == 0.5, "{one:?}");
-    let frame = simulate("--structure name=a,p=1,alpha=0.1,eta=0.9", "frame.parquet");
-    assert_eq!(frame["structure"].as_array().unwrap().len(), 1);
-}
-
-#[test]
-fn an_empty_section_of_simulate_takes_the_papers_structures() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run --out given");
-    let (_, structures) = SMALL.split_once("simulate:\n").unwrap();
-    let (structures, _) = structures.split_once("fit-pex").unwrap();
-    std::fs::write(folder.path().join("pipeline.yaml"), SMALL.replace(structures, "  {}\n")).unwrap();
-    succeed(folder.path(), "run --out bare");
-    assert_eq!(rows(folder.path(), "given/responses.parquet"), rows(folder.path(), "bare/responses.parquet"));
-}
-
-#[test]
 fn partitions_make_the_rows_of_the_whole() {
-    let folder = folder_with(SMALL);
-    succeed(folder.path(), "run");
+    let folder = small_run();
     let simulate = "simulate --config pipeline.yaml --in out/motions.parquet --out parts --partition";
     for part in 0..3 {
         succeed(folder.path(), &format!("{simulate} {part}/3"));
@@ -93,10 +63,8 @@ fn a_partition_of_an_object_with_a_depth_needs_no_other() {
     let one = folder.path().join("motions/part-00000.parquet");
     std::fs::remove_file(&one).unwrap();
     // Pairs of components may stand in different partitions.
-    let (id, dt, along) = (texts(&["a"]), numbers(&[0.01]), numbers(&[90.0]));
-    let samples = lists(&[&[0.1; 50]]);
-    let columns =
-        vec![("motion_id", id), ("dt_s", dt), ("azimuth_deg", along), ("acceleration_m_s2", samples)];
+    let mut columns = motions_of(texts(&["a"]), 0.01, &[&[0.1; 50]]);
+    columns.push(("azimuth_deg", numbers(&[90.0])));
     write(&one, columns);
     let simulate = "simulate --in motions --width 0.5 --depth 0.4 --height 1.9 --partition 0/2";
     fail(folder.path(), simulate, 1, &["part-00000.parquet", "one file"]);
@@ -113,11 +81,4 @@ fn a_path_back_from_a_link_is_where_the_link_leads() {
     assert_eq!(ran(&succeed(folder.path(), "run").1).len(), FILES.len());
     assert!(folder.path().join("far/m.parquet").exists());
     assert!(ran(&succeed(folder.path(), "run").1).is_empty());
-}
-
-#[test]
-fn a_failing_stage_stops_the_run_and_names_itself() {
-    let folder = folder_with(&SMALL.replace("p: 1.0", "p: 100"));
-    fail(folder.path(), "run", 2, &["frame", "p is 100"]);
-    assert!(!folder.path().join("out").exists(), "options are checked before anything is run");
 }

@@ -1,12 +1,10 @@
 //! Records as people bring them: in archives, with the tables that describe them.
 
-use std::io::Write;
 use std::path::Path;
 
 use serde_json::Value;
-use zip::ZipWriter;
-use zip::write::SimpleFileOptions;
 
+use super::packed::{gzip, zip};
 use crate::common::{fail, folder, near, number, objects, succeed};
 
 fn motions(folder: &Path) -> Vec<Value> {
@@ -24,21 +22,13 @@ fn at2(component: &str, pga_g: f64) -> String {
     format!("{head}, {component}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 400, DT= .0100 SEC\n{rows}")
 }
 
-fn archive(path: &Path, files: &[(&str, &str)]) {
-    let mut zip = ZipWriter::new(std::fs::File::create(path).unwrap());
-    for (name, text) in files {
-        zip.start_file(*name, SimpleFileOptions::default()).unwrap();
-        zip.write_all(text.as_bytes()).unwrap();
-    }
-    zip.finish().unwrap();
-}
-
 #[test]
 fn records_in_an_archive_are_imported_each() {
     let folder = folder(&[]);
     let (first, second, up) = (at2("140", 0.3), at2("230", 0.2), at2("UP", 0.1));
-    let files = [("a/RSN1_140.AT2", &*first), ("a/RSN1_230.AT2", &second), ("a/RSN1-UP.AT2", &up)];
-    archive(&folder.path().join("r.zip"), &files);
+    let write = |name: &str, bytes: Vec<u8>| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let one = ("a/RSN1_140.AT2", first.as_bytes());
+    write("r.zip", zip(&[one, ("a/RSN1_230.AT2", second.as_bytes()), ("a/RSN1-UP.AT2", up.as_bytes())]));
     let (text, _) = succeed(folder.path(), "import-motions r.zip");
     assert!(text.contains("1 vertical component"), "{text}");
     let found = motions(folder.path());
@@ -50,15 +40,12 @@ fn records_in_an_archive_are_imported_each() {
     succeed(folder.path(), "import-motions r.zip --rotate 140 --force");
     assert_eq!(motions(folder.path()).len(), 1);
     // What is no record is named with its place, and left out if wanted.
-    archive(&folder.path().join("r.zip"), &[files[0], ("a/readme.txt", "Dear colleague,\n")]);
+    write("r.zip", zip(&[one, ("a/readme.txt", b"Dear colleague,\n")]));
     fail(folder.path(), "import-motions r.zip --force", 1, &["imported", "r.zip", "readme.txt"]);
     succeed(folder.path(), "import-motions r.zip --force --keep-going");
     assert_eq!(motions(folder.path()).len(), 1);
     // A single packed file keeps its name.
-    let packed = std::fs::File::create(folder.path().join("one.AT2.gz")).unwrap();
-    let mut packed = flate2::write::GzEncoder::new(packed, flate2::Compression::default());
-    packed.write_all(first.as_bytes()).unwrap();
-    packed.finish().unwrap();
+    write("one.AT2.gz", gzip(first.as_bytes()));
     succeed(folder.path(), "import-motions one.AT2.gz --force");
     assert!(near(number(&motions(folder.path())[0], "pga_m_s2"), 0.3 * 9.81, 0.01));
 }
@@ -101,46 +88,6 @@ fn tables_of_peer_describe_records() {
     }
     let folder = folder(&[("other.AT2", &first), ("about.csv", SEARCH)]);
     fail(folder.path(), "import-motions other.AT2 --about about.csv", 2, &["about.csv"]);
-}
-
-#[test]
-fn a_time_step_that_lowers_the_peak_is_told() {
-    let alternating: String = (0..400)
-        .map(|k| {
-            let t = 0.01 * f64::from(k) - 2.0;
-            format!("{:.6}\n", 3.0 * (-t * t / 0.1).exp() * (100.0 * t).cos())
-        })
-        .collect();
-    let folder = folder(&[("a.csv", &format!("acc (m/s2)\n{alternating}"))]);
-    let import = "import-motions a.csv --dt 0.01 --accept-implausible --force";
-    let (_, kept) = succeed(folder.path(), &format!("{import} --resample 0.005"));
-    let (_, lowered) = succeed(folder.path(), &format!("{import} --resample 0.04"));
-    assert!(!kept.contains("lower") && lowered.contains("% lower"), "{kept} {lowered}");
-}
-
-#[test]
-fn what_is_wrong_with_a_column_is_told_with_its_heading() {
-    let row = |k: u32| {
-        let a = 3.0 * (-(0.01 * f64::from(k) - 2.0).powi(2) / 0.5).exp() * (0.3 * f64::from(k)).cos();
-        format!("{:.2},{a:.5},{:.5}\n", 0.01 * f64::from(k), 1.1 * a.abs())
-    };
-    let rows: String = (0..400).map(row).collect();
-    let folder = folder(&[
-        ("r.csv", &*format!("time (s),NS (m/s2),resultant (m/s2)\n{rows}")),
-        (
-            "cut.csv",
-            &format!(
-                "time (s),NS (m/s2)\n{}",
-                rows.lines()
-                    .take(210)
-                    .map(|row| { row.rsplit_once(',').unwrap().0.to_string() + "\n" })
-                    .collect::<String>()
-            ),
-        ),
-    ]);
-    fail(folder.path(), "import-motions r.csv", 1, &["column 'resultant (m/s2)'", "no sample below 0"]);
-    let (_, told) = succeed(folder.path(), "import-motions cut.csv");
-    assert!(told.contains("cut off?"), "{told}");
 }
 
 /// Names of motions and structures in the responses.

@@ -4,9 +4,7 @@ use rockfrag::inputs::{Grid, Heading, InputError};
 
 /// A text, the names of its columns with their units, the line of its first row, and its rows (text if not a
 /// number).
-type TableCase = (&'static str, &'static str, usize, &'static str);
-
-const CASES: &[TableCase] = &[
+const CASES: &[(&str, &str, usize, &str)] = &[
     // Separators and decimal commas.
     ("pga_g,rate\n0.1,2e-3\n0.2,1e-3\n", "pga:g rate", 2, "0.1 0.002; 0.2 0.001"),
     ("PGA [g];rate\n0,1;0,002\n0,2;0,001\n", "pga:g rate", 2, "0.1 0.002; 0.2 0.001"),
@@ -211,6 +209,11 @@ fn rows_without_all_numbers_are_rows() {
         ("name,w,h\nA,0.5 m,2 m\nB,0.6 m,2 m\n", vec!["A", "B"]),
         ("name,w,h\nA,1e400,2\nB,0.5,2\n", vec!["A", "B"]),
         ("name,w,h\nA,0.5,2\n#2 rack,0.6,2\n// 3,0.6,2\nC,0.5,2\n# end\n", vec!["A", "#2 rack", "// 3", "C"]),
+        ("name,w,h,note\n#2 rack,0.3,1.9\nB,0.5,1.9,x\n", vec!["#2 rack", "B"]),
+        ("name,w,h\n101,0.5,1.9\n#103,0.4,1.9\n", vec!["101", "#103"]),
+        ("name,w,h\n101,0.5,1.9\n# measured in May\n% 3,0.4,1.9\n", vec!["101", "% 3"]),
+        ("name,w,h\n\"server\n#2\",0.3,1.9\n\"B\",0.5,1.9\n", vec!["server\n#2", "B"]),
+        ("name,w,h\n# \"by hand\nB,0.3,1.9\n\"C\n\n\",0.5,1.9\n", vec!["B", "C"]),
         ("name,w,h\n----,---,---\nA,0.5,2\n", vec!["A"]),
         ("shelf; tall,60,180\nrack; low,60,90\n", vec!["shelf; tall", "rack; low"]),
         ("name,lon,lat,0.01,0.02\nTown,-122,37,0.2,0.1\n", vec!["Town"]),

@@ -7,27 +7,11 @@ use rockfrag_core::hazard::{Hazard, PeakHazard};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warnings;
 
-use super::packed::utf_16;
-
-const PGA_G: [f64; 7] = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 4.5];
-
-/// 1e-3 (PGA / 1 g)^-2 a year.
-fn rate(pga_g: f64) -> f64 {
-    1e-3 / (pga_g * pga_g)
-}
-
-/// A table under a heading, with a line for each PGA.
-fn table(heading: &str, line: impl Fn(f64) -> String) -> String {
-    let lines: String = PGA_G.iter().map(|&pga_g| line(pga_g) + "\n").collect();
-    format!("{heading}\n{lines}")
-}
+use super::packed::{PGA_G, exported, rate, table};
 
 /// A curve as OpenQuake exports it, under a header.
 fn openquake(header: &str) -> String {
-    let join = |cell: fn(f64) -> String| PGA_G.map(cell).join(",");
-    let levels = join(|pga_g| format!("poe-{pga_g}"));
-    let poes = join(|pga_g| (-(-50.0 * rate(pga_g)).exp_m1()).to_string());
-    format!("{header}\nlon,lat,depth,{levels}\n13.4,42.3,0.0,{poes}\n")
+    exported(header, 1.0, 1.0)
 }
 
 fn read(files: &[&[u8]], columns: &str) -> Result<(Hazard, Warnings), InputError> {
@@ -67,44 +51,55 @@ fn expect_curve(bytes: &[u8], columns: &str, warning: &str) {
 
 #[test]
 fn one_curve_is_one_curve_however_it_is_written() {
-    let plain = table("pga_g,AFE", |a| format!("{a},{}", rate(a)));
     let comma = |value: f64| value.to_string().replace('.', ",");
     let poe = |years: f64, a: f64| -(-years * rate(a)).exp_m1();
-    for bytes in [
-        plain.clone().into_bytes(),
-        utf_16(&plain.replace(',', "\t"), true, false),
-        table("\"pga_g\",\"AFE\"", |a| format!("\"{}\",\"{}\"", comma(a), comma(rate(a)))).into_bytes(),
-        table("PGA,AFE\n(g),(1/yr)", |a| format!("{a},{}", rate(a))).into_bytes(),
-        table("PGA;PoE in 50 years\n[g];[%]", |a| format!("{};{}", comma(a), comma(100.0 * poe(50.0, a))))
-            .into_bytes(),
-        table("TR;PGA\n[a];[m/s2]", |a| format!("{};{}", 1.0 / rate(a), a * G_M_S2)).into_bytes(),
-        table("Ground Motion (g),AFE PGA", |a| format!("{a},{}", rate(a))).into_bytes(),
-        table("IML (g),lambda (1/a)", |a| format!("{a},{}", rate(a))).into_bytes(),
-        table("pga_g,PE50", |a| format!("{a},{}", poe(50.0, a))).into_bytes(),
-        table("pga_g,PoE 50y (%)", |a| format!("{a},{}", 100.0 * poe(50.0, a))).into_bytes(),
-        table("pga_g,probability_of_exceedance_in_16_years", |a| format!("{a},{}", poe(16.0, a)))
-            .into_bytes(),
-        table("pga_g,PoE in 84 years", |a| format!("{a},{}", poe(84.0, a))).into_bytes(),
-        table("periodo de retorno (años);PGA (g)", |a| format!("{};{a}", 1.0 / rate(a))).into_bytes(),
+    let percent = |a: f64| format!("{a},{}%", 100.0 * poe(50.0, a));
+    let engine = "#,,,\"generated_by='OpenQuake engine 3.18.0', kind='mean', investigation_time=50.0";
+    for text in [
+        table("pga_g,AFE", |a| format!("{a},{}", rate(a))),
+        table("\"pga_g\",\"AFE\"", |a| format!("\"{}\",\"{}\"", comma(a), comma(rate(a)))),
+        table("PGA,AFE\n(g),(1/yr)", |a| format!("{a},{}", rate(a))),
+        table("PGA;PoE in 50 years\n[g];[%]", |a| format!("{};{}", comma(a), comma(100.0 * poe(50.0, a)))),
+        table("TR;PGA\n[a];[m/s2]", |a| format!("{};{}", 1.0 / rate(a), a * G_M_S2)),
+        table("Ground Motion (g),Annual Frequency of Exceedance", |a| format!("{a},{}", rate(a))),
+        table("PGA [m/s^2],AFE", |a| format!("{},{}", a * G_M_S2, rate(a))),
+        table("PGA (%g),mafe", |a| format!("{},{}", a * 100.0, rate(a))),
+        table("# Site 1\nReturn period (years),PGA (g)", |a| format!("{},{a}", 1.0 / rate(a))),
+        table("IML (g),lambda (1/a)", |a| format!("{a},{}", rate(a))),
+        table("pga_g,PE50", |a| format!("{a},{}", poe(50.0, a))),
+        table("pga_g,PoE 50y (%)", |a| format!("{a},{}", 100.0 * poe(50.0, a))),
+        table("pga_g,PoE in 50 years", percent),
+        table("pga_g,PoE in 50 years (%)", percent),
+        table("pga_g,PoE in 50 years (%)", |a| percent(a).replace('%', "")),
+        table("# 42.35, 13.40\npga_g,AFE", |a| format!("{a},{}", rate(a))),
+        table("PGA (g),probability_of_exceedance_in_1_year", |a| format!("{a},{}", poe(1.0, a))),
+        table("pga_g,probability_of_exceedance_in_16_years", |a| format!("{a},{}", poe(16.0, a))),
+        table("pga_g,PoE in 84 years", |a| format!("{a},{}", poe(84.0, a))),
+        table("periodo de retorno (años);PGA (g)", |a| format!("{};{a}", 1.0 / rate(a))),
+        table("return_period,a_g [g]", |a| format!("{},{a}", 1.0 / rate(a))),
         table("TR (years);PGA (cm/s2)", |a| {
             let years = format!("{:.3}", 1.0 / rate(a));
             let (whole, rest) = years.split_once('.').unwrap();
             let (start, end) = whole.split_at(whole.len().saturating_sub(3));
             let point = if start.is_empty() { "" } else { "." };
             format!("{start}{point}{end},{rest};{}", comma(a * 981.0))
-        })
-        .into_bytes(),
-        openquake("# mean, investigation_time=50.0, imt=PGA").into_bytes(),
-        openquake("# kind=\"mean\", investigation_time=50.0, imt=\"PGA\"").into_bytes(),
-        openquake(
-            "#,,,\"generated_by='OpenQuake engine 3.18.0', kind='mean', investigation_time=50.0, imt='PGA'\"",
-        )
-        .into_bytes(),
+        }),
+        openquake("# mean, investigation_time=50.0, imt=PGA"),
+        openquake("# kind=\"mean\", investigation_time=50.0, imt=\"PGA\""),
+        openquake(&format!("{engine}, imt='PGA'\"")),
     ] {
-        expect_curve(&bytes, "", "");
+        expect_curve(text.as_bytes(), "", "");
+    }
+    for (heading, size) in [("T_R [anni];ag [g];F0 [-];TC* [s]", 1.0), ("TR (anni);ag (g/10);F0;TC*", 10.0)] {
+        let text = table(heading, |a| format!("{};{};2,4;0,3", comma(1.0 / rate(a)), comma(size * a)));
+        expect_curve(text.as_bytes(), "", "F0");
     }
     let named = table("Spitze (g),wie oft", |a| format!("{a},{}", rate(a)));
     expect_curve(named.as_bytes(), "pga=Spitze (g),AFE=wie oft", "");
+    let peak = table("Peak (m/s2),AFE", |a| format!("{},{}", a * G_M_S2, rate(a)));
+    expect_curve(peak.as_bytes(), "pga_m_s2=Peak (m/s2)", "");
+    let chance = table("pga_g,Chance[%]", |a| percent(a).replace('%', ""));
+    expect_curve(chance.as_bytes(), "probability_of_exceedance_in_50_years=Chance[%]", "");
 }
 
 #[test]
@@ -126,7 +121,6 @@ fn what_is_not_known_to_be_a_mean_is_not_taken_for_it() {
         (header("max"), "max"),
         (header("quantile-0.85"), "quantile-0.85"),
         ("# quantile-0.85, investigation_time=50.0, imt=PGA".to_string(), "quantile-0.85"),
-        ("# max, investigation_time=50.0, imt=PGA".to_string(), "max"),
         ("# smlt_path=b1, gsimlt_path=b11, investigation_time=50.0, imt=PGA".to_string(), "smlt_path"),
         ("# investigation_time=50.0, imt=PGA".to_string(), "kind"),
     ] {
@@ -146,46 +140,63 @@ fn what_is_not_known_to_be_a_mean_is_not_taken_for_it() {
         expect_curve(text.as_bytes(), "", "median");
         assert!(curves(&[text.as_bytes()], "", "median").is_median);
     }
-    assert!(read(&[plain("# 84th percentile\n").as_bytes()], "").is_err());
-    let mixed =
-        table("pga_g,AFE,statistic", |a| format!("{a},{},{}", rate(a), if a < 1.0 { "mean" } else { "p84" }));
-    assert!(read(&[mixed.as_bytes()], "").is_err());
+    let statistic = |a: f64| if a < 1.0 { "mean" } else { "p84" };
+    let mixed = table("pga_g,AFE,statistic", |a| format!("{a},{},{}", rate(a), statistic(a)));
+    for text in [plain("# 84th percentile\n"), mixed] {
+        assert!(read(&[text.as_bytes()], "").is_err(), "{text}");
+    }
     expect_curve(plain("# mean, not the median; 16 sites, Vs30 = 760\n").as_bytes(), "", "");
 }
 
 #[test]
 fn what_is_no_hazard_is_refused_for_its_reason() {
-    let kind = |text: &str, columns: &str| match read(&[text.as_bytes()], columns).unwrap_err() {
-        InputError::File { error, .. } => format!("{error:?}"),
-        error => format!("{error:?}"),
-    };
-    let curve = |heading: &str| table(heading, |a| format!("{a},{}", rate(a)));
+    let sized = |heading: &str, size: f64| table(heading, |a| format!("{},{}", size * a, rate(a)));
+    let curve = |heading: &str| sized(heading, 1.0);
+    let exported = |rest: &str| openquake(&format!("#,,,\"kind='mean', investigation_time=50.0{rest}\""));
+    let twice = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.5,0.6,0.002\n";
     for (text, columns, named) in [
-        ("hello\n".to_string(), "", "Heading { heading: \"hello\""),
-        ("pga_g,note\n".to_string(), "", "Heading { heading: \"note\""),
-        ("pga_g,AFE\n".to_string(), "", "TooFewPoints(0)"),
-        ("pga_g,AFE\nNA,NA\nNaN,null\n".to_string(), "", "Cell { line: 2"),
-        ("pga_g,AFE\n0.001,NA\n0.01,0.1\n0.1,0.01\n".to_string(), "", "Cell { line: 2"),
-        ("<!DOCTYPE html>\n<html><body>504</body></html>\n".to_string(), "", "a web page"),
-        ("pga_g,AFE\n\"0.1,0.01\n0.2,0.001\n".to_string(), "", "Quote { line: 2"),
-        (
-            "name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n".to_string(),
-            "",
-            "each level from 0.01 to 0.05",
-        ),
-        (curve("PGA (x10 m/s2),AFE"), "", "Heading { heading: \"PGA (x10 m/s2)\""),
-        (curve("pga_g,AFE (1/475 yr)"), "", "Heading { heading: \"AFE (1/475 yr)\""),
-        (table("PGA (cm/s2),AFE", |a| format!("{a},{}", rate(a))), "", "wrong unit"),
-        (curve("pga_g,monthly rate"), "", "Heading { heading: \"monthly rate\""),
-        (curve("pga_g,AFE"), "pgv_m_s=Speed", "Renamed"),
-        (curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),
-        ("PGA (g),AFE\n(m/s2),\n0.1,0.01\n0.2,0.001\n".to_string(), "", "Units"),
-        ("pga_g,AFE\n0.4,0.01\n0.1,0.02\n0.2,0.03\n".to_string(), "", "Cell { line: 4, heading: \"AFE\""),
-        ("pga_g,PoE in 50 years\n0.1,60%\n0.2,0.3\n0.4,1\n".to_string(), "", "Cell { line: 4"),
-        (table("PGV (cm/s),AFE", |a| format!("{},{}", 0.2 * a, rate(a))), "", "wrong unit"),
-        ("TR,pga_g\n50,0.1\n475,0.4\n475,0.4\n".to_string(), "", "Cell { line: 4, heading: \"TR\""),
+        ("pga_g,note\n", "", "Heading { heading: \"note\""),
+        ("pga_g,AFE\n", "", "TooFewPoints(0)"),
+        ("pga_g,AFE\nNA,NA\nNaN,null\n", "", "Cell { line: 2"),
+        ("PGA (g),AFE\n0.1,0.01\n#0.3,0.001\n1,1e-4\n", "", "Cell { line: 3"),
+        ("PGA (g),AFE\n#REF!,0.01\n0.3,0.001\n1,1e-4\n", "", "Cell { line: 2"),
+        ("pga_g,AFE\n0.001,NA\n0.01,0.1\n0.1,0.01\n", "", "Cell { line: 2"),
+        ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", "", "Cell { line: 2"),
+        ("<!DOCTYPE html>\n<html><body>504</body></html>\n", "", "a web page"),
+        ("pga_g,AFE\n\"0.1,0.01\n0.2,0.001\n", "", "Quote { line: 2"),
+        ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "0.01 to 0.05"),
+        ("Period (s),Sa (g)\n0,0.4\n0.1,0.4\n0.5,0.4\n1,0.4\n", "", "uniform"),
+        ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", "", "uniform"),
+        (&exported(""), "", "imt"),
+        (&exported(", imt='SA(0.3)'"), "", "SA(0.3)"),
+        (&curve("intensity,AFE"), "", "Heading { heading: \"intensity\""),
+        (&curve("SA(0.2) (g),AFE"), "", "1 s"),
+        (&curve("SA(1.0) (g),AFE"), "", "SA(1.0 s)"),
+        (&curve("vertical PGA (g),AFE"), "", "vertical"),
+        (&curve("PGA rock (g),AFE"), "", "PGA rock (g)"),
+        (&curve("PGA (x10 m/s2),AFE"), "", "Heading { heading: \"PGA (x10 m/s2)\""),
+        (&curve("pga_g,AFE (1/475 yr)"), "", "Heading { heading: \"AFE (1/475 yr)\""),
+        (&curve("pga_g,monthly rate"), "", "Heading { heading: \"monthly rate\""),
+        (&curve("pga_g,rate per 10 years"), "", "per 10 years"),
+        (&curve("PGA (cm/s2),AFE"), "", "wrong unit"),
+        (&sized("PGV (cm/s),AFE", 0.2), "", "wrong unit"),
+        (&sized("pga_g,AFE", 9.81), "", "m/s2"),
+        (&sized("pgv_m_s,AFE", 60.0), "", "cm/s"),
+        (&table("pga_g,AFE", |a| format!("{a},{}", -(-50.0 * rate(a)).exp_m1())), "", "50 years"),
+        (&curve("pga_g,AFE"), "pgv_m_s=Speed", "Renamed"),
+        (&curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),
+        // A unit that the user names does not replace that of the file.
+        (&curve("Peak (m/s2),AFE"), "pga_g=Peak (m/s2)", "Units"),
+        ("PGA (g),AFE\n(m/s2),\n0.1,0.01\n0.2,0.001\n", "", "Units"),
+        ("pga_g,AFE\n0.4,0.01\n0.1,0.02\n0.2,0.03\n", "", "Cell { line: 4, heading: \"AFE\""),
+        ("pga_g,PoE in 50 years\n0.1,60%\n0.2,0.3\n0.4,1\n", "", "Cell { line: 4"),
+        ("TR,pga_g\n50,0.1\n475,0.4\n475,0.4\n", "", "Cell { line: 4, heading: \"TR\""),
+        ("pga_g,AFE,TR\n0.1,1e-2,100\n0.2,2e-3,475\n0.4,1e-3,475\n", "", "contradict"),
+        ("site,pga_g,AFE\na,0.1,1e-3\nb,0.2,1e-4\n", "", "one site"),
+        (twice, "", "lines 2 and 3"),
     ] {
-        let found = kind(&text, columns);
+        let refusal = read(&[text.as_bytes()], columns).unwrap_err();
+        let found = format!("{refusal}, {refusal:?}");
         assert!(found.contains(named), "{named}: {found}");
     }
 }
@@ -199,33 +210,45 @@ fn curves_given_together_are_of_one_site_and_in_their_units() {
         table(&format!("{place},{heading},AFE"), |a| format!("{values},{},{}", 0.5 * a, 0.02 * rate(a)))
     };
     let pga = with("# vs30 = 760, lon=13.4\n", "pga_g,AFE", 1.0);
+    let [west, south, london, zero] =
+        ["139.70, lat=35.6", "10, lat=45.00", "-0.1276, lat=51.5", "0.0, lat=0.0"]
+            .map(|place| with(&format!("# lon={place}\n"), "pga_g,AFE", 1.0));
     let in_rows = table("lon,lat,pga_g,AFE", |a| format!("13.4,42.3,{a},{}", 0.02 * rate(a)));
     for (first, second, named) in [
         (&pga, with("# Vs30: 360 m/s\n", "SA(1.0) (g),AFE", 0.5), "vs30 760 and 360"),
-        (&pga, with("# lon=13.9\n", "SA(1.0) (g),AFE", 0.5), "lon 13.4 and 13.9"),
         (&pga, at("Vs30 (m/s)", "SA(1.0) (g)", "400"), "vs30 760 and 400"),
         (&in_rows, at("lon,lat", "PGV (m/s)", "13.4,42.9"), "lat 42.3 and 42.9"),
-        (&pga, with("", "SA(1.0) (g),AFE", 9.81), "1.csv: SA(1.0 s) is not 0.1 to 3 times PGA"),
-        (&pga, with("", "SA(1.0) (m/s2),AFE", 0.5), "in g, beside PGA in m/s2"),
+        (&pga, with("", "SA(1.0) (g),AFE", 9.81), "0.1 to 3"),
+        (&pga, with("", "SA(1.0) (m/s2),AFE", 0.5), "m/s2"),
         (&pga, with("", "SA(1.0) (g),AFE", 50.0), "SA(1.0 s) of"),
         (&pga, with("", "SA(1.0) (g),AFE", 1.0), "SA(1.0 s) as PGA"),
+        (&pga, with("", "PGV (cm/s),AFE", 1.0), "PGV/PGA"),
+        (&pga, pga.clone(), "curves of PGA"),
+        (&pga, "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n".to_string(), "PGA and PGV"),
+        (&west, with("# lon=139.713, lat=35.6\n", "SA(1.0) (g),AFE", 0.5), "lon 139.70 and 139.713"),
+        (&south, with("# lon=10, lat=45.02\n", "SA(1.0) (g),AFE", 0.5), "lat 45.00 and 45.02"),
+        (&pga, with("# vs30=765\n", "SA(1.0) (g),AFE", 0.5), "vs30 760 and 765"),
     ] {
         let refusal = read(&[first.as_bytes(), second.as_bytes()], "").unwrap_err().to_string();
         assert!(refusal.contains(named), "{named}: {refusal}");
     }
-    let same = with("# vs30=760.0\n", "SA(1.0) (g),AFE", 0.5);
-    assert!(curves(&[pga.as_bytes(), same.as_bytes()], "", "").pgv_pga.is_some());
+    for (first, place) in
+        [(&pga, "vs30=760.0"), (&london, "lon=-0.128, lat=51.5"), (&zero, "lon=0.0001, lat=0.0")]
+    {
+        let second = with(&format!("# {place}\n"), "SA(1.0) (g),AFE", 0.5);
+        assert!(curves(&[first.as_bytes(), second.as_bytes()], "", "").pgv_pga.is_some());
+    }
 }
 
 #[test]
 fn a_curve_that_is_not_used_is_named() {
     let text = table("pga_g,AFE,AFE 84th", |a| format!("{a},{},{}", rate(a), 2.0 * rate(a)));
     assert!(curves(&[text.as_bytes()], "", "PGA (84 %)").fractiles.is_none());
-    let both = table("pga_g,AFE,AFE p16,AFE p84", |a| {
-        format!("{a},{},{},{}", rate(a), 0.5 * rate(a), 2.0 * rate(a))
-    });
-    assert!(curves(&[both.as_bytes()], "", "").fractiles.is_some());
-    let values =
-        table("AFE,pga_g,pga_m_s2_16,PGA 84th (g)", |a| format!("{},{a},{},{}", rate(a), 5.0 * a, 1.2 * a));
-    assert!(curves(&[values.as_bytes()], "", "").fractiles.is_some());
+    let row = |a: f64, b: f64, low: f64, high: f64| format!("{a},{b},{low},{high}");
+    for text in [
+        table("pga_g,AFE,AFE p16,AFE p84", |a| row(a, rate(a), 0.5 * rate(a), 2.0 * rate(a))),
+        table("AFE,pga_g,pga_m_s2_16,PGA 84th (g)", |a| row(rate(a), a, 5.0 * a, 1.2 * a)),
+    ] {
+        assert!(curves(&[text.as_bytes()], "", "").fractiles.is_some(), "{text}");
+    }
 }

@@ -9,7 +9,7 @@ use strum::VariantArray;
 use crate::writers::*;
 
 fn read(text: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    read_records(text.as_bytes(), &ReadOptions::default())
+    read_with(text, "")
 }
 
 /// A file of 1000 samples, half a unit of their last digit (m/s2), and its labels.
@@ -18,7 +18,6 @@ struct SampleFile {
     text: String,
     half_digit: f64,
     labels: [&'static str; 3],
-    azimuth_deg: f64,
 }
 
 fn each_format() -> [SampleFile; 5] {
@@ -31,28 +30,23 @@ fn each_format() -> [SampleFile; 5] {
     let alaska = [alaska, "AK-BMR UAF Bremner River, AK, USA", "90 deg"];
     let italy = ["NORTHERN_ITALY 20120529 070002", "IT MRN MIRANDOLA", "HNE"];
     let japan = ["2011/03/11 14:46:00", "MYG004 surface", "E-W"];
+    let of = |format, text, half_digit, labels| SampleFile { format, text, half_digit, labels };
     [
-        (RecordFormat::PeerAt2, nga_at2(&samples), 0.5e-7 * G, taiwan, 270.0),
-        (RecordFormat::PeerAt2, old, 0.5e-7 * G, taiwan, 270.0),
-        (RecordFormat::Cosmos, cosmos(&samples, 90), 0.5e-7, alaska, 90.0),
-        (RecordFormat::Esm, esm(&samples), 0.5e-8, italy, 90.0),
-        (RecordFormat::Knet, knet(&samples), 2e-6, japan, 90.0),
+        of(RecordFormat::PeerAt2, nga_at2(&samples), 0.5e-7 * G, taiwan),
+        of(RecordFormat::PeerAt2, old, 0.5e-7 * G, taiwan),
+        of(RecordFormat::Cosmos, cosmos(&samples, 90), 0.5e-7, alaska),
+        of(RecordFormat::Esm, esm(&samples), 0.5e-8, italy),
+        of(RecordFormat::Knet, knet(&samples), 2e-6, japan),
     ]
-    .map(|(format, text, half_digit, labels, azimuth_deg)| SampleFile {
-        format,
-        text,
-        half_digit,
-        labels,
-        azimuth_deg,
-    })
 }
 
 #[test]
 fn what_is_written_is_read() {
     let mean = motion(1000).iter().sum::<f64>() / 1000.0;
-    for SampleFile { format, text, half_digit, labels, azimuth_deg } in each_format() {
+    for SampleFile { format, text, half_digit, labels } in each_format() {
         let [read_motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
         let RecordedMotion { origin, acceleration_m_s2, .. } = read_motion;
+        let azimuth_deg = if format == RecordFormat::PeerAt2 { 270.0 } else { 90.0 };
         assert_eq!((read_motion.format, origin.azimuth_deg), (format.into(), Some(azimuth_deg)));
         let mw =
             [(RecordFormat::Esm, 6.0), (RecordFormat::Knet, 9.0)].into_iter().find(|(of, _)| *of == format);
@@ -89,7 +83,7 @@ fn what_is_cut_off_or_overwritten_is_refused() {
     for SampleFile { format, text, .. } in each_format() {
         let lines: Vec<&str> = text.lines().collect();
         for kept in [1, 12, lines.len() * 4 / 10] {
-            assert!(read(&lines[..kept].join("\n")).is_err(), "{format:?}: {kept} of {} lines", lines.len());
+            assert!(read(&lines[..kept].join("\n")).is_err(), "{format:?}: {kept} lines");
         }
         let (start, end) = (text.len() / 2, text.len() * 3 / 4);
         let zeros = text[..start].to_string() + &"\0".repeat(end - start) + &text[end..];
@@ -104,7 +98,7 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
     let csv = "t;a (g)\n0;1\n0.1;2\n".to_string();
     let files = vec![nga_at2(&samples), cosmos(&samples, 90), esm(&samples), knet(&samples), csv];
     let words = [
-        "99999999999999999999",
+        "9999999999999999999",
         "(",
         "1e999",
         "-1",
@@ -112,7 +106,7 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
         "\0",
         "NPTS=",
         "\n\n",
-        "(4294967296F99999999999",
+        "(4294967296F9999999999",
     ];
     let insert = prop::sample::select(words.to_vec()).prop_map(|text| text.as_bytes().to_vec());
     let edit = prop_oneof![any::<u8>().prop_map(|byte| vec![byte]), insert];
@@ -153,11 +147,8 @@ fn headers_must_agree_with_options() {
     for SampleFile { format, text, .. } in each_format() {
         let [motion] = &read(&text).unwrap()[..] else { panic!("{format:?}: one motion") };
         assert!(!is_vertical(&motion.origin), "{format:?}");
-        for options in [
-            ReadOptions { dt_s: Some(2.0 * DT), ..ReadOptions::default() },
-            ReadOptions { unit: Unit::parse("ft/s2"), ..ReadOptions::default() },
-        ] {
-            let refusal = read_records(text.as_bytes(), &options).unwrap_err();
+        for options in ["dt=0.02", "unit=ft/s2"] {
+            let refusal = read_with(&text, options).unwrap_err();
             assert!(matches!(refusal, RecordFileError::Contradiction { .. }), "{format:?}: {refusal}");
         }
     }

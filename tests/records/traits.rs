@@ -1,13 +1,13 @@
 //! Traits of real files: each is read as the agency means it, or refused.
 
-use rockfrag::inputs::records::{ReadOptions, RecordFileError, is_vertical, read_records};
+use rockfrag::inputs::records::{RecordFileError, is_vertical};
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 
 use crate::writers::*;
 
 fn read(text: &str) -> Vec<RecordedMotion> {
-    read_records(text.as_bytes(), &ReadOptions::default()).unwrap_or_else(|why| panic!("{why}"))
+    read_with(text, "").unwrap_or_else(|why| panic!("{why}"))
 }
 
 /// Fails unless these are the samples (m/s2), to a last digit.
@@ -42,9 +42,7 @@ fn numbers_that_touch_are_parted_before_their_sign() {
     let (head, body) = text.split_once("USER5:\n").unwrap();
     expect_samples(&read(&format!("{head}USER5:\n{}", body.replace("\n-", "-")))[0], &cm, 1e-6);
     // Three signs in a row are damage.
-    assert!(
-        read_records(at2_of(&samples, |a| format!("{a:9.6}--")).as_bytes(), &ReadOptions::default()).is_err()
-    );
+    assert!(read_with(&at2_of(&samples, |a| format!("{a:9.6}--")), "").is_err());
 }
 
 #[test]
@@ -68,7 +66,6 @@ fn at2_has_its_count_under_several_names_or_none() {
         "NPTS=403 DT=0.01",
         "NPTS : 403, DT : 0.01 SEC",
         "403 0.01",
-        "  403    0.0100",
         "403 0.0100 NPTS, DT",
         "npts= 403, dt= .01 sec",
     ] {
@@ -84,31 +81,28 @@ fn vertical_components_have_many_names() {
     let plain = cosmos(&samples, 360);
     let azimuth = format!("{:8}", 360);
     let code = |code: u32| plain.replacen(&azimuth, &format!("{code:8}"), 1);
-    let verticals = [
+    let recorder = |code: &str| plain.replace("| Recorder: QUANTERRA Q330", code);
+    for text in [
         code(400),
         code(401),
         code(402),
         plain.replace("1:360 deg", "1:Down   "),
         plain.replace("1:360 deg", "1: Up    "),
-        plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNZ.XX.10 <AUTH>"),
-    ];
-    for (index, text) in verticals.iter().enumerate() {
-        assert_ne!(*text, plain, "{index}");
-        assert!(is_vertical(&read(text)[0].origin), "{index}");
+        recorder("|<SCNL>12345.HNZ.XX.10 <AUTH>"),
+    ] {
+        assert!(text != plain && is_vertical(&read(&text)[0].origin));
     }
-    let horizontals =
-        [plain.clone(), plain.replace("| Recorder: QUANTERRA Q330", "|<SCNL>12345.HNN.XX.10 <AUTH>")];
-    assert!(horizontals.iter().all(|text| read(text)[0].origin.azimuth_deg == Some(360.0)));
-    for name in [
+    for text in [plain.clone(), recorder("|<SCNL>12345.HNN.XX.10 <AUTH>")] {
+        assert_eq!(read(&text)[0].origin.azimuth_deg, Some(360.0));
+    }
+    let verticals = [
         "DOWN", "VRT", "-UP", "DN", "UPD", "VT", "DWN", "V1", "90V", "Up", "U-D", "vertical", "V", "HNZ",
         "CHY101-V", "Vert.", "UP1", "U-D2",
-    ] {
+    ];
+    let horizontals = ["N", "090", "N90E", "H1", "TR", "LN", "E-W", "H-Z14000", "U1"];
+    for name in verticals.into_iter().chain(horizontals) {
         let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(is_vertical(&read(&text)[0].origin), "{name}");
-    }
-    for name in ["N", "090", "N90E", "H1", "TR", "LN", "E-W", "H-Z14000", "U1"] {
-        let text = nga_at2(&samples).replace(", 270", &format!(", {name}"));
-        assert!(!is_vertical(&read(&text)[0].origin), "{name}");
+        assert_eq!(is_vertical(&read(&text)[0].origin), verticals.contains(&name), "{name}");
     }
 }
 
@@ -118,10 +112,8 @@ fn a_borehole_is_known_by_its_direction() {
         read(&knet(&motion(400)).replace("Dir.              5", &format!("Dir.              {direction}")))[0]
             .is_in_borehole
     };
-    assert_eq!(
-        ["1", "2", "3", "4", "5", "6", "N-S"].map(is_in_borehole),
-        [true, true, true, false, false, false, false]
-    );
+    assert!(["1", "2", "3"].map(is_in_borehole) == [true; 3]);
+    assert!(["4", "5", "6", "N-S"].map(is_in_borehole) == [false; 4]);
 }
 
 #[test]
@@ -132,7 +124,6 @@ fn units_are_read_in_every_notation() {
         ("um/s^2", 1e-6),
         ("nm/s**2", 1e-9),
         ("mGal", 1e-5),
-        ("milligal", 1e-5),
         ("\u{b5}Gal", 1e-8),
         ("m\u{b7}s\u{207b}\u{b2}", 1.0),
         ("m s\u{207b}\u{b2}", 1.0),
@@ -144,14 +135,9 @@ fn units_are_read_in_every_notation() {
         let unit = Unit::parse_acceleration(text).unwrap_or_else(|why| panic!("{text}: {why}"));
         assert!((unit.si / si - 1.0).abs() < 1e-12, "{text}: {}", unit.si);
     }
-    for text in ["m\u{b7}s\u{207b}\u{b9}", "km/s", "Gal/s", "um"] {
+    for text in ["m\u{b7}s\u{207b}\u{b9}", "km/s", "Gal/s", "um", "furlong", "cm"] {
         assert!(Unit::parse_acceleration(text).is_err(), "{text}");
     }
-}
-
-/// Reads a table with options such as `unit=g dt=0.01 column=all`.
-fn read_csv(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
-    read_records(text.as_bytes(), &crate::writers::options(options))
 }
 
 /// A table of times and two or three columns, of the samples, half of them, and a third.
@@ -178,11 +164,9 @@ fn columns_of_directions_are_motions_of_their_own() {
         ("time,ax (g),ay (g),az (g)", G, [None, None]),
         ("t (s),accN (g),accE (g),accZ (g)", G, [Some(0.0), Some(90.0)]),
         ("Time (s),L (g),T (g),V (g)", G, [None, None]),
-        ("t,R (m/s2),T (m/s2),Z (m/s2)", 1.0, [None, None]),
     ] {
-        let read = read_csv(&table(heading, unit, 3, seconds), "").unwrap();
-        let (vertical, horizontal): (Vec<_>, Vec<_>) =
-            read.iter().partition(|motion| is_vertical(&motion.origin));
+        let read = read_with(&table(heading, unit, 3, seconds), "").unwrap();
+        let (vertical, horizontal): (Vec<_>, Vec<_>) = read.iter().partition(|one| is_vertical(&one.origin));
         assert_eq!((vertical.len(), horizontal.len()), (1, 2), "{heading}");
         assert_eq!([0, 1].map(|index: usize| horizontal[index].origin.azimuth_deg), azimuths, "{heading}");
         expect_samples(horizontal[0], &motion(400), 2e-6 * G);
@@ -190,17 +174,17 @@ fn columns_of_directions_are_motions_of_their_own() {
         expect_samples(horizontal[1], &half, 2e-6 * G);
     }
     // Names that are no directions, and one motion in two units, are a question.
-    let unclear = [
+    let in_both = |k: usize| format!("{},{:.7}", seconds(k), motion(400)[k] / G);
+    for (text, options) in [
         (table("n,time,x", G, 1, |k| format!("{k},{}", seconds(k))), "unit=g"),
         (table("time,first,second", G, 2, seconds), "unit=g"),
-        (
-            table("time,acc (g),acc (m/s2)", 1.0, 1, |k| format!("{},{:.7}", seconds(k), motion(400)[k] / G)),
-            "",
-        ),
-    ];
-    let mixed = table("time,NS (g),EW (m/s2)", G, 2, seconds);
-    for (text, options) in unclear.into_iter().chain([(mixed, "")]) {
-        let refusal = read_csv(&text, options);
+        (table("time,Base N-S (g),Roof N-S (g)", G, 2, seconds), ""),
+        (table("time,N-S1 (g),N-S2 (g)", G, 2, seconds), ""),
+        (table("time,acc (g),filtered acc (g)", G, 2, seconds), ""),
+        (table("time,acc (g),acc (m/s2)", 1.0, 1, in_both), ""),
+        (table("time,NS (g),EW (m/s2)", G, 2, seconds), ""),
+    ] {
+        let refusal = read_with(&text, options);
         assert!(matches!(refusal, Err(RecordFileError::Column { .. })), "{}", &text[..40]);
     }
 }
@@ -214,15 +198,19 @@ fn clocks_are_times_and_no_samples() {
             + &table("#Time,RelativeTime(s),N-S(gal),E-W(gal),U-D(gal)", 0.01, 3, relative),
         table("Time,N-S (gal),E-W (gal),U-D (gal)", 0.01, 3, |k| format!("2020-01-20T20:13:{}", second(k))),
         table("datetime,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("2020-01-20T20:13:{}Z", second(k))),
-        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("23:59:{}", second(k))),
+        // Over midnight.
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| match k.checked_sub(200) {
+            None => format!("23:59:{}", second(5800 + k)),
+            Some(after) => format!("00:00:{}", second(after)),
+        }),
     ] {
-        let read = read_csv(&text, "").unwrap_or_else(|why| panic!("{why}: {}", &text[..80]));
+        let read = read_with(&text, "").unwrap_or_else(|why| panic!("{why}: {}", &text[..80]));
         assert!(read.iter().all(|motion| (motion.dt_s - DT).abs() < 1e-9));
         assert_eq!(read.iter().filter(|motion| !is_vertical(&motion.origin)).count(), 2);
         expect_samples(&read[0], &motion(400), 1e-6);
     }
     let gap = |k: usize| format!("00:00:{}", second(k + usize::from(k > 100)));
-    let gap = read_csv(&table("time,acc (g)", G, 1, gap), "");
+    let gap = read_with(&table("time,acc (g)", G, 1, gap), "");
     assert!(matches!(gap, Err(RecordFileError::UnevenTime { line: 103, .. })), "{gap:?}");
 }
 
@@ -235,18 +223,15 @@ fn a_short_line_before_the_last_shows_blocks() {
     let cut: Vec<String> = block(400).lines().map(|line| line.to_string() + "\n").collect();
     let cut = cut[..20].concat() + &cut[20][..45] + "\n" + &cut[20][45..] + &cut[21..].concat();
     let options = "unit=m/s2 dt=0.01 column=all";
-    expect_samples(&read_csv(&block(397), options).unwrap()[0], &motion(397), 1e-5);
-    expect_samples(&read_csv(&block(400), options).unwrap()[0], &motion(400), 1e-5);
+    expect_samples(&read_with(&block(397), options).unwrap()[0], &motion(397), 1e-5);
+    expect_samples(&read_with(&block(400), options).unwrap()[0], &motion(400), 1e-5);
     for (text, line) in [
         (block(397) + &block(397), 40),
         (block(397) + "\n" + &block(400), 40),
         ("velocity\n".to_string() + &block(394) + &block(397) + &block(397), 41),
         (cut, 21),
     ] {
-        let refusal = read_csv(&text, options);
-        assert!(
-            matches!(refusal, Err(RecordFileError::ShortLine { line: at, .. }) if at == line),
-            "{refusal:?}"
-        );
+        let refusal = format!("{:?}", read_with(&text, options));
+        assert!(refusal.starts_with(&format!("Err(ShortLine {{ line: {line},")), "{refusal}");
     }
 }

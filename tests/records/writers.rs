@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::inputs::records::ReadOptions;
+use rockfrag::inputs::records::{ReadOptions, RecordFileError, read_records};
+use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 
 pub const G: f64 = 9.81;
@@ -97,13 +98,14 @@ pub fn knet(samples: &[f64]) -> String {
     )
 }
 
-/// Options such as `unit=g dt=0.01 column=acc`.
-pub fn options(text: &str) -> ReadOptions {
-    let value = |key: &str| text.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
-    ReadOptions {
+/// Reads with options such as `unit=g dt=0.01 column=acc`.
+pub fn read_with(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
+    let value = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
+    let options = ReadOptions {
         dt_s: value("dt").map(|dt| dt.parse().unwrap()),
         unit: value("unit").map(|unit| Unit::parse_acceleration(unit).unwrap()),
         column: value("column").map(str::to_string),
         ..ReadOptions::default()
-    }
+    };
+    read_records(text.as_bytes(), &options)
 }
