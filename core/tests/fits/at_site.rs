@@ -1,19 +1,18 @@
 //! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a
 //! change.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
-    GenericSites, GroundMotion, Hazard, HazardCurve, Lognormal, PairOfPeaks, PeakHazard, PgvPgaRatio,
+    FragilityPoint, GenericSites, GroundMotion, Hazard, HazardCurve, Lognormal, PeakHazard, PgvPgaRatio,
     RateBySource, Site, format_intensity, ratio_of_rates,
 };
-use rockfrag_core::motion::Peaks;
-use rockfrag_core::object::{Object, Restitution, RockingObject, UncertaintySource};
+use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
 use strum::VariantArray;
+
+use crate::common::{close, pair, random};
 
 /// A curve that ends where nothing is stronger.
 fn curve() -> HazardCurve {
@@ -25,22 +24,24 @@ fn over_pga() -> Site {
     Site::new(Hazard::over(Peak::Pga, curve()))
 }
 
+const GENERAL: GenericSites = GenericSites { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
+
+fn uncalibrated(object: &Object) -> RockingObject {
+    RockingObject::uncalibrated(object, MotionKind::Recorded, 0.1).unwrap()
+}
+
 fn block(width: f64) -> RockingObject {
-    RockingObject::uncalibrated(&Object::block("block", width, 1.9), MotionKind::Recorded, 0.1).unwrap()
+    uncalibrated(&Object::block("block", width, 1.9))
 }
 
 #[test]
 fn the_parts_of_a_rate_sum_to_the_rate() {
-    let pair = |k: usize| PairOfPeaks {
-        peaks: Peaks { pga_m_s2: 1.0 + k as f64, pgv_m_s: 0.1 + 0.1 * k as f64 },
-        annual_rate: 1e-3 / (1 + k) as f64,
-        mw: None,
-    };
-    let joint = Site::new(Hazard::Joint((0..12).map(pair).collect()));
+    let pairs = (1..13).map(f64::from).map(|k| pair(k, 0.1 * k, 1e-3 / k));
+    let joint = Site::new(Hazard::Joint(pairs.collect()));
     for site in [over_pga(), joint] {
         let (rate, parts) = (site.overturning(&block(0.5)).unwrap(), site.rate_by_intensity(&block(0.5), 60));
         let sum = parts.rates.iter().sum::<f64>() + parts.beyond;
-        assert!((sum / rate - 1.0).abs() < 1e-3, "{sum} for {rate}");
+        close(sum, rate, 1e-3);
         assert!(parts.rates.iter().filter(|part| **part > 0.01 * rate).count() > 5);
     }
 }
@@ -49,12 +50,10 @@ fn the_parts_of_a_rate_sum_to_the_rate() {
 fn the_fragility_at_a_site_integrates_to_its_rate() {
     let (site, object) = (over_pga(), block(0.5));
     let (rate, points) = (site.rates(&object), site.fragility(&object).unwrap().points);
-    assert!(
-        points
-            .iter()
-            .flat_map(|point| [point.p.failure, point.p.overturning].map(|p| p.estimate().unwrap()))
-            .all(|p| { (0.0..=p.value).contains(&p.low) && (p.value..=1.0).contains(&p.high) })
-    );
+    for p in points.iter().flat_map(|point| [point.p.failure, point.p.overturning]) {
+        let p = p.estimate().unwrap();
+        assert!((0.0..=p.value).contains(&p.low) && (p.value..=1.0).contains(&p.high), "{p:?}");
+    }
     let at = |im: f64, state: LimitState| {
         let after = points.partition_point(|point| point.intensity < im).min(points.len() - 1);
         let [low, high] = [&points[after.saturating_sub(1)], &points[after]];
@@ -67,16 +66,15 @@ fn the_fragility_at_a_site_integrates_to_its_rate() {
     let sums =
         curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
     for (sum, rate) in sums.into_iter().zip([rate.states.overturning, rate.states.failure]) {
-        assert!((sum / rate.value.unwrap() - 1.0).abs() < 1e-3);
+        close(sum, rate.value.unwrap(), 1e-3);
     }
 }
 
 #[test]
 fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
-    let general = GenericSites { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
     for (over, mw) in [(Peak::Pga, None), (Peak::Pga, Some(7.0)), (Peak::Pgv, None), (Peak::Pgv, Some(5.5))] {
         let Lognormal { at_16, theta, beta, largest_error, .. } =
-            GenericSites { over, mw, ..general }.fragility(&block(0.5)).overturning;
+            GenericSites { over, mw, ..GENERAL }.fragility(&block(0.5)).overturning;
         let still = GroundMotion { pga_m_s2: None, pgv_m_s: None, mw, vs30_m_s: None };
         for (level, Interval { value, low, high }) in [(0.16, at_16), (0.5, theta)] {
             let motion = match over {
@@ -94,23 +92,19 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 #[test]
 fn the_fragility_of_a_thin_block_never_falls() {
     // IM4 ends in the domain of the surface at 1.6 g.
-    let thin =
-        RockingObject::uncalibrated(&Object::block("thin", 0.2, 2.4), MotionKind::Recorded, 0.1).unwrap();
+    let thin = uncalibrated(&Object::block("thin", 0.2, 2.4));
     for over in [Peak::Pga, Peak::Pgv] {
-        let general = GenericSites { over, mw: None, vs30_m_s: None, ratio_s: None };
-        for pair in general.fragility(&thin).points.windows(2) {
-            for state in [LimitState::Failure, LimitState::Overturning] {
-                let [before, after] = [&pair[0], &pair[1]].map(|point| point.p.get(state).value.unwrap());
-                assert!(after >= before - 1e-9, "{before} {after} from {} on", pair[0].intensity);
-            }
+        let points = GenericSites { over, ..GENERAL }.fragility(&thin).points;
+        for state in [LimitState::Failure, LimitState::Overturning] {
+            let p = |point: &FragilityPoint| point.p.get(state).value.unwrap();
+            assert!(points.is_sorted_by(|before, after| p(after) >= p(before) - 1e-9), "{over} {state}");
         }
     }
 }
 
 #[test]
 fn what_no_recorded_motion_overturns_has_no_median() {
-    let general = GenericSites { over: Peak::Pga, mw: None, vs30_m_s: None, ratio_s: None };
-    let overturning = general.fragility(&block(1.8)).overturning;
+    let overturning = GENERAL.fragility(&block(1.8)).overturning;
     assert_eq!((overturning.theta.value, overturning.beta), (None, None));
     assert_eq!(format_intensity(Peak::Pga, None), "> 4.5 g");
 }
@@ -120,7 +114,7 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let mut object = Object::block("block", width, 1.9);
     let median = block(width).directions[0].structure.eta;
     object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
-    let mut object = RockingObject::uncalibrated(&object, MotionKind::Recorded, 0.1).unwrap();
+    let mut object = uncalibrated(&object);
     let direction = &mut object.directions[0];
     let ends = direction.model.at_quantiles();
     let Model::Surface { overturning, .. } = &mut direction.model else { panic!("the surface") };
@@ -139,11 +133,9 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     Site { mw: Some(mean), ..of_one_ratio() }.overturning(&object).unwrap()
 }
 
-/// PGV / PGA that does not depend on magnitude.
-const RATIO_S: f64 = 0.1;
-
+/// Of a PGV / PGA that does not depend on magnitude.
 fn of_one_ratio() -> Site {
-    let (peak, curve, pgv_pga) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(RATIO_S)));
+    let (peak, curve, pgv_pga) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(0.1)));
     Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga }))
 }
 
@@ -159,7 +151,7 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
     });
     let ratio = ratio_of_rates(&before, &after, |_| true);
     assert!((ratio.value - drawn(0.6, &[0.0; 5]) / drawn(0.5, &[0.0; 5])).abs() < 1e-9, "two runs");
-    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut random = random(7);
     let mut draws: Vec<f64> = (0..1000)
         .map(|_| {
             let z: Vec<f64> = (0..5).map(|_| StandardNormal.sample(&mut random)).collect();
@@ -177,26 +169,21 @@ fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both()
 
 #[test]
 fn a_change_is_one_thing_and_is_what_it_says() {
-    let object = Object {
-        shape: rockfrag_core::object::Shape { depth: Some(0.8), ..Object::block("a", 0.5, 1.9).shape },
-        ..Object::block("a", 0.5, 1.9)
-    };
+    let block = Object::block("a", 0.5, 1.9);
+    let object = Object { shape: Shape { depth: Some(0.8), ..block.shape }, ..block };
     let changes = object.changes();
-    let sizes: Vec<_> =
-        changes.iter().map(|changed| (changed.object.shape.width, changed.object.shape.depth)).collect();
-    assert!((sizes[0].0.unwrap() - 0.6).abs() < 1e-12 && (sizes[0].1.unwrap() - 0.9).abs() < 1e-12);
-    assert!((sizes[1].0.unwrap() - 0.75).abs() < 1e-12);
+    let [wider, widest] = [&changes[0].object.shape, &changes[1].object.shape];
+    close(wider.width.unwrap(), 0.6, 1e-12);
+    close(wider.depth.unwrap(), 0.9, 1e-12);
+    close(widest.width.unwrap(), 0.75, 1e-12);
     assert_eq!(changes[2].object.shape.centre_height, Some(0.75 * 0.95));
-    let etas: Vec<f64> = changes
-        .iter()
-        .filter_map(|changed| match changed.object.shape.eta {
-            Some(Restitution::Number(eta)) => Some(eta),
-            _ => None,
-        })
-        .collect();
     let median = object.sides().unwrap()[0].structure.eta;
-    let loss = |eta: f64| ((1.0 - eta) / (1.0 - median)).ln();
-    assert!((loss(etas[0]) - 0.4).abs() < 1e-9 && (loss(etas[1]) + 0.4).abs() < 1e-9, "16 and 84 %");
+    let loss = |changed: &Changed| match changed.object.shape.eta {
+        Some(Restitution::Number(eta)) => Some(((1.0 - eta) / (1.0 - median)).ln()),
+        _ => None,
+    };
+    let losses: Vec<f64> = changes.iter().filter_map(loss).collect();
+    assert!((losses[0] - 0.4).abs() < 1e-9 && (losses[1] + 0.4).abs() < 1e-9, "16 and 84 %");
     let upstairs = &changes.iter().find(|changed| changed.object.place.level.is_some()).unwrap().object;
     assert!(upstairs.changes().iter().any(|changed| changed.object.place.level.is_none()), "and down again");
 }

@@ -4,10 +4,13 @@ use std::collections::HashMap;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rockfrag_core::fragility::{Case, Cases, Cluster};
+use rockfrag_core::fragility::{Calibration, Case, Cases, Cluster};
+use rockfrag_core::hazard::PairOfPeaks;
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::random::{Purpose, stream};
 use rockfrag_core::rocking::{Outcome, Structure};
+
+pub use crate::shared::{Row, close};
 
 /// Two measures, a demand and an event in each of 400 cases; 20 make a cell.
 pub struct Data {
@@ -55,15 +58,19 @@ impl Data {
     }
 }
 
+/// Compares with the upper triangle of a covariance, such as column `v_01`.
+#[track_caller]
+pub fn expect_covariance(found: &Calibration, answer: &Row, name: &str, tolerance: f64) {
+    for (k, found) in found.covariance.iter().enumerate() {
+        let (row, column) = (k / 3, k % 3);
+        let expected: f64 = answer.get(&format!("{name}_{}{}", row.min(column), row.max(column)));
+        assert!((found - expected).abs() < tolerance, "{row} {column}: {found}, expected {expected}");
+    }
+}
+
 /// Answers of other programs by name.
 pub fn answers(name: &str) -> HashMap<String, f64> {
     read(name).into_iter().collect()
-}
-
-#[track_caller]
-pub fn close(value: f64, expected: f64, tolerance: f64) {
-    let difference = (value - expected).abs();
-    assert!(difference <= tolerance * expected.abs(), "{value:e}, expected {expected:e}");
 }
 
 pub fn equipment() -> Structure {
@@ -81,6 +88,10 @@ pub fn cases(rows: impl IntoIterator<Item = (Outcome, f64, f64, u32)>) -> Cases 
     }
     cases.sort_clusters();
     cases
+}
+
+pub fn pair(pga_m_s2: f64, pgv_m_s: f64, annual_rate: f64) -> PairOfPeaks {
+    PairOfPeaks { peaks: Peaks { pga_m_s2, pgv_m_s }, annual_rate, mw: None }
 }
 
 pub fn random(seed: u64) -> ChaCha8Rng {

@@ -1,28 +1,27 @@
 //! The universal surface and its calibration, against Python's from the same file and cases
-//! (scripts/universal).
-
-use std::collections::HashMap;
+//! (scripts/universal), and what must hold of it without fits.
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
     Calibration, Case, Cases, Cluster, Event, LimitStates, Measure, Model, MotionKind, Tau, fit_curve,
     p_failure_given_rocking,
 };
-use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::rocking::{Outcome, Structure};
-use rockfrag_core::statistics::Interval;
+use rockfrag_core::statistics::{Interval, normal};
 use rockfrag_core::warning::Warning;
 use strum::VariantArray;
 
-use crate::common::{cases, close, equipment, random, read, rocking};
+use crate::common::{Row, cases, close, equipment, expect_covariance, random, read, rocking};
 
 fn measures(structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> IntensityMeasures {
     IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None)
 }
 
-/// As IM5 and IM4 of the equipment.
-fn at(im4: f64, im5: f64) -> IntensityMeasures {
-    IntensityMeasures::from_peaks(im4, im5)
+/// P_ro, P_ex and P_f of an object that rocks under a motion of unknown magnitude.
+fn given_rocking(model: &Model, structure: &Structure, at: &IntensityMeasures, tau: Tau) -> [Interval; 3] {
+    let given = model.probabilities(structure, at, None, tau).given_rocking.unwrap();
+    [Some(given.p_ro), given.p_ex, given.p_failure].map(Option::unwrap)
 }
 
 fn calibrated(cases: &Cases) -> Model {
@@ -30,101 +29,52 @@ fn calibrated(cases: &Cases) -> Model {
     Model::Surface { overturning, exceeding, floor: None }
 }
 
-#[derive(serde::Deserialize)]
-struct ReferencePoint {
-    kind: MotionKind,
-    p_rad_s: f64,
-    alpha_rad: f64,
-    eta: f64,
-    im3: f64,
-    im4: f64,
-    im5: f64,
-    mw: f64,
-    limit_state: f64,
-    logit_pro: f64,
-    logit_pex: f64,
-    magnitude: f64,
-    added_pro: f64,
-    added_pex: f64,
+/// As IM3, IM4 and IM5 of a row.
+fn measures_of(row: &Row) -> IntensityMeasures {
+    let of_peaks = IntensityMeasures::from_peaks(row.get("im4"), row.get("im5"));
+    IntensityMeasures { im3: Some(row.get("im3")), ..of_peaks }
 }
 
 #[test]
 fn logits_are_those_of_python() {
-    let rows: Vec<ReferencePoint> = read("universal_answers.csv");
+    let rows: Vec<Row> = read("universal_answers.csv");
     assert!(rows.len() >= 50);
     for row in rows {
-        let structure = Structure::new("any", row.p_rad_s, row.alpha_rad, row.eta).unwrap();
-        let ReferencePoint { im3, im4, im5, .. } = row;
-        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
-        let mw = Some(row.mw).filter(|mw| *mw > 0.0);
+        let (structure, mw) = (row.structure(), Some(row.get::<f64>("mw")).filter(|mw| *mw > 0.0));
         let of = |limit| {
-            Calibration::uncalibrated(row.kind, &structure, limit).terms(&structure, &measures, mw).unwrap()
+            let calibration = Calibration::uncalibrated(row.get("kind"), &structure, limit);
+            calibration.terms(&structure, &measures_of(&row), mw).unwrap()
         };
-        let (pro, pex) = (of(None), of(Some(row.limit_state)));
-        let pairs = [
-            (pro.logit, row.logit_pro),
-            (pex.logit, row.logit_pex),
-            (pro.magnitude, row.magnitude),
-            (pro.uplift_term, row.added_pro),
-            (pex.uplift_term, row.added_pex),
-        ];
-        for (ours, theirs) in pairs {
-            assert!((ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0), "{ours} {theirs} {structure:?}");
+        let (pro, pex) = (of(None), of(Some(row.get("limit_state"))));
+        for (ours, column) in [
+            (pro.logit, "logit_pro"),
+            (pex.logit, "logit_pex"),
+            (pro.magnitude, "magnitude"),
+            (pro.uplift_term, "added_pro"),
+            (pex.uplift_term, "added_pex"),
+        ] {
+            let theirs: f64 = row.get(column);
+            assert!((ours - theirs).abs() < 1e-9 * theirs.abs().max(1.0), "{ours}, {column} of {row:?}");
         }
         assert_eq!(pro.magnitude_sd == 0.0, mw.is_some());
     }
 }
 
-#[derive(serde::Deserialize)]
-struct Fitted {
-    kind: MotionKind,
-    structure: String,
-    p_rad_s: f64,
-    alpha_rad: f64,
-    eta: f64,
-    pga_m_s2: f64,
-    pgv_m_s: f64,
-    im3: f64,
-    im4: f64,
-    im5: f64,
-    mw: f64,
-    cluster: String,
-    overturned: u8,
-    edp: Option<f64>,
-}
-
-#[derive(serde::Deserialize)]
-struct Answer {
-    kind: MotionKind,
-    structure: String,
-    event: String,
-    n: i64,
-    n_events: i64,
-    n_clusters: i64,
-    c: f64,
-    ln_s: f64,
-    m: f64,
-    /// The upper triangles of the covariances, `v_01` and `clustered_01`.
-    #[serde(flatten)]
-    covariances: HashMap<String, f64>,
-}
-
 /// The cases of a structure, in their clusters or all in one.
-fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
-    let rows: Vec<&Fitted> =
-        rows.iter().filter(|row| (row.kind, &row.structure) == (answer.kind, &answer.structure)).collect();
-    let Fitted { p_rad_s, alpha_rad, eta, .. } = *rows[0];
-    let structure = Structure::new("any", p_rad_s, alpha_rad, eta).unwrap();
-    let suite = (answer.kind != MotionKind::Recorded).then(|| answer.kind.into());
-    let mut cases = Cases::new(suite, structure);
+fn of_structure(rows: &[Row], answer: &Row, in_clusters: bool) -> Cases {
+    let is_of = |row: &&Row| ["kind", "structure"].iter().all(|of| row.text(of) == answer.text(of));
+    let rows: Vec<&Row> = rows.iter().filter(is_of).collect();
+    let kind: MotionKind = answer.get("kind");
+    let suite = (kind != MotionKind::Recorded).then(|| kind.into());
+    let mut cases = Cases::new(suite, rows[0].structure());
     for row in rows {
-        let Fitted { im3, im4, im5, pga_m_s2, pgv_m_s, .. } = *row;
-        let safe = row.edp.map(Outcome::SafeRocking).filter(|_| row.overturned == 0);
-        let outcome = safe.unwrap_or(Outcome::Overturned);
-        let measures = IntensityMeasures { im3: Some(im3), ..IntensityMeasures::from_peaks(im4, im5) };
-        let cluster = if in_clusters { &row.cluster } else { "one" };
-        let peaks = Peaks { pga_m_s2, pgv_m_s };
-        let case = Case { outcome, measures, peaks, mw: Some(row.mw), cluster: 0 };
+        let outcome = match row.text("overturned") {
+            "0" => Outcome::SafeRocking(row.get("edp")),
+            _ => Outcome::Overturned,
+        };
+        let peaks = Peaks { pga_m_s2: row.get("pga_m_s2"), pgv_m_s: row.get("pgv_m_s") };
+        let case = Case { outcome, measures: measures_of(row), peaks, mw: Some(row.get("mw")), cluster: 0 };
+        let cluster = if in_clusters { row.text("cluster") } else { "one" };
         cases.push(case, Cluster::new(Some(cluster), None, None));
     }
     cases
@@ -132,24 +82,21 @@ fn of_structure(rows: &[Fitted], answer: &Answer, in_clusters: bool) -> Cases {
 
 #[test]
 fn calibrations_are_those_of_python() {
-    let (rows, answers): (Vec<Fitted>, Vec<Answer>) =
+    let (rows, answers): (Vec<Row>, Vec<Row>) =
         (read("calibration_cases.csv"), read("calibration_answers.csv"));
     assert!(answers.len() >= 4);
     for answer in &answers {
-        let limit_state = (answer.event == "pex").then_some(0.1);
+        let limit_state = (answer.text("event") == "pex").then_some(0.1);
         let own = Calibration::fit(&of_structure(&rows, answer, true), limit_state);
-        assert_eq!((own.n, own.n_events, own.n_clusters), (answer.n, answer.n_events, answer.n_clusters));
-        for (ours, theirs) in [(own.c, answer.c), (own.ln_s, answer.ln_s), (own.m, answer.m)] {
+        let counts = ["n", "n_events", "n_clusters"].map(|name| answer.get::<i64>(name));
+        assert_eq!([own.n, own.n_events, own.n_clusters], counts);
+        for (ours, column) in [(own.c, "c"), (own.ln_s, "ln_s"), (own.m, "m")] {
+            let theirs: f64 = answer.get(column);
             assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
         }
+        expect_covariance(&own, answer, "clustered", 1e-9);
         let alone = Calibration::fit(&of_structure(&rows, answer, false), limit_state);
-        for (of, name) in [(&own, "clustered"), (&alone, "v")] {
-            for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
-                let ours = of.covariance[3 * row + column];
-                let theirs = answer.covariances[&format!("{name}_{row}{column}")];
-                assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
-            }
-        }
+        expect_covariance(&alone, answer, "v", 1e-9);
     }
 }
 
@@ -203,21 +150,13 @@ fn probabilities_go_to_0_at_uplift_and_fall_with_the_limit_state() {
         for (p, eta) in [(0.5, 0.75), (2.5, 0.92), (7.8, 0.99)] {
             let structure = Structure::new("any", p, 0.2, eta).unwrap();
             let at = |im4: f64, limit_state: f64| {
-                let of_motion = at(im4, 0.2 * p);
                 let model = Model::uncalibrated(*kind, &structure, limit_state);
-                let given = model.probabilities(&structure, &of_motion, None, Tau::Included);
-                given.given_rocking.unwrap()
+                given_rocking(&model, &structure, &IntensityMeasures::from_peaks(im4, 0.2 * p), Tau::Included)
             };
-            for p in [at(1.0, 0.1).p_ro, at(1.0, 0.1).p_ex.unwrap()] {
-                assert_eq!([p.low, p.value, p.high], [0.0; 3]);
-            }
-            assert!(at(1.0001, 0.1).p_failure.unwrap().value < 1e-3, "{kind} {:?}", at(1.0001, 0.1));
-            let mut last = 1.0;
-            for limit_state in [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.5] {
-                let p = at(2.0, limit_state).p_failure.unwrap().value;
-                assert!(p <= last, "{kind} {limit_state}: {p} {last}");
-                last = p;
-            }
+            assert_eq!(at(1.0, 0.1)[..2], [Interval::exact(0.0); 2]);
+            assert!(at(1.0001, 0.1)[2].value < 1e-3, "{kind} {:?}", at(1.0001, 0.1));
+            let falling = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9, 1.5].map(|limit| at(2.0, limit)[2].value);
+            assert!(falling.is_sorted_by(|before, after| before >= after), "{kind}: {falling:?}");
         }
     }
 }
@@ -243,11 +182,9 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
             assert!(overturning.warnings().contains(&Warning::NoEvents));
             assert_eq!(overturning.warnings().contains(&Warning::FewClusters), n == 8);
             for im4 in [1.2, 2.0, 3.0] {
-                let probabilities =
-                    model.probabilities(&equipment(), &at(im4, im4 / 2.0), None, Tau::Included);
-                let given = probabilities.given_rocking.unwrap();
-                for p in [Some(given.p_ro), given.p_ex, given.p_failure] {
-                    expect_limits(p.unwrap());
+                let motion = IntensityMeasures::from_peaks(im4, im4 / 2.0);
+                for p in given_rocking(&model, &equipment(), &motion, Tau::Included) {
+                    expect_limits(p);
                 }
             }
         }
@@ -268,12 +205,11 @@ fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
     assert!(probit.coefficients.get(1).is_none_or(|slope| *slope > 50.0), "{:?}", probit.coefficients);
     let (with, without) = (calibrated(&with), calibrated(&cases(without)));
     for im4 in [2.0, 3.0, 4.0] {
-        let p_ro = |model: &Model| {
-            let measures = at(im4, im4 / 2.0);
-            model.probabilities(&equipment(), &measures, None, Tau::Averaged).given_rocking.unwrap().p_ro
-        };
-        expect_limits(p_ro(&with));
-        assert!((p_ro(&with).value - p_ro(&without).value).abs() < 0.1);
+        let motion = IntensityMeasures::from_peaks(im4, im4 / 2.0);
+        let p_ro = |model| given_rocking(model, &equipment(), &motion, Tau::Averaged)[0];
+        let (with, without) = (p_ro(&with), p_ro(&without));
+        expect_limits(with);
+        assert!((with.value - without.value).abs() < 0.1);
     }
 }
 
@@ -282,11 +218,7 @@ fn branches_are_joined_by_the_tree_and_one_scenario_is_less_known_than_many() {
     let block = Structure::rectangular_block("block", 0.5, 2.0, None).unwrap();
     let model = Model::uncalibrated(MotionKind::Csgm, &block, 0.1);
     for (pga, pgv) in [(3.0, 0.2), (5.0, 0.6), (9.0, 1.5), (20.0, 5.0)] {
-        let of = |tau| {
-            let p = model.probabilities(&block, &measures(&block, pga, pgv), None, tau);
-            let given = p.given_rocking.unwrap();
-            [Some(given.p_ro), given.p_ex, given.p_failure].map(Option::unwrap)
-        };
+        let of = |tau| given_rocking(&model, &block, &measures(&block, pga, pgv), tau);
         let (one, many) = (of(Tau::Included), of(Tau::Averaged));
         let joined = |of: fn(Interval) -> f64| p_failure_given_rocking(of(one[0]), of(one[1]));
         close(one[2].value, joined(|p| p.value), 1e-12);
@@ -312,10 +244,8 @@ fn what_lies_outside_is_warned_once() {
     assert_eq!(by(&uncalibrated, inside), []);
     assert_eq!(by(&uncalibrated, measures(&equipment(), 500.0, 0.6)), [Warning::Extrapolated]);
     assert_eq!(by(&uncalibrated, measures(&equipment(), 1.0, 0.001)), [], "it does not rock");
-    assert_eq!(
-        by(&Model::uncalibrated(MotionKind::Csgm, &equipment(), 2.0), inside),
-        [Warning::Extrapolated]
-    );
+    let beyond = Model::uncalibrated(MotionKind::Csgm, &equipment(), 2.0);
+    assert_eq!(by(&beyond, inside), [Warning::Extrapolated]);
     let large = Structure::new("large", 20.0, 0.2, 0.92).unwrap();
     assert!(uncalibrated.warnings(&large, &measures(&large, 5.0, 0.1)).contains(&Warning::UnusualStructure));
     // All motions of these cases have a PGA of 1 m/s2 and a PGV of 1 m/s.
@@ -348,4 +278,61 @@ fn limits_at_one_motion_are_1_96_standard_errors_of_the_logit() {
     let of = |mw| uncalibrated.terms(&structure, &of_motion, Some(mw)).unwrap().magnitude;
     assert!((of(7.0) - of(6.0) - 1.0).abs() < 1e-12);
     assert_eq!((of(3.0), of(9.0)), (of(5.0), of(7.6)));
+}
+
+/// A block with its model on the ground.
+fn block(width: f64, height: f64) -> (Structure, Model) {
+    let structure = Structure::rectangular_block("block", width, height, None).unwrap();
+    let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.1);
+    (structure, model)
+}
+
+/// P_nr and P(overturning).
+fn overturning(model: &Model, structure: &Structure, pga_m_s2: f64, pgv_m_s: f64) -> [f64; 2] {
+    let motion = measures(structure, pga_m_s2, pgv_m_s);
+    let probabilities = model.probabilities(structure, &motion, Some(6.9), Tau::Averaged);
+    [probabilities.p_nr, probabilities.limit_states().overturning.unwrap().value]
+}
+
+#[test]
+fn stronger_motions_overturn_more_and_higher_floors_rock_sooner() {
+    for (width, height) in [(0.4, 1.6), (0.8, 2.2), (1.2, 4.0)] {
+        let (structure, model) = block(width, height);
+        for (period_s, level) in [(0.2, 1.0), (0.6, 0.3), (0.6, 1.0), (2.0, 0.6)] {
+            let floor = model.clone().on(Some(Floor { period_s, level })).unwrap();
+            let of = |scale: f64| overturning(&floor, &structure, scale, 0.12 * scale);
+            let all: Vec<[f64; 2]> = (0..60).map(|k| of(0.5 * 1.08_f64.powi(k))).collect();
+            for pair in all.windows(2) {
+                let ([p_nr, p], [later_p_nr, later_p]) = (pair[0], pair[1]);
+                assert!(later_p_nr <= p_nr && later_p >= p - 1e-12, "{period_s} {level}: {pair:?}");
+                assert!((0.0..=1.0).contains(&later_p) && later_p <= 1.0 - later_p_nr + 1e-12);
+            }
+            assert!(all[59][1] > 0.5, "{period_s} {level}");
+        }
+    }
+}
+
+#[test]
+fn a_floor_rocks_as_often_as_its_peak_exceeds_uplift() {
+    let (structure, model) = block(0.8, 2.2);
+    let floor = Floor { period_s: 0.6, level: 1.0 };
+    let ground = Peaks { pga_m_s2: 2.0, pgv_m_s: 0.2 };
+    let (peaks, scatter) = (floor.peaks(ground), floor.amplification(ground).sd_ln_pfa);
+    let z = (peaks.pga_m_s2 / structure.uplift_acceleration_m_s2()).ln() / scatter;
+    let [p_nr, _] = overturning(&model.on(Some(floor)).unwrap(), &structure, 2.0, 0.2);
+    assert!((p_nr - normal::cdf(-z)).abs() < 1e-12, "{p_nr}");
+}
+
+#[test]
+fn level_0_is_the_ground_and_a_rigid_building_moves_with_it() {
+    let (structure, model) = block(0.5, 2.0);
+    for (pga, pgv) in [(3.0, 0.5), (6.0, 0.8), (12.0, 1.5)] {
+        let ground = overturning(&model, &structure, pga, pgv);
+        for (floor, tolerance) in
+            [(Floor { period_s: 0.6, level: 0.0 }, 1e-12), (Floor { period_s: 1e-8, level: 1.0 }, 0.02)]
+        {
+            let found = overturning(&model.clone().on(Some(floor)).unwrap(), &structure, pga, pgv);
+            assert!((found[1] / ground[1] - 1.0).abs() < tolerance, "{floor:?}: {found:?}, {ground:?}");
+        }
+    }
 }

@@ -1,13 +1,15 @@
 //! Curves of overturning (Eqs. 19 to 24): the hybrid measure, parameters with their errors, and what does not
-//! depend on units.
+//! depend on units; the distribution of the capacities of an incremental dynamic analysis.
 
 use proptest::prelude::*;
 use rand::RngExt;
-use rockfrag_core::fragility::{CurveFit, Event, Measure, Parameter, Predictors, fit_curve, fit_curves};
+use rockfrag_core::fragility::{
+    CapacityFit, CurveFit, Event, KnownCapacity, Measure, Parameter, Predictors, fit_curve, fit_curves,
+};
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::{FitStatus, normal};
 
-use crate::common::{answers, cases, close, data, random};
+use crate::common::{answers, cases, close, data, random, read};
 
 const HYBRID: (Measure, Option<Measure>) = (Measure::Im4, Some(Measure::Im3Inverse));
 
@@ -47,22 +49,12 @@ fn curves_equal_statsmodels_and_pyfragility() {
 }
 
 #[test]
-fn the_hybrid_curve_is_the_probit_itself() {
-    let cases = data().overturning();
-    let fit = fit_curve(&cases, Event::Overturning, HYBRID.0, HYBRID.1);
+fn a_hybrid_curve_has_the_parameters_of_its_probit() {
+    let fit = fit_curve(&data().overturning(), Event::Overturning, HYBRID.0, HYBRID.1);
     let b = &fit.coefficients;
-    let [lambda, mu, beta] =
-        [Parameter::Lambda, Parameter::Mu, Parameter::Beta].map(|of| parameter(&fit, of).0);
-    close(lambda, b[1] / b[2], 1e-14);
-    close(beta, 1.0 / (b[1] + b[2]), 1e-14);
-    close(mu, -b[0] / (b[1] + b[2]), 1e-14);
-    for case in [0, 17, 230] {
-        let measures = cases.all[case].measures;
-        let (im4, ratio) = (measures.im4, 1.0 / measures.im3.unwrap());
-        let p = fit.probability(&measures, 0.95).unwrap();
-        close(p.value, normal::cdf(b[0] + b[1] * im4.ln() + b[2] * ratio.ln()), 1e-13);
-        assert!(p.low < p.value && p.value < p.high);
-    }
+    close(parameter(&fit, Parameter::Lambda).0, b[1] / b[2], 1e-14);
+    close(parameter(&fit, Parameter::Beta).0, 1.0 / (b[1] + b[2]), 1e-14);
+    close(parameter(&fit, Parameter::Mu).0, -b[0] / (b[1] + b[2]), 1e-14);
 }
 
 #[test]
@@ -102,11 +94,9 @@ fn grouped_collapses_give_the_known_curve() {
     let ims = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
     let collapses = [0, 0, 0, 4, 6, 13, 12, 16];
     let outcome = |collapsed: bool| if collapsed { Outcome::Overturned } else { Outcome::SafeRocking(0.5) };
-    let rows = ims
-        .iter()
-        .zip(collapses)
-        .flat_map(|(&im, collapsed)| (0..40).map(move |k| (outcome(k < collapsed), im, 1.0, k)));
-    let fit = fit_curve(&cases(rows), Event::Overturning, Measure::Im4, None);
+    let rows = |(im, collapsed)| (0..40).map(move |k| (outcome(k < collapsed), im, 1.0, k));
+    let cases = cases(ims.into_iter().zip(collapses).flat_map(rows));
+    let fit = fit_curve(&cases, Event::Overturning, Measure::Im4, None);
     assert!((parameter(&fit, Parameter::Theta).0 - 1.07612).abs() < 5e-6);
     assert!((parameter(&fit, Parameter::Beta).0 - 0.42924).abs() < 5e-6);
     assert_eq!((fit.n, fit.n_events), (320, 51));
@@ -143,21 +133,69 @@ fn curves_that_cannot_be_made_have_a_status_and_no_numbers() {
     assert!(fit.status == FitStatus::Separated && fit.coefficients.is_empty());
 }
 
+/// Each capacity is a cluster of its own.
+fn fit_capacities(capacities: &[KnownCapacity]) -> Result<CapacityFit, FitStatus> {
+    let clusters: Vec<u32> = (0..capacities.len() as u32).collect();
+    rockfrag_core::fragility::fit_capacities(capacities, &clusters)
+}
+
+#[test]
+fn a_capacity_that_comes_twice_in_a_cluster_counts_once() {
+    let once: Vec<KnownCapacity> = (1..=20).map(|k| KnownCapacity::At(1.1_f64.powi(k * k % 17))).collect();
+    let twice: Vec<KnownCapacity> = once.iter().flat_map(|&capacity| [capacity; 2]).collect();
+    let clusters: Vec<u32> = (0..40).map(|k| k / 2).collect();
+    let width = |fit: CapacityFit| (fit.theta.high / fit.theta.low).ln();
+    let alone = fit_capacities(&twice).unwrap();
+    let of_pairs = rockfrag_core::fragility::fit_capacities(&twice, &clusters).unwrap();
+    close(width(of_pairs) / width(alone), (2.0_f64 * (20.0 / 19.0) * (39.0 / 40.0)).sqrt(), 1e-12);
+    close(of_pairs.theta.value, fit_capacities(&once).unwrap().theta.value, 1e-12);
+}
+
+#[test]
+fn limits_of_known_capacities_are_scipys() {
+    for row in read::<(String, [f64; 6], String)>("capacities.csv") {
+        let (_, [theta, theta_low, theta_high, beta, beta_low, beta_high], capacities) = row;
+        let known = capacities.split(' ').map(|text| KnownCapacity::At(text.parse().unwrap()));
+        let fit = fit_capacities(&known.collect::<Vec<_>>()).unwrap();
+        close(fit.theta.value, theta, 1e-12);
+        close(fit.beta.value, beta, 1e-12);
+        close(fit.theta.low, theta_low, 1e-10);
+        close(fit.theta.high, theta_high, 1e-10);
+        close(fit.beta.low, beta_low, 1e-10);
+        close(fit.beta.high, beta_high, 1e-10);
+    }
+}
+
+#[test]
+fn capacities_beyond_the_scan_count_as_scipy_has_it() {
+    // scipy.stats.norm.fit(CensoredData(uncensored, left=..., right=...)) of the logarithms, refined by
+    // scipy.optimize.
+    let known = [0.4, 0.55, 0.62, 0.8, 0.81, 1.2, 1.7, 2.4].map(KnownCapacity::At);
+    let censored = [KnownCapacity::Above(3.0); 3].into_iter().chain([KnownCapacity::Below(0.3); 2]);
+    let fit = fit_capacities(&known.into_iter().chain(censored).collect::<Vec<_>>()).unwrap();
+    close(fit.theta.value, 1.069_841_029_011_907_4, 1e-8);
+    close(fit.beta.value, 1.281_314_815_684_608_6, 1e-8);
+    assert_eq!(fit_capacities(&[KnownCapacity::At(1.0)]), Err(FitStatus::TooFewEvents));
+    assert_eq!(fit_capacities(&[KnownCapacity::Above(1.0); 9]), Err(FitStatus::TooFewEvents));
+    assert_eq!(fit_capacities(&[KnownCapacity::At(1.0); 3]), Err(FitStatus::Degenerate));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
     #[test]
     fn units_leave_lambda_and_beta_of_a_hybrid(a in -3.0..3.0f64, b in -3.0..3.0f64, seed in 1u64..100_000) {
-        let mut random = random(seed);
+        let (mut random, safe) = (random(seed), Outcome::SafeRocking(0.5));
         let rows: Vec<(Outcome, f64, f64)> = (0..200)
             .map(|k| match k % 2 {
                 0 => (Outcome::Overturned, random.random_range(0.3..1.3), random.random_range(0.2..1.2)),
-                _ => (Outcome::SafeRocking(0.5), random.random_range(0.0..1.0), random.random_range(0.0..1.0)),
+                _ => (safe, random.random_range(0.0..1.0), random.random_range(0.0..1.0)),
             })
             .collect();
         let fit = |a: f64, b: f64| {
-            let row = |(k, (outcome, x, y)): (u32, &(Outcome, f64, f64))| (*outcome, (x + a).exp(), (-y - b).exp(), k);
-            fit_curve(&cases((0..).zip(&rows).map(row)), Event::Overturning, HYBRID.0, HYBRID.1)
+            let moved = rows.iter().map(|(outcome, x, y)| (*outcome, (x + a).exp(), (-y - b).exp()));
+            let rows = moved.zip(0..).map(|((outcome, im4, im3), k)| (outcome, im4, im3, k));
+            fit_curve(&cases(rows), Event::Overturning, HYBRID.0, HYBRID.1)
         };
         let (here, there) = (fit(0.0, 0.0), fit(a, b));
         let of = |fit: &CurveFit, name| parameter(fit, name).0;
@@ -166,6 +204,7 @@ proptest! {
         let moved = (lambda * a + b) / (1.0 + lambda);
         prop_assert!((of(&there, Parameter::Lambda) / lambda - 1.0).abs() < 1e-8);
         prop_assert!((of(&there, Parameter::Beta) / of(&here, Parameter::Beta) - 1.0).abs() < 1e-8);
-        prop_assert!((of(&there, Parameter::Mu) - of(&here, Parameter::Mu) - moved).abs() < 1e-8 * (1.0 + moved.abs()));
+        let mu = of(&there, Parameter::Mu) - of(&here, Parameter::Mu);
+        prop_assert!((mu - moved).abs() < 1e-8 * (1.0 + moved.abs()));
     }
 }

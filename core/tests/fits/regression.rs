@@ -1,7 +1,6 @@
-//! Least squares and probit regression against statsmodels and pyFragility
+//! Least squares, probit regression and distributions against statsmodels, scipy and mpmath
 //! (scripts/reference/fits.py).
 
-use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
@@ -9,19 +8,20 @@ use rockfrag_core::statistics::clusters::clustered_mean;
 use rockfrag_core::statistics::distributions::{
     chi_squared_quantile, chi_squared_upper_tail, f_upper_tail, t_quantile,
 };
+use rockfrag_core::statistics::normal::{cdf, ln_cdf, ln_cdf_and_slope, quantile};
 use rockfrag_core::statistics::scores::{auc, brier_score, log_score};
-use rockfrag_core::statistics::{FitStatus, Folds, least_squares, log_likelihood, probit};
-use rockfrag_core::statistics::{tested_least_squares, tested_probit};
+use rockfrag_core::statistics::{
+    FitStatus, Folds, least_squares, probit, tested_least_squares, tested_probit,
+};
 
-use crate::common::{answers, close, data, random, read};
+use crate::common::{Row, answers, close, data, random, read};
 
 #[test]
 fn probit_equals_statsmodels_where_classes_barely_overlap() {
     let expected = answers("nearly_separated_answers.csv");
-    let rows: Vec<(f64, f64, u8)> = read("nearly_separated.csv");
-    let x: Vec<f64> = rows.iter().map(|row| row.0).collect();
-    let y: Vec<f64> = rows.iter().map(|row| row.1).collect();
-    let events: Vec<bool> = rows.iter().map(|row| row.2 == 1).collect();
+    let rows: Vec<Row> = read("nearly_separated.csv");
+    let [x, y] = ["x", "y"].map(|name| rows.iter().map(|row| row.get(name)).collect::<Vec<f64>>());
+    let events: Vec<bool> = rows.iter().map(|row| row.text("event") == "1").collect();
     let probit = probit(&[&x, &y], &events).unwrap();
     for k in 0..3 {
         close(probit.fit.coefficients[k], expected[&format!("b{k}")], 1e-8);
@@ -58,15 +58,6 @@ fn a_line_where_there_is_a_parabola_is_a_poor_fit() {
 }
 
 #[test]
-fn the_likelihood_is_a_product_of_probabilities() {
-    let x = DMatrix::from_row_slice(3, 2, &[1.0, -0.3, 1.0, 0.4, 1.0, 1.1]);
-    let b = DVector::from_vec(vec![0.2, 0.7]);
-    let p = |case: usize| rockfrag_core::statistics::normal::cdf(0.2 + 0.7 * x[(case, 1)]);
-    let likelihood = p(0) * (1.0 - p(1)) * p(2);
-    close(log_likelihood(&x, &[true, false, true], &b), likelihood.ln(), 1e-13);
-}
-
-#[test]
 fn distributions_equal_scipys() {
     let expected = answers("uncertainty_answers.csv");
     close(chi_squared_upper_tail(7.3, 5.0), expected["chi_squared"], 1e-13);
@@ -85,6 +76,52 @@ fn distributions_equal_scipys() {
     for (share, degrees) in [(0.025, 12.0), (0.975, 0.7), (0.5, 40.5)] {
         close(chi_squared_upper_tail(chi_squared_quantile(share, degrees), degrees), 1.0 - share, 1e-10);
     }
+}
+
+#[test]
+fn normal_probabilities_equal_scipys() {
+    close(cdf(0.5), 0.691_462_461_274_013_1, 1e-15);
+    close(cdf(-10.0), 7.619_853_024_160_525e-24, 1e-13);
+    close(cdf(2.0), 0.977_249_868_051_820_8, 1e-15);
+    // In the far tail.
+    close(ln_cdf(-5.0), -15.064_998_393_988_727, 1e-14);
+    close(ln_cdf(-29.999), -454.291_211_196_123_87, 1e-13);
+    close(ln_cdf(-40.0), -804.608_442_013_754, 1e-13);
+}
+
+#[test]
+fn the_logarithm_of_a_normal_probability_and_its_slope_hold_everywhere() {
+    // mpmath with 40 digits; on both sides of the places where the approximations meet.
+    let expected = [
+        (-1e5, -5_000_000_012.431_864, 100_000.000_01),
+        (-30.0, -454.321_243_956_343_2, 30.033_259_667_433_676),
+        (-5.66, -18.699_251_153_702_78, 5.827_060_206_839_707),
+        (-5.65, -18.641_029_223_787_85, 5.817_325_910_362_102),
+        (-1.5, -2.705_944_400_823_889_8, 1.938_677_166_622_543_3),
+        (-0.664, -1.373_002_468_841_511_7, 1.263_159_264_575_901),
+        (-0.662, -1.370_477_663_784_373_6, 1.261_645_890_163_25),
+        (0.0, -std::f64::consts::LN_2, 0.797_884_560_802_865_4),
+        (0.6629, -0.292_623_998_166_673_5, 0.429_113_966_122_087_4),
+        (0.664, -0.292_152_256_243_063_24, 0.428_598_679_477_312_7),
+        (2.5, -0.006_229_025_485_860_002, 0.017_637_825_486_916_735),
+        (5.7, -5.990_371_419_005_803e-09, 3.513_955_115_870_33e-08),
+        (8.0, -6.220_960_574_271_786e-16, 5.052_271_083_536_9e-15),
+    ];
+    for (x, logarithm, mills) in expected {
+        close(ln_cdf(x), logarithm, 5e-15);
+        close(ln_cdf_and_slope(x).1, mills, 5e-15);
+    }
+}
+
+#[test]
+fn normal_quantiles_invert_the_distribution() {
+    close(quantile(0.975), 1.959_963_984_540_054, 1e-15);
+    close(quantile(1e-300), -37.047_096_299_361_2, 1e-13);
+    for p in [1e-12, 0.001, 0.3, 0.5, 0.8, 0.999] {
+        close(cdf(quantile(p)), p, 1e-13);
+    }
+    assert_eq!(quantile(0.0), f64::NEG_INFINITY);
+    assert_eq!(quantile(1.0), f64::INFINITY);
 }
 
 #[test]
@@ -113,10 +150,8 @@ fn whole_clusters_are_left_out_once() {
         let mut left_out_in_all = Vec::new();
         for fold in 0..folds.count {
             let (kept, left_out) = folds.split(fold);
-            assert!(
-                left_out.iter().all(|out| kept.iter().all(|kept| of[*kept] != of[*out])),
-                "one cluster, one fold"
-            );
+            let is_apart = |out: &usize| kept.iter().all(|kept| of[*kept] != of[*out]);
+            assert!(left_out.iter().all(is_apart), "one cluster, one fold");
             assert!(left_out.len().abs_diff(of.len() / folds.count) <= 4);
             left_out_in_all.extend(left_out);
         }
@@ -159,26 +194,21 @@ fn threads_do_not_change_a_bit() {
     assert_eq!(on(1), on(3));
 }
 
-/// Both classes on one line and each on its own side of it, turned by `angle`: quasi-complete separation.
-fn touching_on_a_line(angle: f64, seed: u64) -> (Vec<f64>, Vec<f64>, Vec<bool>) {
-    let mut random = random(seed);
-    let mut case = |k: usize| {
-        let side = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let across = if k < 20 { 0.0 } else { side * random.random_range(0.0..1.0) };
-        let along = random.random_range(0.0..4.0);
-        (across * angle.cos() - along * angle.sin(), across * angle.sin() + along * angle.cos())
-    };
-    let (x, y) = (0..60).map(&mut case).unzip();
-    (x, y, (0..60usize).map(|k| k.is_multiple_of(2)).collect())
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn classes_that_touch_on_a_line_are_separated(angle in 0.0..6.3f64, seed in 1u64..100_000) {
-        let (x, y, events) = touching_on_a_line(angle, seed);
+        // Both classes on one line and each on its own side of it, turned by `angle`.
+        let mut random = random(seed);
+        let events: Vec<bool> = (0..60).map(|k| k % 2 == 0).collect();
+        let case = |k: usize| {
+            let side = if events[k] { 1.0 } else { -1.0 };
+            let across = if k < 20 { 0.0 } else { side * random.random_range(0.0..1.0) };
+            let along = random.random_range(0.0..4.0);
+            (across * angle.cos() - along * angle.sin(), across * angle.sin() + along * angle.cos())
+        };
+        let (x, y): (Vec<f64>, Vec<f64>) = (0..60).map(case).unzip();
         prop_assert_eq!(probit(&[&x, &y], &events).unwrap_err(), FitStatus::Separated);
     }
-
 }

@@ -1,12 +1,15 @@
-//! The event tree (Eq. 12), limits of failure, and the tree as the paper answers it.
+//! The event tree (Eq. 12), limits of failure, the tree as the paper answers it, and its printed numbers.
 
 use proptest::prelude::*;
 use rockfrag_core::fragility::{
-    Event, LimitStates, Measure, fit_curve, fit_demand, independent_failure, p_failure,
+    Event, LimitStates, Measure, fit_curve, fit_demand, hybrid_measure, independent_failure, p_failure,
     p_failure_given_rocking, p_no_rocking, paper_probabilities,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::paper::{ETA, EXAMPLE_LAMBDA, Published, STRUCTURES, example, published, seed_values};
+use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::{Interval, normal};
+use rockfrag_core::studies::comparison::{Comparison, compare};
 
 use crate::common::{close, equipment, rocking};
 
@@ -34,6 +37,7 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
         let p_ro = normal::cdf(b[0] + b[1] * im4.ln() - b[2] * im3.ln());
         close(given.p_ex.unwrap().value, p_ex, 1e-12);
         close(given.p_ro.value, p_ro, 1e-12);
+        assert!(given.p_ro.low < p_ro && p_ro < given.p_ro.high, "{given:?}");
         close(given.p_failure.unwrap().value, p_ro + (1.0 - p_ro) * p_ex, 1e-12);
     }
     let uplift = equipment().uplift_acceleration_m_s2();
@@ -49,18 +53,78 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
     assert_eq!(at(9.0, 0.0).failure, None, "no velocity, no IM3");
 }
 
+#[test]
+fn the_worked_example_prints_half_of_one_and_the_error_function() {
+    // PGA 0.5 g, PGA/PGV 2 1/s: hybrids 1.55 and 1.88 in the paper, 0.73 and 0.81.
+    for ((name, p, alpha), (printed, probability)) in STRUCTURES.into_iter().zip([(1.55, 0.73), (1.88, 0.81)])
+    {
+        let measures = example(&Structure::new(name, p, alpha, ETA).unwrap());
+        let im = hybrid_measure(measures.im4, 1.0 / measures.im3.unwrap(), EXAMPLE_LAMBDA);
+        assert!((im - printed).abs() < 0.005, "{im}");
+        assert!((normal::cdf(2f64.sqrt() * im.ln()) - probability).abs() < 0.005);
+    }
+}
+
+#[test]
+fn published_numbers_lie_in_their_prints_and_have_twenty_seeds() {
+    let rows = compare(&[], &[]);
+    assert_eq!(rows.len(), published().len());
+    for row in published().iter().filter(|row| row.published.is_some()) {
+        let (low, high) = (row.print_low.unwrap(), row.print_high.unwrap());
+        assert!(low <= row.published.unwrap() && row.published.unwrap() <= high, "{row:?}");
+    }
+    for row in rows.iter().filter(|row| row.published.is_some()) {
+        assert!(row.seeds >= 17 && row.mean.is_some() && row.ours.is_none() && row.z.is_none(), "{row:?}");
+    }
+    // The print of ln a of the low planes of pulses leaves more open than our seeds differ.
+    let is_open = |(row, print): &(&Comparison, Published)| {
+        let (Some(mean), Some(sd), Some(low)) = (row.mean, row.sd, print.print_low) else { return false };
+        let high = print.print_high.unwrap();
+        (low..=high).contains(&mean) && high - low > 2.0 * sd && !row.quantity.starts_with("example")
+    };
+    let open = rows.iter().zip(published()).filter(is_open);
+    let open: Vec<_> = open.map(|(row, _)| (&row.quantity[..], &row.suite[..])).collect();
+    assert_eq!(open, [("low_ln_a", "pulse"); 2]);
+    let t2_p: Vec<f64> = rows.iter().filter_map(|row| row.t2_p).collect();
+    let unmatched = t2_p.iter().filter(|p| **p < 1e-4).count();
+    assert_eq!((t2_p.len(), unmatched), (8, 3), "three combined planes are not matched");
+}
+
+#[test]
+fn ours_are_found_in_the_fits() {
+    let mut cases = rocking(1200);
+    cases.structure.name = "electrical-equipment".to_string();
+    let planes = fit_demand(&cases, Some(1.3), 0.95, &[], false);
+    let curves = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)]
+        .map(|(x, y)| fit_curve(&cases, Event::Overturning, x, y));
+    let rows = compare(&planes, &curves);
+    let ours = |quantity: &str, structure: &str| {
+        let is_it = |row: &&Comparison| {
+            (&row.quantity[..], &row.suite[..], &row.structure[..]) == (quantity, "csgm", structure)
+        };
+        rows.iter().find(is_it).unwrap().ours
+    };
+    let equipment = |quantity: &str| ours(quantity, "electrical-equipment").unwrap();
+    close(equipment("low_b2"), planes[0].coefficients[2], 1e-15);
+    close(equipment("high_r2"), planes[1].r2.unwrap(), 1e-15);
+    close(equipment("r2_pooled"), planes[0].r2_pooled.unwrap(), 1e-15);
+    close(equipment("transition"), planes[0].transition_found.unwrap(), 1e-15);
+    let b = &curves[0].coefficients;
+    close(equipment("hybrid_lambda"), b[1] / b[2], 1e-15);
+    let structure = Structure::new("", 2.5, 0.2, 0.92).unwrap();
+    let p = curves[0].probability(&example(&structure), 0.95).unwrap().value;
+    close(equipment("example_p_ro"), p, 1e-10);
+    close(equipment("example_half_erf"), 0.81, 0.01);
+    assert_eq!((ours("low_b1", "frame"), ours("im5_beta", "frame")), (None, None));
+    assert_eq!(seed_values().iter().filter(|row| row.quantity == "high_b1").count(), 80);
+}
+
 /// Phi(z), with limits.
 fn around(z: f64, half_width: f64) -> Interval {
     Interval::shifted(half_width, |shift| normal::cdf(z + shift))
 }
 
 proptest! {
-    #[test]
-    fn failure_is_at_least_as_likely_as_either_way_to_it(ro in 0.0..=1.0f64, ex in 0.0..=1.0f64) {
-        let failure = p_failure_given_rocking(ro, ex);
-        prop_assert!(failure >= ro.max(ex) - 1e-15 && failure <= 1.0);
-    }
-
     #[test]
     fn limits_of_failure_enclose_it_and_those_of_both(
         (ro, ro_half) in (-45.0..45.0f64, 0.0..80.0f64), (ex, ex_half) in (-45.0..45.0f64, 0.0..80.0f64),
@@ -70,7 +134,8 @@ proptest! {
         prop_assert!(0.0 <= p.low && p.low <= p.value && p.value <= p.high && p.high <= 1.0, "{p:?}");
         prop_assert!((p.value - p_failure_given_rocking(ro.value, ex.value)).abs() < 1e-14);
         let least = |a: f64, b: f64| a.max(b) * (1.0 - 1e-12);
-        prop_assert!(p.low >= least(ro.low, ex.low) && p.high >= least(ro.high, ex.high), "{p:?} {ro:?} {ex:?}");
+        prop_assert!(p.low >= least(ro.low, ex.low), "{p:?} {ro:?} {ex:?}");
+        prop_assert!(p.high >= least(ro.high, ex.high), "{p:?} {ro:?} {ex:?}");
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-mod known_records;
 mod plausibility;
 mod processing;
 mod pulses;

@@ -8,13 +8,13 @@ use crate::{DT, G, motion};
 #[test]
 fn the_motions_of_the_references_are_plausible_but_for_half_pulses() {
     let mut half_pulses = 0;
-    for motion in reference_motions() {
+    for (id, motion) in reference_motions() {
         match implausibility(&motion.acceleration_m_s2, motion.dt_s) {
             // The strongest synthetic motions are as strong as few records.
             None | Some(Implausibility::RarePga { .. } | Implausibility::RarePgv { .. }) => {}
             // Half-sine and rectangular pulses end with a velocity, or never turn.
             Some(Implausibility::Drift { .. } | Implausibility::OneSided) => half_pulses += 1,
-            Some(other) => panic!("{}: {other}", motion.motion_id),
+            Some(other) => panic!("{id}: {other}"),
         }
     }
     assert_eq!(half_pulses, 11);
@@ -51,8 +51,6 @@ fn every_limit_is_kept() {
     }
     let impossible =
         [Implausibility::Still, Implausibility::Pga { pga_g: 30.0 }, Implausibility::TimeStep { dt_s: 1.0 }];
-    assert!(
-        impossible.iter().all(Implausibility::is_impossible)
-            && !Implausibility::RarePga { pga_g: 3.0 }.is_impossible()
-    );
+    assert!(impossible.iter().all(Implausibility::is_impossible));
+    assert!(!Implausibility::RarePga { pga_g: 3.0 }.is_impossible());
 }

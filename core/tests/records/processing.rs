@@ -2,13 +2,11 @@
 
 use std::f64::consts::PI;
 
+use rockfrag_core::motion::measures::{peak, velocity};
 use rockfrag_core::records::rotation::{HorizontalPair, Parts, pairs};
 use rockfrag_core::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
 use rockfrag_core::records::{Origin, RecordedMotion};
-
 use rockfrag_core::units::Unit;
-
-use rockfrag_core::motion::measures::peak;
 
 use crate::{DT, motion};
 
@@ -118,7 +116,7 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
 #[test]
 fn motions_are_scaled_by_factors_or_to_peaks() {
     let samples = motion(400);
-    let pgv = peak(&rockfrag_core::motion::measures::velocity(&samples, DT));
+    let pgv = peak(&velocity(&samples, DT));
     assert_eq!(Scaling::Factors(vec![0.5, 2.0]).factors(&samples, DT), [0.5, 2.0]);
     near(&Scaling::Pga(1.5).factors(&samples, DT), [1.5 / peak(&samples)], 1e-12);
     near(&Scaling::Pgv(0.4).factors(&samples, DT), [0.4 / pgv], 1e-12);

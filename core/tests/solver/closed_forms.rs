@@ -3,18 +3,17 @@
 
 use std::f64::consts::PI;
 
-use rockfrag_core::rocking::{Outcome, Record, Structure, simulate};
+use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::units::G_M_S2;
 
-use crate::shared::rows;
+use crate::shared::{Row, close, respond, rows};
 
 const P: f64 = 1.0;
 const TOLERANCE: f64 = 1e-4;
 const SAMPLES: usize = 4000;
 
 fn overturns(alpha: f64, eta: f64, samples: &[f64], dt: f64) -> bool {
-    let structure = Structure::new("slender", P, alpha, eta).unwrap();
-    simulate(&structure, &Record::new(samples, dt).unwrap()).outcome == Outcome::Overturned
+    respond(&Structure::new("slender", P, alpha, eta).unwrap(), samples, dt).outcome == Outcome::Overturned
 }
 
 /// The value between two at which an outcome changes, by bisection.
@@ -26,10 +25,6 @@ fn changes(mut low: f64, mut high: f64, overturns: impl Fn(f64) -> bool) -> f64 
         *(if overturns(middle) == at_low { &mut low } else { &mut high }) = middle;
     }
     0.5 * (low + high)
-}
-
-fn assert_close(found: f64, expected: f64, about: &str) {
-    assert!((found / expected - 1.0).abs() < TOLERANCE, "{about}: {found}; expected {expected}");
 }
 
 /// A sine of circular frequency `w` (rad/s) and amplitude `r` g tan(alpha), for so many half cycles, and the
@@ -51,7 +46,7 @@ fn rectangular_pulses_overturn_as_housner_says() {
         let duration = |dt: f64| (SAMPLES as f64 - 0.5) * dt;
         let found = duration(changes(1e-5, 2e-3, |dt| overturns(alpha, 0.9, &samples, dt)));
         let expected = (1.0 + 1.0 / (2.0 * r * (r - 1.0))).acosh() / P;
-        assert_close(found, expected, &format!("r {r}"));
+        close(found, expected, TOLERANCE);
     }
 }
 
@@ -71,31 +66,21 @@ fn half_sines_overturn_without_an_impact_as_linear_theory_says() {
             let (samples, dt) = sine(alpha, r, w, 1.0);
             overturns(alpha, 0.9, &samples, dt)
         });
-        assert_close(found, expected, &format!("w/p {w}"));
+        close(found, expected, TOLERANCE);
     }
-}
-
-#[derive(Debug, serde::Deserialize)]
-struct Edge {
-    w_p: f64,
-    r: f64,
-    overturns_above: u8,
-    impacts: u32,
 }
 
 #[test]
 fn one_sines_overturn_after_an_impact_and_without_one_as_linear_theory_says() {
     // scripts/reference/one_sine.py. Differences are those of sin(alpha) from alpha.
     let alpha = 1e-3_f64;
-    let edges: Vec<Edge> = rows("rocking/one_sine.csv");
-    assert!([0, 1].iter().all(|mode| edges.iter().any(|edge| edge.impacts == *mode)));
-    for edge in &edges {
+    for edge in rows::<Row>("rocking/one_sine.csv") {
+        let (w_p, r): (f64, f64) = (edge.get("w_p"), edge.get("r"));
         let at = |r: f64| {
-            let (samples, dt) = sine(alpha, r, edge.w_p * P, 2.0);
+            let (samples, dt) = sine(alpha, r, w_p * P, 2.0);
             overturns(alpha, 0.9, &samples, dt)
         };
-        let found = changes(0.995 * edge.r, 1.005 * edge.r, at);
-        assert_close(found, edge.r, &format!("{edge:?}"));
-        assert_eq!(at(1.005 * edge.r), edge.overturns_above == 1, "{edge:?}");
+        close(changes(0.995 * r, 1.005 * r, at), r, TOLERANCE);
+        assert_eq!(at(1.005 * r), edge.get::<u8>("overturns_above") == 1, "{edge:?}");
     }
 }

@@ -4,24 +4,17 @@ use std::f64::consts::FRAC_PI_2;
 use std::mem::discriminant;
 
 use proptest::prelude::*;
-use rockfrag_core::rocking::{Outcome, Problem, Record, Structure, simulate, simulate_all};
+use rockfrag_core::rocking::{Outcome, Record, Structure, simulate};
+
+use crate::shared::respond;
 
 /// Records of steps, spikes and plateaus: below, exactly at and just above the uplift threshold (`1.0`),
 /// zeros, tiny numbers, 10 g, and the largest accepted.
 fn shapes() -> impl Strategy<Value = Vec<(f64, usize)>> {
-    let level = prop_oneof![
-        Just(0.0),
-        Just(1.0),
-        Just(-1.0),
-        Just(1.0 + f64::EPSILON),
-        Just(-1.0 - 1e-12),
-        Just(1.000001),
-        Just(f64::MIN_POSITIVE * f64::EPSILON),
-        Just(1e-310),
-        -4.0..4.0f64,
-        Just(f64::INFINITY),
-        Just(f64::NEG_INFINITY),
-    ];
+    let near_uplift = vec![1.0, -1.0, 1.0 + f64::EPSILON, -1.0 - 1e-12, 1.000001];
+    let extreme = vec![0.0, f64::MIN_POSITIVE * f64::EPSILON, 1e-310, f64::INFINITY, f64::NEG_INFINITY];
+    let some = prop::sample::select([near_uplift, extreme].concat());
+    let level = prop_oneof![10 => some, 1 => -4.0..4.0f64];
     let length = prop_oneof![Just(1usize), Just(2), 1..12usize];
     prop::collection::vec((level, length), 1..16)
 }
@@ -57,7 +50,8 @@ proptest! {
         let record = Record::new(&samples, dt_s).unwrap();
         let uplift = structure.uplift_acceleration_m_s2();
         let response = simulate(&structure, &record);
-        prop_assert!(response.outcome.demand().is_none_or(|demand| (0.0..1e9).contains(&demand)), "{response:?}");
+        let demand = response.outcome.demand();
+        prop_assert!(demand.is_none_or(|demand| (0.0..1e9).contains(&demand)), "{response:?}");
         let rests = response.outcome == Outcome::NoRocking;
         // Exactly at the threshold, rounding decides.
         prop_assert!(!rests || record.peak_m_s2() <= uplift * (1.0 + 1e-12), "{response:?}");
@@ -74,21 +68,12 @@ proptest! {
         // beyond it overturns.
         let structure = Structure::new("s", p, alpha, eta).unwrap();
         let uplift = structure.uplift_acceleration_m_s2();
-        let samples = |scale: &dyn Fn(&(f64, f64)) -> f64, more: usize| -> Vec<f64> {
-            let pushed = push.iter().map(|level| uplift * scale(level));
-            pushed.chain(std::iter::repeat_n(uplift, more)).chain([0.0]).collect()
+        let under = |(share, longer): (f64, usize)| {
+            let pushed = push.iter().map(|(level, more)| uplift * (level + share * more));
+            let held = pushed.chain(std::iter::repeat_n(uplift, longer));
+            respond(&structure, &held.chain([0.0]).collect::<Vec<f64>>(), dt_s)
         };
-        let rising = [
-            samples(&|(level, _)| *level, 0),
-            samples(&|(level, more)| level + 0.5 * more, 0),
-            samples(&|(level, more)| level + more, 0),
-            samples(&|(level, more)| level + more, longer),
-        ];
-        let problems = rising.each_ref().map(|samples| {
-            let record = Record::new(samples, dt_s).unwrap();
-            Problem { structure: &structure, record }
-        });
-        for pair in simulate_all(&problems).windows(2) {
+        for pair in [(0.0, 0), (0.5, 0), (1.0, 0), (1.0, longer)].map(under).windows(2) {
             // What overturns lies beyond all demands.
             let [less, more] = [0, 1].map(|k| pair[k].outcome.demand().unwrap_or(f64::INFINITY));
             prop_assert!(more >= less * (1.0 - 1e-9), "{pair:?}");
@@ -106,14 +91,12 @@ proptest! {
         let coarse: Vec<f64> = levels.iter().map(|level| level * uplift_m_s2).collect();
         let middles = coarse.windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
         let fine: Vec<f64> = middles.chain(coarse.last().copied()).collect();
-        let of = |samples, dt_s| simulate(&structure, &Record::new(samples, dt_s).unwrap());
-        let (coarse, fine) = (of(&coarse, dt_s), of(&fine, 0.5 * dt_s));
-        let [coarse, fine] = [coarse, fine].map(|response| response.outcome);
+        let coarse = respond(&structure, &coarse, dt_s).outcome;
+        let fine = respond(&structure, &fine, 0.5 * dt_s).outcome;
         prop_assert_eq!(discriminant(&coarse), discriminant(&fine));
         let [coarse, fine] = [coarse, fine].map(|outcome| outcome.demand().unwrap_or(0.0));
         prop_assert!((coarse - fine).abs() <= 1e-6 * coarse, "{coarse} {fine}");
     }
-
 }
 
 #[test]
@@ -123,8 +106,7 @@ fn an_uplift_a_rounding_before_a_sample_is_an_uplift() {
     let uplift = structure.uplift_acceleration_m_s2();
     for after in [vec![], vec![0.0], vec![0.0; 9]] {
         let samples = [vec![-uplift, uplift * (1.0 + f64::EPSILON)], after].concat();
-        let record = Record::new(&samples, 1e-6).unwrap();
-        let response = simulate(&structure, &record);
+        let response = respond(&structure, &samples, 1e-6);
         assert!(matches!(response.outcome, Outcome::SafeRocking(..1e-12)), "{response:?}");
     }
 }
@@ -137,8 +119,7 @@ fn a_perfect_bounce_on_a_plateau_comes_to_its_end() {
         let mut samples = vec![0.0, 2.1, -98.1];
         samples.resize(40, -98.1);
         samples.extend([0.0; 10]);
-        let record = Record::new(&samples, 0.1 / p).unwrap();
-        let response = simulate(&structure, &record);
+        let response = respond(&structure, &samples, 0.1 / p);
         assert!(response.outcome.demand().is_none_or(f64::is_finite), "{response:?}");
         assert!(response.impacts <= 10_000 * samples.len() as u32, "{response:?}");
     }
