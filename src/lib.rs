@@ -1,5 +1,6 @@
 //! The pipeline of the command `rockfrag` over Parquet files. The science is [`rockfrag_core`].
 
+pub mod answer;
 pub mod chart;
 pub mod cli;
 pub mod document;

@@ -1,108 +1,99 @@
-//! The page of fragilities: the intensities of one peak at which half of the motions overturn each object.
+//! The document of fragilities: the intensities of one peak at which half of the motions overturn each
+//! object.
 
-use rockfrag_core::fragility::{LimitState, Peak};
-use rockfrag_core::hazard::{Fragility, Lognormal, format_intensity};
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Lognormal, strongest};
+use rockfrag_core::statistics::Interval;
 
-use super::answers::Outline;
 use super::list::doubts;
-use super::object::{HEIGHT, averaged, curve, curves_panel, fragility_panel, model_in_words, sketch};
-use super::page::{Page, Table};
-use crate::chart::text::{literal, words};
-use crate::chart::{Figure, Ink, Layer};
-use crate::number::{self, significant};
-use crate::table::answers::{Answer, FragilityRow, ObjectRow};
+use super::phrases::{ANGLES, facts};
+use super::{Document, Table};
+use crate::answer::{Answer, AnswerTable};
+use crate::figures::answers;
+use crate::number::{counted, plain, significant};
 
-/// The most objects whose curves are drawn in one panel, each in a colour.
-const DRAWN: usize = 6;
-
-/// The fragility of one object with all its limit states, or overturning of several.
-pub fn figure(all: &[Answer<FragilityRow>], outline: Option<Outline>) -> Figure {
-    let known: Vec<(&ObjectRow, &Fragility)> =
-        all.iter().filter_map(|one| Some((&one.object, one.row.curve.as_ref()?))).collect();
-    let Some((object, first)) = known.first() else { return Figure::default() };
-    if known.len() == 1 {
-        let sketch = outline.map(|outline| sketch(&outline, object));
-        let panels = sketch.into_iter().chain([fragility_panel(first, object, None)]).collect();
-        return Figure::new("fragility", &object.marked_title(), 2, HEIGHT, panels);
-    }
-    let mut layers = Vec::new();
-    for (number, (object, fragility)) in known.iter().take(DRAWN).enumerate() {
-        let marks = curve(fragility, LimitState::Overturning, known.len() < 3);
-        layers.push(Layer::line(&object.name_and_floor(), Ink::Data(number), marks));
-    }
-    let rest = match known.len().saturating_sub(DRAWN) {
-        0 => String::new(),
-        rest => format!(" Not drawn: {} that take a stronger motion.", number::counted(rest, "object")),
+/// Sorted, the weakest first.
+pub fn document(table: &AnswerTable) -> Document {
+    let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
+    let Some((weakest, over)) = answered.first().and_then(|first| Some((*first, first.fragility.over?)))
+    else {
+        return Document::default();
     };
-    let (what, averaged) = (first.over.name_and_unit().0, averaged(first.over));
-    let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
-    let panel = curves_panel(first.over, layers);
-    let title = "How strong a motion overturns each object";
-    Figure::new("fragility", title, 1, 1.6 * HEIGHT, vec![panel]).explained(caption)
-}
-
-/// The page of fragilities, those that need least first; at a site, with its hazard in words.
-pub fn page(all: &[Answer<FragilityRow>], outline: Option<Outline>, hazard: Option<&str>) -> Page {
-    let notes = doubts(&all.iter().collect::<Vec<_>>());
-    let known = all.iter().find_map(|one| Some((&one.object, one.row.curve.as_ref()?)));
-    let Some((weakest, fragility)) = known else {
-        return Page { title: "No object has an answer".to_string(), notes, ..Page::default() };
-    };
-    let what = fragility.over.name_and_unit().0;
-    let (title, half) = match all {
-        [one] => (words(&one.object.marked_title()), "Half".to_string()),
-        _ => (
-            format!("{}: how strong a motion overturns them", number::counted(all.len(), "object")),
-            format!("{} is the weakest: half", weakest.marked_name()),
+    let (what, of) = (over.name_and_unit().0, &weakest.fragility.overturning);
+    let half = format!("half of the motions at a {what} of {}", with_limits(over, of.theta));
+    let (title, lead, rows) = match &table.rows[..] {
+        [one] => (one.object.title(), format!("It is overturned by {half}."), states(one, over)),
+        all => (
+            format!("{}: how strong a motion overturns them", counted(all.len(), "object")),
+            format!("{} is the weakest: it is overturned by {half}.", weakest.object.called()),
+            objects(all, over),
         ),
     };
-    Page {
+    let lognormal = of.beta.zip(of.largest_error).filter(|_| table.rows.len() == 1).map(|(beta, error)| {
+        let [beta, error] = [beta, error].map(|value| significant(value, 2));
+        format!("Overturning is lognormal with beta {beta}, within {error}.")
+    });
+    let site = if table.hazard_key().is_some() { table.hazards() } else { ", for generic sites".to_string() };
+    Document {
         title,
-        place: match hazard {
-            Some(hazard) => format!("Fragility over {what}; hazard: {}", literal(hazard)),
-            None => format!("Fragility over {what}, for generic sites"),
-        },
-        sentence: format!(
-            "{half} of the motions overturn it at a {}.",
-            half_in_words(fragility.over, &fragility.overturning)
-        ),
-        facts: model_in_words(weakest).into_iter().collect(),
-        tables: vec![table(all, what)],
-        notes,
-        figures: vec![figure(all, outline)],
-        ..Page::default()
+        place: format!("Fragility over {what}{site}"),
+        lead: vec![lead],
+        facts: lognormal.into_iter().chain(facts(&answered, None)).collect(),
+        glossary: ANGLES.to_string(),
+        tables: vec![rows],
+        notes: doubts(&answered),
+        figures: vec![answers::fragilities(&answered, over)],
+        ..Document::default()
     }
 }
 
-/// The intensity at which half of the motions overturn an object: `PGA of 0.83 g`.
-pub fn half_in_words(over: Peak, Lognormal { theta, .. }: &Lognormal) -> String {
-    let of = if theta.value.is_some() { "of " } else { "" };
-    format!("{} {of}{}", over.name_and_unit().0, format_intensity(over, theta.value))
+/// An intensity with its unit; beyond all records without a number.
+fn written(over: Peak, intensity: Option<f64>) -> String {
+    let (_, unit, symbol) = over.name_and_unit();
+    match intensity {
+        Some(value) => format!("{} {symbol}", significant(value, 2)),
+        None => format!("> {} {symbol}", plain(strongest(over) / unit)),
+    }
 }
 
-/// The intensity of one half, its limits after words, and those of 16 and 84 %.
-pub fn cells(over: Peak, Lognormal { at_16, theta, at_84, .. }: &Lognormal, words: &str) -> Vec<String> {
-    let [low, high] = [theta.low, theta.high].map(|limit| format_intensity(over, limit));
-    let limits = theta.low.map_or(String::new(), |_| format!("({words}{low} to {high})"));
-    let [theta, at_16, at_84] = [theta, at_16, at_84].map(|at| format_intensity(over, at.value));
-    vec![theta, limits, at_16, at_84]
+fn limits(over: Peak, of: Interval<Option<f64>>) -> String {
+    let [low, high] = [of.low, of.high].map(|limit| written(over, limit));
+    of.low.map_or(String::new(), |_| format!("{low} to {high}"))
 }
 
-fn table(all: &[Answer<FragilityRow>], what: &str) -> Table {
-    let half = format!("half overturn at a {what} of");
+fn with_limits(over: Peak, of: Interval<Option<f64>>) -> String {
+    let limits = of.low.map_or(String::new(), |_| format!(" (95 % limits {})", limits(over, of)));
+    written(over, of.value) + &limits
+}
+
+/// The intensity of one half with its limits, those of 16 and 84 %, and the dispersion.
+fn cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: &Lognormal) -> [String; 5] {
+    let [half, low, high] = [theta, at_16, at_84].map(|at| written(over, at.value));
+    [half, limits(over, *theta), low, high, beta.map_or(String::new(), |beta| significant(beta, 2))]
+}
+
+fn states(answer: &Answer, over: Peak) -> Table {
+    let half = format!("half at a {} of", over.name_and_unit().0);
+    let too_far = format!("{}, or overturns", answer.object.too_far());
+    let row = |name: &str, of: &Lognormal| [vec![name.to_string()], cells(over, of).to_vec()].concat();
+    let rows =
+        vec![row(&too_far, &answer.fragility.failure), row("overturns", &answer.fragility.overturning)];
+    Table::new(&["", &half, "95 % limits", "16 %", "84 %", "beta"], rows)
+}
+
+fn objects(answers: &[Answer], over: Peak) -> Table {
+    let half = format!("half overturn at a {} of", over.name_and_unit().0);
     let heads = ["object", &half, "95 % limits", "16 %", "84 %", "beta", "half rock too far, or overturn at"];
-    let mut rows = Vec::new();
-    for one in all {
-        let mut row = vec![one.object.name_and_floor()];
-        match &one.row.curve {
-            None => row.extend(["", "not assessed"].map(str::to_string)),
-            Some(Fragility { over, overturning, failure, .. }) => {
-                row.extend(cells(*over, overturning, "").iter().map(|cell| cell.replace(['(', ')'], "")));
-                row.push(overturning.beta.map_or(String::new(), |beta| significant(beta, 2)));
-                row.push(format_intensity(*over, failure.theta.value));
+    let rows = answers.iter().map(|answer| {
+        let mut row = vec![answer.object.name_and_floor()];
+        match answer.is_answered() {
+            true => {
+                row.extend(cells(over, &answer.fragility.overturning));
+                row.push(written(over, answer.fragility.failure.theta.value));
             }
+            false => row.push(answer.reason()),
         }
-        rows.push(row);
-    }
-    Table::new(&heads, rows)
+        row
+    });
+    Table::new(&heads, rows.collect())
 }

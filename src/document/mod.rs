@@ -1,26 +1,152 @@
-//! Answers and responses in a reader's words, and the HTML page.
+//! Documents of rows, and what writes them.
 //!
 //! ```text
-//! page       the HTML page: sections of tables and figures
-//! answers    objects with their rates, in a reader's words
-//! probabilities  rows of probabilities
-//! object     the page of one object
+//! phrases    every sentence about an answer
+//! object     the document of one object
 //! list       of several
-//! compare    of two evaluations
-//! fragility  of objects without a hazard
+//! fragility  of the fragility of objects
+//! compare    of two tables of answers
 //! response   of a response over time, and the block as it moves
+//! results    of all tables of a folder
+//! text       a document for a terminal
+//! html       as a page
 //! workbook   a table as a workbook
 //! ```
 
-pub mod answers;
 pub mod compare;
-pub mod fragility;
-pub mod list;
-pub mod object;
-mod page;
-mod probabilities;
+mod fragility;
+mod html;
+mod list;
+mod object;
+pub mod phrases;
 pub mod response;
+mod text;
 mod workbook;
 
-pub use page::{Page, Section, Table, Tile};
+use rockfrag_core::hazard::Site;
+
+use crate::answer::AnswerTable;
+use crate::chart::Figure;
+use crate::figures::answers::AtSite;
 pub use workbook::workbook;
+
+/// What is told of rows, from top to bottom. All texts are marked, see [`crate::chart::text`].
+#[derive(Debug, Clone, Default)]
+pub struct Document {
+    pub title: String,
+    /// Author and date, as far as given.
+    pub byline: String,
+    /// Where it stands and at which site.
+    pub place: String,
+    /// The result, in sentences. What the title is about is "It" in the first.
+    pub lead: Vec<String>,
+    /// The numbers that answer what is asked first.
+    pub tiles: Vec<Tile>,
+    /// Of a page, the first stands beside the first figure if that is of one panel, else below it; others
+    /// below all figures.
+    pub tables: Vec<Table>,
+    /// What was asked, and what the result rests on.
+    pub facts: Vec<String>,
+    /// What words of the tables and figures mean.
+    pub glossary: String,
+    /// Warnings that change a decision.
+    pub notes: Vec<String>,
+    pub figures: Vec<Figure>,
+    /// Folded: method, tests, files.
+    pub sections: Vec<Section>,
+}
+
+/// A number in large letters, with what it is.
+#[derive(Debug, Clone, Default)]
+pub struct Tile {
+    pub number: String,
+    pub words: String,
+}
+
+#[derive(Debug, Clone, Default)]
+pub struct Section {
+    pub heading: String,
+    pub paragraphs: Vec<String>,
+    pub tables: Vec<Table>,
+    pub figures: Vec<Figure>,
+}
+
+/// Rows of cells, of which the last may be missing; the first column has their names. A column in which
+/// nothing stands is not shown.
+#[derive(Debug, Clone, Default)]
+pub struct Table {
+    pub caption: String,
+    pub heads: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A column of a table that is shown.
+struct Column<'a> {
+    head: &'a str,
+    /// Whether all its cells are numbers, which are set to the right.
+    is_number: bool,
+    cells: Vec<&'a str>,
+}
+
+impl Section {
+    pub fn new(heading: &str) -> Section {
+        Section { heading: heading.to_string(), ..Section::default() }
+    }
+}
+
+impl Tile {
+    pub fn new(number: impl Into<String>, words: impl Into<String>) -> Tile {
+        Tile { number: number.into(), words: words.into() }
+    }
+}
+
+impl Table {
+    pub fn new(heads: &[&str], rows: Vec<Vec<String>>) -> Table {
+        let heads = heads.iter().map(|head| head.to_string()).collect();
+        Table { heads, rows, ..Table::default() }
+    }
+
+    pub fn explained(self, caption: &str) -> Table {
+        Table { caption: caption.to_string(), ..self }
+    }
+
+    fn columns(&self) -> impl Iterator<Item = Column<'_>> {
+        self.heads.iter().enumerate().filter_map(|(at, head)| {
+            let cells: Vec<&str> =
+                self.rows.iter().map(|row| row.get(at).map_or("", String::as_str)).collect();
+            let mut written = cells.iter().filter(|cell| !cell.is_empty()).peekable();
+            written.peek()?;
+            let is_number = at > 0 && written.all(|cell| is_number(cell));
+            Some(Column { head, is_number, cells })
+        })
+    }
+}
+
+fn is_number(cell: &str) -> bool {
+    cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
+}
+
+impl Document {
+    /// The document of answers: of one object, of several, or of fragilities. The site gives what is drawn
+    /// and said of its hazard.
+    pub fn of_answers(table: &AnswerTable, site: Option<&Site>, drawn: Option<&AtSite>) -> Document {
+        let mut sorted = table.clone();
+        sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
+        let hazard = site.map(|site| &site.hazard);
+        match &sorted.rows[..] {
+            rows if rows.iter().any(|answer| answer.fragility.over.is_some()) => fragility::document(&sorted),
+            [one] => object::document(&sorted, one, hazard, drawn),
+            _ => list::document(&sorted, hazard),
+        }
+    }
+
+    /// Whether there is something to show.
+    pub fn has_content(&self) -> bool {
+        !(self.lead.is_empty() && self.tables.is_empty() && self.figures.is_empty())
+    }
+
+    /// The figure that says most, by itself.
+    pub fn main_figure(&self) -> Figure {
+        self.figures.first().cloned().unwrap_or_default()
+    }
+}

@@ -4,7 +4,7 @@ use rockfrag_core::rocking::{SolverEvent, Structure};
 use rockfrag_core::statistics::Range;
 use rockfrag_core::units::G_M_S2;
 
-use super::page::Page;
+use super::Document;
 use crate::chart::round;
 use crate::chart::text::{escape, file_words, literal, words};
 use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Words};
@@ -151,11 +151,11 @@ pub fn figures(all: &[Trace]) -> Vec<Figure> {
     all.iter().enumerate().map(|(id, response)| figure(response, id)).collect()
 }
 
-/// The page of responses: what came of each, and what moves.
-pub fn page(all: &[Trace]) -> Page {
+/// The document of responses: what came of each, and what moves.
+pub fn document(all: &[Trace]) -> Document {
     let overturned = all.iter().filter(|response| response.overturned_at().is_some()).count();
     let (title, sentence) = match all {
-        [one] => (words(&one.title()), one.sentence()),
+        [one] => (one.title(), one.sentence()),
         all => (
             format!("{} over time", number::counted(all.len(), "response")),
             format!("{overturned} of {} overturn.", all.len()),
@@ -165,7 +165,7 @@ pub fn page(all: &[Trace]) -> Page {
     for (figure, response) in figures.iter_mut().zip(all).filter(|_| all.len() > 1) {
         figure.caption = format!("{} {}", response.sentence(), figure.caption);
     }
-    Page { title, sentence, figures, ..Page::default() }
+    Document { title, lead: vec![sentence], figures, ..Document::default() }
 }
 
 /// The block as it moves in real time, from a click on its button: a picture without any code. All blocks are

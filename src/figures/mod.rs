@@ -1,6 +1,7 @@
 //! The figures of responses and fits, numbered as in the paper where they are of the paper's. Of nothing to
 //! draw, a figure has no panels.
 
+pub mod answers;
 pub mod common;
 mod demand;
 mod map;

@@ -12,11 +12,9 @@
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
 //! capacities  intensities that overturn, one row for each motion and structure
-//! answers     what is predicted, one row for each object
 //! frame       tables as polars frames, and their text, CSV and JSON
 //! ```
 
-pub mod answers;
 pub mod capacities;
 mod checksums;
 pub mod columns;

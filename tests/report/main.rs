@@ -1,23 +1,26 @@
 //! The report: each figure as SVG, PNG and CSV, and the page.
 
 use resvg::{tiny_skia::Pixmap, usvg};
+use rockfrag::answer::{
+    Answer, AnswerTable, FragilityColumns, ObjectColumns, RateColumns, StateColumns, UncertaintyColumns,
+    Variant,
+};
 use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, png, svg};
-use rockfrag::document::answers::{Change, Evaluation, Outline, Portrait, Rated, SiteHazard};
-use rockfrag::document::fragility;
 use rockfrag::document::response::{self, Trace};
-use rockfrag::document::{Page, Section, Table};
-use rockfrag::document::{compare, list, object};
+use rockfrag::document::{Document, Section, Table, compare};
+use rockfrag::figures::answers::AtSite;
 use rockfrag::figures::common::{observed_shares, ratio_bins};
 use rockfrag::figures::*;
 use rockfrag::number;
-use rockfrag::table::answers::{Answer, FragilityRow, ObjectRow, RatesRow, UncertaintyRow};
 use rockfrag::table::motions::MotionRow;
 use rockfrag::table::responses::TraceRow;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandFit, Event, LimitStates, Measure, Peak, fit_curve, fit_planes, fit_power_law,
+    Case, Cases, DemandFit, Event, LimitStates, Measure, MotionKind, Peak, fit_curve, fit_planes,
+    fit_power_law,
 };
-use rockfrag_core::hazard::{Fragility, FragilityPoint, HazardCurve, RateByIntensity};
+use rockfrag_core::hazard::{FragilityPoint, Hazard, HazardCurve, Site};
 use rockfrag_core::motion::IntensityMeasures;
+use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::rocking::{Outcome, SolverEvent, Structure};
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::{ReliabilityBin, observed_share};
@@ -71,55 +74,71 @@ fn limited(value: f64) -> Interval<Option<f64>> {
     Interval { value, low: 0.3 * value, high: 3.0 * value }.into()
 }
 
-/// An evaluation of so many objects, one on a floor, with all that a page of one shows.
-fn evaluation(count: usize, rate: f64) -> Evaluation {
-    let rated = |row: usize| Rated {
-        object: ObjectRow {
-            structure: format!("fra*me*{row} {}", "rack ".repeat(20)),
+/// Answers for so many objects, one on a floor, with all that a page of one shows.
+fn answers(count: usize, rate: f64) -> AnswerTable {
+    let answer = |row: usize| Answer {
+        object: ObjectColumns {
+            structure: format!("fra*me*{row} {}", "rack ".repeat(9)),
             floor_level: (row == 1).then_some(0.6),
             floor_period_s: Some(0.5),
-            ..ObjectRow::default()
+            p_rad_s: Some(2.7),
+            ..ObjectColumns::default()
         },
-        row: RatesRow {
+        p: StateColumns { p_overturning: limited(50.0 * rate / (1 + row) as f64), ..StateColumns::default() },
+        rates: RateColumns {
             overturning_per_year: limited(rate),
-            p_overturning: limited(50.0 * rate / (1 + row) as f64),
-            ..RatesRow::default()
+            years: Some(50.0),
+            target: Some(0.01),
+            ..RateColumns::default()
         },
-        doubts: UncertaintyRow {
+        uncertainty: UncertaintyColumns {
             error_eta: Some(0.4),
             error_velocity: Some(0.3),
-            ..UncertaintyRow::default()
+            ..UncertaintyColumns::default()
         },
-        ..Rated::default()
+        ..Answer::default()
     };
-    let outline =
-        Outline { width: 0.5, height: 2.0, centre_height: 1.0, centre_offset: 0.0, alpha_rad: 0.245 };
-    let parts = RateByIntensity { edges: vec![1.0, 5.0, 10.0], rates: vec![4e-4, 5e-4], beyond: 1e-4 };
-    let hazard = HazardCurve::new(vec![(0.1, 0.1), (10.0, 1e-4)]).unwrap();
-    Evaluation {
-        when: "in 50 years".to_string(),
-        target: Some(0.01),
-        rows: (0..count).map(rated).collect(),
-        portrait: Portrait {
-            outline: Some(outline),
-            fragility: Some(curve(count)),
-            hazard: Some(SiteHazard { peak: Peak::Pga, curve: hazard, parts }),
-            changes: vec![
-                Change { words: "as it is".to_string(), is_moved: false, p: vec![limited(0.02)] },
-                Change { words: "base of 0.60 m".to_string(), is_moved: false, p: vec![limited(0.01)] },
-            ],
-        },
-        ..Evaluation::default()
-    }
+    let rows: Vec<Answer> = (0..count).map(answer).collect();
+    let variant = |words: &str, p: f64| Variant {
+        structure: rows.first().map_or(String::new(), |answer| answer.object.structure.clone()),
+        variant: words.to_string(),
+        p_overturning: limited(p),
+        ..Variant::default()
+    };
+    let variants = vec![variant("as it is", 0.02), variant("base of 0.60 m", 0.01)];
+    AnswerTable { rows, variants, made: Vec::new() }
 }
 
-fn curve(count: usize) -> Fragility {
+/// What is drawn of a block at a site.
+fn at_site() -> AtSite {
+    let curve = HazardCurve::new(vec![(0.1, 0.1), (10.0, 1e-4)]).unwrap();
+    let block = Object::block("block", 0.5, 2.0);
+    let rocking = RockingObject::uncalibrated(&block, MotionKind::Recorded, 0.1).unwrap();
+    AtSite::new(&Site::new(Hazard::over(Peak::Pga, curve)), &rocking).unwrap()
+}
+
+/// The figure of answers.
+fn figure_of(table: &AnswerTable, drawn: Option<&AtSite>) -> Figure {
+    Document::of_answers(table, None, drawn).main_figure()
+}
+
+fn fragile(count: usize) -> Answer {
     let point = |k: usize| FragilityPoint {
         intensity: 0.981 * (1 + k) as f64,
         p: LimitStates { rocking: 1.0, failure: 0.5, overturning: 0.4 }
             .map(|p| Interval::around(p, 0.1).into()),
     };
-    Fragility::from_points(Peak::Pga, (0..count).map(point).collect())
+    Answer {
+        object: ObjectColumns {
+            width_m: Some(0.5),
+            height_m: Some(2.0),
+            alpha_rad: Some(0.2),
+            ..Default::default()
+        },
+        fragility: FragilityColumns { over: Some(Peak::Pga), ..FragilityColumns::default() },
+        points: (0..count).map(point).collect(),
+        ..Answer::default()
+    }
 }
 
 /// A block that rocks to one side, strikes, and overturns to the other.
@@ -172,8 +191,7 @@ fn figures(count: usize) -> Vec<Figure> {
     };
     let motions = [record("csgm"), record("pulse")];
     let motions = &motions[..1 + count.min(1)];
-    let [before, after] = [1e-3, 4e-4].map(|rate| evaluation(count.min(20), rate));
-    let one = evaluation(1, 1e-3);
+    let [before, after] = [1e-3, 4e-4].map(|rate| answers(count.min(20), rate));
     let fit = json!([{ "structure": "a", "measure": "scale", "n": count, "n_safe": 0, "n_below": 0,
         "theta": { "value": 0.3, "low": null, "high": null }, "beta": { "value": 0.5, "low": null, "high": null }, "status": "ok" }]);
     let capacity = json!({ "motion_id": "1", "structure": "a", "measure": "scale", "unscaled": 1.0,
@@ -195,9 +213,8 @@ fn figures(count: usize) -> Vec<Figure> {
         n: 4,
         observed: 1,
     };
-    let row = FragilityRow { curve: Some(curve(count)), ..FragilityRow::default() };
-    let fragile = Answer { object: one.rows[0].object.clone(), row, ..Answer::default() };
-    let fragile = vec![fragile; count.min(9)];
+    let fragile = AnswerTable { rows: vec![fragile(count); count.min(9)], ..AnswerTable::default() };
+    let compared = compare::document(&before, &after).map(|document| document.main_figure());
     vec![
         motion(motions),
         demand(&groups),
@@ -209,10 +226,10 @@ fn figures(count: usize) -> Vec<Figure> {
         overturning(&tables, &suites),
         hybrids(&tables, &suites),
         maps(&tables, &suites),
-        object::figure(&one, &one.rows[0]),
-        list::figure(&before),
-        compare::figure(&compare::pairs(&before, &after), "in 50 years", Some(0.01)),
-        fragility::figure(&fragile, None),
+        figure_of(&answers(1, 1e-3), Some(&at_site())),
+        figure_of(&before, None),
+        compared.unwrap_or_default(),
+        figure_of(&fragile, None),
         response::figure(&traced(count), 0),
         ida(&analyses, &capacities, &stripes),
         validation(&vec![bin; count]),
@@ -290,7 +307,8 @@ fn the_page_is_static_and_escapes_what_it_holds() {
     let sections = vec![Section { tables: vec![table.clone()], ..Default::default() }];
     let (title, figures) = ("{sentence} <b>".to_string(), figures(3));
     let panels: usize = figures.iter().map(|figure| figure.panels.len()).sum();
-    let page = Page { title, tables: vec![table], figures, sections, ..Default::default() }.html();
+    let page = Document { title, tables: vec![table], figures, sections, ..Default::default() };
+    let page = page.html().unwrap();
     assert!(!["<script", "<b>", "http"].iter().any(|code| page.contains(code)), "no code, no links");
     let [frames, pictures] = ["<figure>", "role=\"img\""].map(|part| page.matches(part).count());
     assert_eq!([frames, pictures], [panels + 1; 2], "each panel is a picture, and what moves");
@@ -401,12 +419,12 @@ fn values_beyond_all_axes_are_left_out() {
 
 #[test]
 fn a_column_of_one_value_is_said_once() {
-    let mut all = evaluation(3, 1e-3);
-    for rated in &mut all.rows {
-        rated.object.friction = Some(0.25);
+    let mut all = answers(3, 1e-3);
+    for answer in &mut all.rows {
+        answer.object.friction = Some(0.25);
     }
     all.rows[2].object.count = Some(3.0);
-    let page = list::page(&all);
+    let page = Document::of_answers(&all, None, None);
     let heads: Vec<String> = page.tables.into_iter().flat_map(|table| table.heads).collect();
     assert_eq!(
         ["friction needed", "number", "place"].map(|head| heads.contains(&head.into())),
@@ -417,37 +435,40 @@ fn a_column_of_one_value_is_said_once() {
 
 #[test]
 fn what_is_changed_comes_first_and_is_named() {
-    let mut before = evaluation(3, 1e-3);
+    let mut before = answers(3, 1e-3);
     (before.rows[2].object.width_m, before.rows[2].object.height_m) = (Some(0.5), Some(1.9));
     let mut after = before.clone();
     after.rows[2].object.width_m = Some(0.6);
-    after.rows[2].row.p_overturning = limited(0.002);
-    let page = compare::page(&before, &after).unwrap();
+    after.rows[2].p.p_overturning = limited(0.002);
+    let page = compare::document(&before, &after).unwrap();
     assert!(page.tables[0].rows.len() == 1 && page.tables[0].rows[0][0].contains("me\\*2"));
     assert!(
         page.tables[0].rows[0][1].replace('\u{a0}', " ").contains("0.50 × 1.90 m → 0.60"),
         "{:?}",
         page.tables[0]
     );
-    assert!(page.sentence.contains("target") && page.notes[0].contains("2 objects unchanged"));
+    assert!(page.lead[0].contains("target") && page.notes[0].contains("2 objects unchanged"));
 }
 
 /// The same object may stand in both files.
 #[test]
 fn the_expected_number_is_that_of_each_file() {
     let [one, other] = ["a", "b"].map(|file| {
-        let mut evaluation = evaluation(4, 1e-3);
-        evaluation.rows.iter_mut().for_each(|rated| rated.object.file = file.to_string());
-        evaluation
+        let mut table = answers(4, 1e-3);
+        table.rows.iter_mut().for_each(|answer| answer.file = file.to_string());
+        table
     });
-    let expected = |page: Page| page.tiles[..2].iter().map(|tile| tile.number.clone()).collect::<Vec<_>>();
-    let alone = expected(list::page(&one)).remove(0);
-    assert_eq!(expected(list::page(&Evaluation::joined(&[one, other]))), [alone.clone(), alone]);
+    let expected = |table: &AnswerTable| {
+        let tiles = Document::of_answers(table, None, None).tiles;
+        tiles.into_iter().take(2).map(|tile| tile.number).collect::<Vec<_>>()
+    };
+    let alone = expected(&one).remove(0);
+    assert_eq!(expected(&AnswerTable::joined(&[one, other])), [alone.clone(), alone]);
 }
 
 #[test]
 fn names_of_responses_are_no_markup() {
-    let page = response::page(&[traced(100)]).html();
+    let page = response::document(&[traced(100)]).html().unwrap();
     assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
     let words = svg(&response::figure(&traced(100), 0));
     assert!(words.contains("<title>Motion m&lt;1&gt;: fra*me*2</title>"));

@@ -113,6 +113,21 @@ impl Model {
         }
     }
 
+    pub fn limit_state(&self) -> Option<f64> {
+        match self {
+            Model::Surface { exceeding, .. } => exceeding.limit_state,
+            Model::Paper { limit_state, .. } => Some(*limit_state),
+        }
+    }
+
+    /// Responses, or outcomes, that it was fitted to.
+    pub fn responses(&self) -> i64 {
+        match self {
+            Model::Surface { overturning, .. } => overturning.n,
+            Model::Paper { overturning, .. } => overturning.n,
+        }
+    }
+
     pub fn description(&self) -> String {
         match self {
             Model::Surface { overturning, .. } => {

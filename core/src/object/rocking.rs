@@ -36,7 +36,7 @@ impl UncertaintySource {
             UncertaintySource::Fit => "the fragility",
             UncertaintySource::Magnitude => "magnitude",
             UncertaintySource::Velocity => "PGV",
-            UncertaintySource::Eta => "eta",
+            UncertaintySource::Eta => "restitution",
             UncertaintySource::Object => "the object's body",
             UncertaintySource::Floor => "the building",
             UncertaintySource::Hazard => "the hazard",

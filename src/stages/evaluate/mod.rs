@@ -1,22 +1,7 @@
-//! evaluate: probabilities at an intensity or at each of a table, and annual rates over the hazard of a site.
-//!
-//! ```text
-//! object       what is predicted for each object of a call, the worst first
-//! point        probabilities at a PGA, a PGV or both
-//! rates        annual rates at a site
-//! fragility    the intensities that half of the motions need, without a motion or over the hazard of a site
-//! pages        what pages show of the answers
-//! table        probabilities at each intensity of a table
-//! words        an object, its model and its warnings in words
-//! ```
+//! evaluate: answers for objects under a motion, at the site of a hazard or over a peak, and probabilities at
+//! each intensity of a table.
 
-mod fragility;
-mod object;
-pub mod pages;
-mod point;
-mod rates;
 mod table;
-mod words;
 
 use std::path::{Path, PathBuf};
 
@@ -33,21 +18,18 @@ use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-use self::object::{Predicted, Prediction};
-use self::point::TreeRow;
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{StructureArgs, named};
+use crate::answer::{self, Answer, AnswerTable, Question, assess, variants, variants_beside};
 use crate::chart::{DPI, png, svg};
-use crate::document::answers::Evaluation;
-use crate::document::{Page, fragility as fragilities, workbook};
+use crate::document::{Document, workbook};
+use crate::figures::answers::AtSite;
 use crate::inputs::{Rename, Renames, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
-use crate::table::answers::{Answer, FragilityRow, RatesRow};
 use crate::table::frame::{self, Format};
-use crate::table::rows;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
@@ -106,6 +88,9 @@ pub struct Evaluate {
     /// Continue the hazard curve with its last slope
     #[arg(long)]
     extrapolate: bool,
+    /// What would change the object, or the worst ten: printed, and beside a Parquet file NAME.variants.parquet
+    #[arg(long)]
+    variants: bool,
     /// text, csv or json
     #[arg(long, default_value = "text")]
     #[serde(skip_serializing)]
@@ -131,9 +116,9 @@ const RULES: [Rule; 8] = [
     Rule::Either(&["pga", "pgv"], &SITE),
     Rule::Either(&["in"], &SITE),
     Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
-    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "extrapolate"]),
+    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "extrapolate", "variants"]),
     Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
-    Rule::Needs(&["effective-years", "years", "target", "extrapolate"], &["hazard"]),
+    Rule::Needs(&["effective-years", "years", "target", "extrapolate", "variants"], &["hazard"]),
     Rule::Needs(&["columns"], &["hazard", "structures", "in"]),
     Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
 ];
@@ -157,7 +142,10 @@ impl Stage for Evaluate {
 
     fn outputs(&self) -> Vec<PathBuf> {
         let beside = || Some(self.input.as_ref()?.with_file_name("evaluated.parquet"));
-        self.out.as_deref().map(Path::to_path_buf).or_else(beside).into_iter().collect()
+        let out = self.out.clone().or_else(beside);
+        let is_table = |out: &&PathBuf| self.variants && ending(out) == "parquet";
+        let variants = out.as_ref().filter(is_table).map(|out| variants_beside(out));
+        variants.into_iter().chain(out).collect()
     }
 
     fn endings(&self) -> &[&'static str] {
@@ -181,22 +169,43 @@ impl Stage for Evaluate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let models = self.model.read()?;
+        let (models, mut renames) = (self.model.read()?, Renames::new(&self.columns));
         if let Some(path) = &self.input {
-            let mut renames = Renames::new(&self.columns);
             let (rows, text) = table::evaluate(self, path, &mut renames, &models, context)?;
             renames.expect_used()?;
-            self.write(&rows, &text, context, || Ok(Page::default()))?;
-            self.in_format(&rows, text)
-        } else if self.pga.or(self.pgv).is_some() {
-            self.under_motion(&self.motion()?, &models, context)
-        } else if self.hazard.is_empty() || self.over.is_some() {
-            self.over_peak(&models, context)
-        } else {
-            self.over_hazard(&models, context)
+            self.write(&rows, &text, context, &Document::default())?;
+            return self.in_format(&rows, text);
         }
+        let question = self.question(&mut renames, &models, context)?;
+        let objects = self.objects(renames, &models, context)?;
+        let models_of = |object: &Object| models.rocking_object(object);
+        let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
+        warn(&rows, context);
+        let (all, points) = (answer::table(&rows, &question)?, answer::points(&rows)?);
+        let mut table = AnswerTable { rows, variants: Vec::new(), made: vec![context.plan.made.clone()] };
+        let (mut site_of_rates, mut drawn) = (None, None);
+        if let Question::Hazard { site, years, .. } = &question {
+            let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
+            let alone = objects.first().filter(|_| is_page && objects.len() == 1);
+            let most = if self.variants { WORST } else { usize::from(alone.is_some()) };
+            let worst = worst(&table.rows, &objects, most);
+            table.variants = worst.flat_map(|object| variants(object, site, *years, &models_of)).collect();
+            drawn = alone.and_then(|object| AtSite::new(site, &models.rocking_object(object).ok()?.0));
+            site_of_rates = Some(site);
+        }
+        let document = Document::of_answers(&table, site_of_rates, drawn.as_ref());
+        let text = document.text(self.out.as_deref());
+        if let [beside, _] = &self.outputs()[..] {
+            context.write(beside, &table.variants, &text)?;
+        }
+        let rows = if matches!(question, Question::Curve { .. }) { points } else { all.clone() };
+        self.write(&[rows], &text, context, &document)?;
+        self.in_format(&[all], text)
     }
 }
+
+/// The most objects whose variants are told.
+const WORST: usize = 10;
 
 impl Evaluate {
     /// The motion that is given.
@@ -214,77 +223,35 @@ impl Evaluate {
         Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
-    fn under_motion(
+    /// What is asked of the objects.
+    fn question(
         &self,
-        motion: &GroundMotion,
+        renames: &mut Renames,
         models: &Models,
         context: &Context,
-    ) -> anyhow::Result<String> {
-        let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
-        context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
-        let objects = self.objects(Renames::new(&self.columns), models, context)?;
-        let all = object::answers(&objects, models, context, |_, rocking_object| {
-            let (row, budget) = TreeRow::new(motion, rocking_object);
-            let motion = motion.peaks(&rocking_object.directions[0].model);
-            Prediction { row, budget, motion, warnings: Vec::new() }
-        })?;
-        let text = point::text(&all, self.out.as_deref());
-        self.finish(&all, text, context, || Ok(pages::page(&pages::under_motion(&all))))
-    }
-
-    /// The fragility over one peak, of motions in general or at the site of a hazard curve.
-    fn over_peak(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
+    ) -> anyhow::Result<Question> {
+        if self.pga.or(self.pgv).is_some() {
+            let motion = self.motion()?;
+            let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
+            context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
+            return Ok(Question::Motion(motion));
+        }
         models.expect_ground()?;
+        let site = if self.hazard.is_empty() { None } else { Some(self.site(renames, context)?) };
         let over = self.over.unwrap_or(Peak::Pga);
-        let mut renames = Renames::new(&self.columns);
-        let site = if self.hazard.is_empty() { None } else { Some(self.site(&mut renames, context)?) };
-        match site.as_ref().map(|site| &site.hazard) {
-            None => {}
-            Some(Hazard::Curve(curve)) if curve.peak == over => {}
+        match site {
+            Some(site) if self.over.is_none() => {
+                return Ok(Question::Hazard { site, years: self.years, target: self.target });
+            }
+            Some(Site { hazard: Hazard::Curve(PeakHazard { peak, .. }), .. }) if peak == over => {}
             Some(_) => {
                 let problem = format!("over {over}: expected a hazard curve of {over}, of no other peak");
                 return Err(UsageError::because(problem));
             }
+            None => {}
         }
-        let objects = self.objects(renames, models, context)?;
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
-        let all = object::answers(&objects, models, context, |_, rocking_object| {
-            let at_site = site.as_ref().and_then(|site| site.fragility(rocking_object));
-            let fragility = at_site.unwrap_or_else(|| general.fragility(rocking_object));
-            let (budget, motion) = (fragility.budget, fragility.motion);
-            Prediction { row: FragilityRow::new(fragility), budget, motion, warnings: Vec::new() }
-        })?;
-        let text = fragility::text(&all, self.out.as_deref());
-        let answers = [answer_rows(&all, context)?];
-        let page = || {
-            let outline = pages::portrait(&objects, models, None, self.years)?.outline;
-            let hazard = site.as_ref().and_then(|_| context.plan.made.names("hazard"));
-            Ok(fragilities::page(&all, outline, hazard.as_deref()))
-        };
-        self.write(&[rows::batch(&fragility::curves(&all))?], &text, context, page)?;
-        self.in_format(&answers, text)
-    }
-
-    fn over_hazard(&self, models: &Models, context: &Context) -> anyhow::Result<String> {
-        models.expect_ground()?;
-        let mut renames = Renames::new(&self.columns);
-        let site = self.site(&mut renames, context)?;
-        let objects = self.objects(renames, models, context)?;
-        let all = object::answers(&objects, models, context, |object, rocking_object| {
-            let rates = site.rates(rocking_object);
-            let target = self.target.map(|p| -(-p).ln_1p() / self.years);
-            let with_models = |object: &Object| Some(models.rocking_object(object).ok()?.0);
-            let bases =
-                target.map(|target| site.bases(object, &with_models, rates.states.overturning, target));
-            let row = RatesRow::new(&rates, self.years, bases.unwrap_or_default());
-            Prediction { row, budget: rates.budget, motion: rates.motion, warnings: rates.warnings }
-        })?;
-        let page = || {
-            let portrait = pages::portrait(&objects, models, Some(&site), self.years)?;
-            Ok(pages::page(&Evaluation { portrait, ..pages::over_hazard(all.clone(), &context.plan.made) }))
-        };
-        let text = rates::text(&all, &site, self.target, self.out.as_deref());
-        self.finish(&all, text, context, page)
+        Ok(Question::Curve { general, site })
     }
 
     /// Reads the hazard and what rates over it need.
@@ -339,19 +306,6 @@ impl Evaluate {
         Ok(objects)
     }
 
-    /// Writes and prints the answers for all objects.
-    fn finish<R: Predicted>(
-        &self,
-        all: &[Answer<R>],
-        text: String,
-        context: &Context,
-        page: impl Fn() -> anyhow::Result<Page>,
-    ) -> anyhow::Result<String> {
-        let rows = [answer_rows(all, context)?];
-        self.write(&rows, &text, context, page)?;
-        self.in_format(&rows, text)
-    }
-
     /// Returns a text, or rows of one schema in the form that is asked for.
     fn in_format(&self, rows: &[RecordBatch], text: String) -> anyhow::Result<String> {
         if self.format == Format::Text { Ok(text) } else { shown(rows, self.format) }
@@ -363,29 +317,28 @@ impl Evaluate {
         rows: &[RecordBatch],
         text: &str,
         context: &Context,
-        page: impl Fn() -> anyhow::Result<Page>,
+        document: &Document,
     ) -> anyhow::Result<()> {
-        for out in self.outputs() {
-            let ending = out.extension().unwrap_or_default().to_string_lossy();
-            if ending == "parquet" {
+        let Some(out) = self.outputs().pop() else { return Ok(()) };
+        let content = match &*ending(&out) {
+            "parquet" => {
                 let mut writer = context.create(&out, &rows[0].schema())?;
                 rows.iter().try_for_each(|rows| writer.append(rows))?;
-                context.finish(writer, text)?;
-                continue;
+                return Ok(context.finish(writer, text)?);
             }
-            let drawn = || Ok::<_, anyhow::Error>(svg(&page()?.main_figure()));
-            let content = match &*ending {
-                "csv" => shown(rows, Format::Csv)?.into_bytes(),
-                "json" => shown(rows, Format::Json)?.into_bytes(),
-                "xlsx" => workbook(rows)?,
-                "html" => page()?.html().into_bytes(),
-                "svg" => drawn()?.into_bytes(),
-                _ => png(&drawn()?, DPI)?,
-            };
-            context.write_file(&out, &content)?;
-        }
-        Ok(())
+            "csv" => shown(rows, Format::Csv)?.into_bytes(),
+            "json" => shown(rows, Format::Json)?.into_bytes(),
+            "xlsx" => workbook(rows)?,
+            "html" => document.html()?.into_bytes(),
+            "svg" => svg(&document.main_figure()).into_bytes(),
+            _ => png(&svg(&document.main_figure()), DPI)?,
+        };
+        context.write_file(&out, &content)
     }
+}
+
+fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// Parses a probability of overturning in the time of exposure, such as 1%.
@@ -396,19 +349,21 @@ fn parse_target(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Gathers the rows of answers, and warns of what their text does not state.
-fn answer_rows<R: Predicted>(all: &[Answer<R>], context: &Context) -> anyhow::Result<RecordBatch> {
-    for answer in all {
-        // The text states them, or a warning of the file that is read.
-        let told = [Warning::HazardEndsEarly, Warning::HazardExtrapolated, Warning::MedianHazard];
-        let others = answer.warnings.iter().filter(|warning| !told.contains(warning));
-        context.warn(others.map(|warning| (*warning, answer.object.structure.clone())).collect());
+/// The objects that are the most likely to overturn, at most so many.
+fn worst<'a>(answers: &[Answer], objects: &'a [Object], most: usize) -> impl Iterator<Item = &'a Object> {
+    let mut places: Vec<usize> = (0..answers.len()).collect();
+    places.sort_by(|a, b| answers[*b].severity().total_cmp(&answers[*a].severity()));
+    places.into_iter().take(most).map(|place| &objects[place])
+}
+
+/// Warns of what the text of the answers does not state.
+fn warn(answers: &[Answer], context: &Context) {
+    // The text states them, or a warning of the file that is read.
+    let told = [Warning::HazardEndsEarly, Warning::HazardExtrapolated, Warning::MedianHazard];
+    for answer in answers {
+        let warnings = answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
+        context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
     }
-    rows::side_by_side(&[
-        rows::batch(all.iter().map(|answer| &answer.object))?,
-        rows::batch(all.iter().map(|answer| &answer.row))?,
-        rows::batch(all.iter().map(|answer| &answer.doubts))?,
-    ])
 }
 
 /// Shows rows of one schema.

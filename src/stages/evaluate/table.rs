@@ -15,7 +15,7 @@ use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
 
 use super::Evaluate;
-use super::point::TreeRow;
+use crate::answer::{TreeColumns, UncertaintyColumns};
 use crate::inputs::Renames;
 use crate::inputs::intensities;
 use crate::number::counted;
@@ -23,7 +23,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::context::Context;
 use crate::stages::shared::model_args::Models;
 use crate::table::TableError;
-use crate::table::answers::UncertaintyRow;
 use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::rows;
@@ -114,8 +113,8 @@ fn with_probabilities<'a>(
             mw: mw[row].or(magnitude),
             vs30_m_s: None,
         };
-        let (tree, budget) = TreeRow::new(&motion, rocking_object);
-        (tree, UncertaintyRow::new(&warnings, &budget), warnings)
+        let (tree, _, budget) = TreeColumns::new(&motion, rocking_object);
+        (tree, UncertaintyColumns::new(&warnings, &budget), warnings)
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, doubts, warnings): (Vec<_>, Vec<_>, Vec<_>) = rows.into_iter().collect();
@@ -123,8 +122,10 @@ fn with_probabilities<'a>(
         let place = format!("row {}", batch.first_row + row + 1);
         context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
     }
-    let own =
-        rows::side_by_side(&[rows::batch::<TreeRow>(&trees)?, rows::batch::<UncertaintyRow>(&doubts)?])?;
+    let own = rows::side_by_side(&[
+        rows::batch::<TreeColumns>(&trees)?,
+        rows::batch::<UncertaintyColumns>(&doubts)?,
+    ])?;
     let fields = batch.rows.schema().fields().clone();
     let mut kept: Vec<usize> = (0..fields.len()).collect();
     kept.retain(|at| own.schema().index_of(fields[*at].name()).is_err());

@@ -10,8 +10,9 @@ use clap::ValueHint::{AnyPath, FilePath};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::chart::text::literal;
 use crate::chart::{DPI, Figure, png, svg};
-use crate::document::Page;
+use crate::document::Document;
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -82,9 +83,10 @@ impl Stage for Report {
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
         let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
         figures.par_iter().try_for_each(|figure| write(figure, &folder.join(&figure.name), context))?;
-        let byline = [&self.author, &self.date].into_iter().flatten().cloned().collect::<Vec<_>>().join(", ");
-        let title = self.title.clone().unwrap_or(whole.title);
-        context.write_file(&page, Page { title, byline, ..whole }.html().as_bytes())?;
+        let byline = [&self.author, &self.date].into_iter().flatten().map(|text| literal(text));
+        let byline = byline.collect::<Vec<_>>().join(", ");
+        let title = self.title.as_ref().map_or(whole.title, |title| literal(title));
+        context.write_file(&page, Document { title, byline, ..whole }.html()?.as_bytes())?;
         Ok(summary)
     }
 }

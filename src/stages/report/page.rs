@@ -10,15 +10,15 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::tables::{Kind, Tables};
+use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{literal, minus};
-use crate::document::answers::Evaluation;
-use crate::document::{Page, Section, Table, compare, fragility, object, response};
+use crate::document::phrases::ANGLES;
+use crate::document::{Document, Section, Table, compare, response};
 use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS, listed};
 use crate::stages::compare_paper::table_two;
-use crate::stages::evaluate::pages;
 use crate::table::capacities::CapacityFitRow;
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
@@ -52,12 +52,12 @@ validate: Predicted probabilities are compared with the outcomes of motions that
 evaluate: Annual rates integrate the probabilities of the universal surface over the hazard of the site.";
 
 /// The page of all tables, and all their figures, of which the page shows some.
-pub fn page(tables: &mut Tables) -> anyhow::Result<(Page, Vec<Figure>)> {
+pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let others = figures(tables)?;
     let mut head = head(tables)?;
     head.figures.retain(|figure| !figure.panels.is_empty());
     let all = [head.figures.clone(), others.clone()].concat();
-    let is_client = !tables.evaluations.is_empty();
+    let is_client = !tables.answers.is_empty();
     let shown = match (is_client, tables.compared.is_empty()) {
         (true, _) => OF_RATES,
         (_, true) => OF_RESPONSES,
@@ -84,7 +84,7 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Page, Vec<Figure>)> {
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     head.facts.extend(facts(tables));
     head.figures.extend(seen);
-    Ok((Page { sections, ..head }, all))
+    Ok((Document { sections, ..head }, all))
 }
 
 /// Draws all figures; what is too much to draw is left out.
@@ -124,39 +124,40 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
 
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
-fn head(tables: &Tables) -> anyhow::Result<Page> {
-    let Tables { evaluations, compared, traces, fragilities, groups, .. } = tables;
-    let compared_page = match &evaluations[..] {
-        [before, after] if tables.are_files => compare::page(before, after),
+fn head(tables: &Tables) -> anyhow::Result<Document> {
+    let Tables { answers, compared, traces, fragilities, groups, .. } = tables;
+    let shown = |tables: &[AnswerTable]| Document::of_answers(&AnswerTable::joined(tables), None, None);
+    let before_and_after = match &answers[..] {
+        [before, after] if tables.are_files => compare::document(before, after),
         _ => None,
     };
-    let mut head = match compared_page {
-        Some(page) => page,
-        None if !evaluations.is_empty() => pages::page(&Evaluation::joined(evaluations)),
-        None if !compared.is_empty() => Page {
+    let mut head = match before_and_after {
+        Some(document) => document,
+        None if !answers.is_empty() => shown(answers),
+        None if !compared.is_empty() => Document {
             title: "The paper's fragility curves, reproduced".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
-            sentence: literal(tables.answer_of("compare-paper").unwrap_or_default()),
+            lead: vec![literal(tables.answer_of("compare-paper").unwrap_or_default())],
             tables: vec![published_planes(compared)],
-            ..Page::default()
+            ..Document::default()
         },
-        None if !traces.is_empty() => return Ok(response::page(traces)),
-        None if !fragilities.is_empty() => return Ok(fragility::page(fragilities, None, None)),
+        None if !traces.is_empty() => return Ok(response::document(traces)),
+        None if !fragilities.is_empty() => return Ok(shown(fragilities)),
         None => {
             let outcomes = outcomes(tables)?;
-            Page {
+            Document {
                 title: match groups.is_empty() {
                     true => "Fits and motions".to_string(),
                     false => "What rocks and what overturns".to_string(),
                 },
-                sentence: overturned(groups),
+                lead: vec![overturned(groups)],
                 tables: if outcomes.rows.is_empty() { Vec::new() } else { vec![outcomes] },
-                ..Page::default()
+                ..Document::default()
             }
         }
     };
     head.figures.extend(response::figures(traces));
-    head.figures.push(fragility::figure(fragilities, None));
+    head.figures.extend(shown(fragilities).figures);
     Ok(head)
 }
 
@@ -175,7 +176,7 @@ fn facts(tables: &Tables) -> Vec<String> {
         all.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", called(same[0])));
     }
     if !all.is_empty() {
-        facts.extend([format!("Structures: {}.", listed(&all, MOST_NAMED)), object::ANGLES.to_string()]);
+        facts.extend([format!("Structures: {}.", listed(&all, MOST_NAMED)), ANGLES.to_string()]);
     }
     facts
 }
@@ -278,11 +279,11 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
     let mut all = Vec::new();
     // The page of responses has their outcomes above.
-    if !(tables.evaluations.is_empty() && tables.compared.is_empty()) {
+    if !(tables.answers.is_empty() && tables.compared.is_empty()) {
         all.push(outcomes(tables)?);
     }
     // A client's page has no curves and planes of the paper.
-    if tables.evaluations.is_empty() {
+    if tables.answers.is_empty() {
         all.extend([
             table(
                 "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \

@@ -3,20 +3,16 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use rockfrag_core::fragility::{Calibration, Cases, Event, LimitStates, Peak};
-use rockfrag_core::hazard::{Fragility, FragilityPoint};
+use rockfrag_core::fragility::{Calibration, Cases, Event};
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
-use rockfrag_core::units::G_M_S2;
 
-use crate::document::answers::Evaluation;
+use crate::answer::{Answer, AnswerTable};
 use crate::document::response::Trace;
 use crate::figures::Fits;
-use crate::stages::evaluate::pages;
 use crate::stages::shared::responses;
 use crate::table::TableError;
-use crate::table::answers::{Answer, CurveRow, FragilityRow, ObjectRow, RatesRow, UncertaintyRow};
 use crate::table::file::{self, ParquetTable};
 use crate::table::keys::key_of;
 use crate::table::motions::{self, MotionRow, is_motion_column};
@@ -41,10 +37,8 @@ pub enum Kind {
     Capacities,
     #[strum(serialize = "distributions of overturning intensities")]
     CapacityFits,
-    #[strum(serialize = "annual rates")]
-    Rates,
-    #[strum(serialize = "fragility curves")]
-    Fragility,
+    Variants,
+    Answers,
     #[strum(serialize = "probabilities under motions")]
     Probabilities,
     Calibrations,
@@ -64,29 +58,31 @@ pub enum Kind {
     Other,
 }
 
-/// Columns by which a table is known; the first kind of which it has all counts.
-const COLUMNS: [(Kind, &str); 17] = [
-    (Kind::Motions, "acceleration_m_s2 dt_s"),
-    (Kind::Traces, "theta_over_alpha time_s"),
-    (Kind::Stripes, "outcome intensity scale"),
-    (Kind::Responses, "outcome edp alpha_rad"),
-    (Kind::Capacities, "capacity overturning_intensity"),
-    (Kind::CapacityFits, "theta beta n_safe"),
-    (Kind::Rates, "overturning_per_year p_overturning"),
-    (Kind::Fragility, "p_rocking p_failure p_overturning"),
-    (Kind::Probabilities, "p_ro"),
-    (Kind::Calibrations, "ln_s tau n_clusters"),
-    (Kind::Curves, "event coefficients aic"),
-    (Kind::Planes, "model coefficients range_low"),
-    (Kind::Parameters, "parameter value standard_error"),
-    (Kind::Paper, "published ours"),
-    (Kind::Reliability, "predicted share"),
-    (Kind::Validation, "observed expected log_score"),
-    (Kind::Scenarios, "scenario_id gamma"),
+/// The stages that make each kind, and columns that tell it from others of the same stage, and from those of
+/// all stages where no footer says which.
+const KINDS: [(Kind, &str, &str); 17] = [
+    (Kind::Motions, "synthesize-motions import-motions floor-motions", "acceleration_m_s2 dt_s"),
+    (Kind::Traces, "simulate", "theta_over_alpha time_s"),
+    (Kind::Stripes, "ida", "outcome intensity scale"),
+    (Kind::Responses, "simulate", "outcome edp alpha_rad"),
+    (Kind::Capacities, "ida", "capacity overturning_intensity"),
+    (Kind::CapacityFits, "ida", "theta beta n_safe"),
+    (Kind::Variants, "evaluate", "variant p_overturning"),
+    (Kind::Answers, "evaluate", "structure p_overturning"),
+    (Kind::Probabilities, "evaluate", "p_ro"),
+    (Kind::Calibrations, "fit-pex fit-pro", "ln_s tau n_clusters"),
+    (Kind::Curves, "fit-pro", "event coefficients aic"),
+    (Kind::Planes, "fit-pex", "model coefficients range_low"),
+    (Kind::Parameters, "fit-pex fit-pro", "parameter value standard_error"),
+    (Kind::Paper, "compare-paper", "published ours"),
+    (Kind::Reliability, "validate", "predicted share"),
+    (Kind::Validation, "validate", "observed expected log_score"),
+    (Kind::Scenarios, "sample-scenarios", "scenario_id gamma"),
 ];
 
 /// Tables of which the page shows nothing of their own: others are made of them, or stand beside them.
-const SILENT: [Kind; 4] = [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities];
+const SILENT: [Kind; 6] =
+    [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities, Kind::Calibrations, Kind::Variants];
 
 /// A table that is read.
 pub struct Item {
@@ -102,8 +98,12 @@ impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
         let table = ParquetTable::open(path)?;
         let has = |columns: &str| columns.split(' ').all(|name| table.schema().index_of(name).is_ok());
-        let kind = COLUMNS.iter().find(|(_, columns)| has(columns)).map_or(Kind::Other, |(kind, _)| *kind);
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
+        let kind = KINDS.iter().find(|(_, stages, columns)| {
+            made.as_ref().is_none_or(|made| stages.split(' ').any(|stage| stage == made.stage))
+                && has(columns)
+        });
+        let kind = kind.map_or(Kind::Other, |(kind, ..)| *kind);
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
 
@@ -126,8 +126,9 @@ pub struct Tables {
     pub groups: Vec<Cases>,
     pub fits: Fits,
     pub compared: Vec<Comparison>,
-    pub evaluations: Vec<Evaluation>,
-    pub fragilities: Vec<Answer<FragilityRow>>,
+    /// Answers under one motion or at a site.
+    pub answers: Vec<AnswerTable>,
+    pub fragilities: Vec<AnswerTable>,
     pub traces: Vec<Trace>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
@@ -168,8 +169,11 @@ impl Tables {
         tables.compared = tables.rows(Kind::Paper)?;
         for item in &tables.items {
             match item.kind {
-                Kind::Rates => tables.evaluations.push(read_evaluation(item)?),
-                Kind::Fragility => tables.fragilities.extend(read_fragility(&item.path)?),
+                Kind::Answers => {
+                    let table = AnswerTable::read(&item.path, item.made.clone().unwrap_or_default())?;
+                    let is_curve = table.rows.iter().any(|answer| answer.fragility.over.is_some());
+                    if is_curve { &mut tables.fragilities } else { &mut tables.answers }.push(table);
+                }
                 Kind::Traces => tables.traces.extend(read_traces(&item.path)?),
                 Kind::Other | Kind::Probabilities => {
                     let (name, words) = (item.name(), item.kind);
@@ -182,60 +186,46 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Leaves out fragilities over another peak than the first, and probabilities in another time.
+    /// Leaves out fragilities over another peak than the first, and probabilities in another time or under
+    /// another motion.
     fn leave_out_incomparable(&mut self) {
-        let over = self.fragilities.first().and_then(|first| first.row.over);
-        for other in self.fragilities.extract_if(.., |answer| answer.row.over != over) {
-            let name = other.object.structure;
-            self.left_out.push(format!("{name} is not shown: its fragility is over another peak."));
+        let left_out = &mut self.left_out;
+        let over = |table: &AnswerTable| table.rows.iter().find_map(|answer| answer.fragility.over);
+        let first = self.fragilities.iter().find_map(over);
+        for other in self.fragilities.extract_if(.., |table| over(table) != first) {
+            left_out.push(format!("{} is not shown: its fragility is over another peak.", other.file()));
         }
         // Where no object has an answer there is no time.
-        let mut times = self.evaluations.iter().map(|evaluation| evaluation.when.clone());
-        let first = times.find(|when| !when.is_empty()).unwrap_or_default();
-        for other in self.evaluations.extract_if(.., |one| !one.when.is_empty() && one.when != first) {
-            let (file, when) = (other.file(), other.when);
-            self.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
+        let when = |table: &AnswerTable| table.rows.iter().find_map(Answer::when);
+        let first = self.answers.iter().find_map(when).unwrap_or_default();
+        for other in self.answers.extract_if(.., |table| when(table).is_some_and(|when| when != first)) {
+            let (file, when) = (other.file(), when(&other).unwrap_or_default());
+            left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
         }
-        self.evaluations.iter_mut().for_each(|evaluation| evaluation.when.clone_from(&first));
     }
 
     /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
     /// names of structures alone do not tell.
     fn leave_out_strangers(&mut self) {
-        let responses = match &self.keys(Kind::Responses)[..] {
-            [] => self.inputs(Kind::Curves, "in").into_iter().take(1).collect(),
-            keys => keys.to_vec(),
+        let made_of = |item: &Item| match item.kind {
+            Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters => ("in", Kind::Responses),
+            Kind::Capacities | Kind::CapacityFits | Kind::Stripes => ("in", Kind::Motions),
+            Kind::Paper => ("pro", Kind::Curves),
+            _ => ("fits", Kind::Calibrations),
         };
-        let motions = match &self.inputs(Kind::Responses, "in")[..] {
-            [] => self.keys(Kind::Motions),
-            inputs => inputs.to_vec(),
+        let is_stranger = |item: &Item| {
+            let (flag, of) = made_of(item);
+            let keys = self.keys(of);
+            item.input(flag).is_some_and(|key| !keys.is_empty() && !keys.contains(&key))
         };
-        let (fits, calibrations) = (self.keys(Kind::Curves), self.keys(Kind::Calibrations));
-        // The motions of the ground may stand beside those of a floor that were made of them.
-        let has_motions = self.keys(Kind::Motions).iter().any(|key| motions.contains(key));
-        let mut kept = Vec::new();
-        for item in std::mem::take(&mut self.items) {
-            let (has, expected, what) = match item.kind {
-                Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters => {
-                    (item.input("in"), &responses, "responses")
-                }
-                Kind::Capacities | Kind::CapacityFits | Kind::Stripes => {
-                    (item.input("in"), &motions, "motions")
-                }
-                Kind::Paper => (item.input("pro"), &fits, "fits"),
-                Kind::Validation | Kind::Reliability | Kind::Rates => {
-                    (item.input("fits"), &calibrations, "fits")
-                }
-                Kind::Motions if !has_motions => (Some(item.key.clone()), &motions, "responses"),
-                _ => (None, &motions, ""),
-            };
-            if expected.is_empty() || has.is_none_or(|has| expected.contains(&has)) {
-                kept.push(item);
-            } else if !SILENT.contains(&item.kind) && item.kind != Kind::Calibrations {
-                self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
-            }
-        }
+        let strangers: Vec<bool> = self.items.iter().map(is_stranger).collect();
+        let (mut strange, items) = (strangers.into_iter(), std::mem::take(&mut self.items));
+        let (left_out, kept): (Vec<Item>, _) = items.into_iter().partition(|_| strange.next() == Some(true));
         self.items = kept;
+        for item in left_out.iter().filter(|item| !SILENT.contains(&item.kind)) {
+            let what = made_of(item).1;
+            self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
+        }
     }
 
     fn keys(&self, kind: Kind) -> Vec<String> {
@@ -272,9 +262,12 @@ impl Tables {
         self.made_by(stage)?.summary.lines().next()
     }
 
-    /// The motions of a row group in the middle of the first file of them.
+    /// The motions of a row group in the middle of the file of them that the responses are to.
     pub fn motions(&self) -> Result<Vec<MotionRow>, TableError> {
-        let Some(item) = self.of(Kind::Motions).next() else { return Ok(Vec::new()) };
+        let used = self.inputs(Kind::Responses, "in");
+        let mut motions = self.of(Kind::Motions);
+        let item = motions.find(|item| used.is_empty() || used.contains(&item.key));
+        let Some(item) = item else { return Ok(Vec::new()) };
         let table = motions::open(&item.path, None)?;
         let middle = table.rows() / MOTIONS_IN_GROUP / 2;
         let parts = || motions::parts(&table, is_motion_column, MOTIONS_IN_GROUP);
@@ -304,33 +297,6 @@ fn files_of(path: &Path) -> Result<Vec<PathBuf>, TableError> {
         }
     }
     Ok(files)
-}
-
-fn read_evaluation(item: &Item) -> Result<Evaluation, TableError> {
-    let (objects, doubts) = (rows::read::<ObjectRow>(&item.path)?, rows::read::<UncertaintyRow>(&item.path)?);
-    let mut answers = Vec::new();
-    for ((object, row), doubts) in objects.into_iter().zip(rows::read::<RatesRow>(&item.path)?).zip(doubts) {
-        let object = ObjectRow { file: item.name(), ..object };
-        answers.push(Answer { object, row, doubts, ..Answer::default() });
-    }
-    Ok(pages::over_hazard(answers, &item.made.clone().unwrap_or_default()))
-}
-
-/// The fragility curves of a file, those that need least first.
-fn read_fragility(path: &Path) -> Result<Vec<Answer<FragilityRow>>, TableError> {
-    let mut all = Vec::new();
-    for curve in rows::read::<CurveRow>(path)?.chunk_by(|a, b| a.structure == b.structure) {
-        let points = curve.iter().map(|row| FragilityPoint {
-            intensity: row.pga_g.map(|pga_g| pga_g * G_M_S2).or(row.pgv_m_s).unwrap_or_default(),
-            p: LimitStates { rocking: row.p_rocking, failure: row.p_failure, overturning: row.p_overturning },
-        });
-        let over = if curve[0].pga_g.is_some() { Peak::Pga } else { Peak::Pgv };
-        let object = ObjectRow { structure: curve[0].structure.clone(), ..ObjectRow::default() };
-        let curve = Some(Fragility::from_points(over, points.collect()));
-        let row = FragilityRow { over: Some(over), curve, ..FragilityRow::default() };
-        all.push(Answer { object, row, ..Answer::default() });
-    }
-    Ok(all)
 }
 
 /// The first responses over time of a file.

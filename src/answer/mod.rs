@@ -1,0 +1,276 @@
+//! Answers: a question and objects give a row for each object, in their order.
+//!
+//! ```text
+//! row        the columns of an answer
+//! variants   what would change an object, a row each
+//! ```
+
+mod row;
+mod variants;
+
+use std::iter;
+use std::path::{Path, PathBuf};
+
+use arrow_array::RecordBatch;
+use rayon::prelude::*;
+use rockfrag_core::hazard::{Fragility, FragilityPoint, GenericSites, GroundMotion, Lognormal, Site};
+use rockfrag_core::object::{Object, RockingObject};
+use rockfrag_core::warning::Warning;
+use serde::{Deserialize, Serialize};
+
+use crate::chart::text::literal;
+use crate::pipeline::context::Progress;
+use crate::table::TableError;
+use crate::table::provenance::Provenance;
+use crate::table::rows;
+pub use row::{
+    CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
+};
+pub use variants::{Variant, variants};
+
+/// What is asked of an object.
+pub enum Question {
+    /// What comes of it under one motion.
+    Motion(GroundMotion),
+    /// How often it rocks and overturns at a site, and in so many years; with a base for which the
+    /// probability of overturning is a target.
+    Hazard { site: Site, years: f64, target: Option<f64> },
+    /// What share of the motions of each intensity has the effect: at the site of a hazard curve, or in
+    /// general.
+    Curve { general: GenericSites, site: Option<Site> },
+}
+
+/// What is predicted for an object: a row of the file that evaluate writes.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Answer {
+    pub object: ObjectColumns,
+    pub tree: TreeColumns,
+    pub p: StateColumns,
+    pub rates: RateColumns,
+    pub fragility: FragilityColumns,
+    pub uncertainty: UncertaintyColumns,
+    /// The points of its fragility, of which each is a row of the file.
+    #[serde(skip)]
+    pub points: Vec<FragilityPoint>,
+    /// The name of the file that it was read from.
+    #[serde(skip)]
+    pub file: String,
+}
+
+/// The answers of a call, or of files, and what made each.
+#[derive(Debug, Clone, Default)]
+pub struct AnswerTable {
+    pub rows: Vec<Answer>,
+    /// Those of the worst objects, as far as they are known.
+    pub variants: Vec<Variant>,
+    pub made: Vec<Provenance>,
+}
+
+/// Joins an object with the models of its directions, and returns the warnings about these.
+pub type ModelsOf<'a> = &'a (dyn Fn(&Object) -> anyhow::Result<(RockingObject, Vec<Warning>)> + Sync);
+
+/// Answers a question for each object.
+///
+/// # Errors
+/// If no model can be chosen. An object that cannot rock has a row that says why.
+pub fn assess(
+    objects: &[Object],
+    question: &Question,
+    models: ModelsOf,
+    progress: &Progress,
+) -> anyhow::Result<Vec<Answer>> {
+    let answers: Vec<_> = objects
+        .par_iter()
+        .map(|object| {
+            progress.advance(1)?;
+            Answer::new(object, question, models)
+        })
+        .collect();
+    // The first error in the order of the objects, whichever thread meets one first.
+    answers.into_iter().collect()
+}
+
+impl Answer {
+    fn new(object: &Object, question: &Question, models: ModelsOf) -> anyhow::Result<Answer> {
+        if let Err(reason) = object.sides() {
+            let warnings = Some(reason.to_string());
+            return Ok(Answer {
+                object: ObjectColumns::new(object, None),
+                uncertainty: UncertaintyColumns { warnings, ..UncertaintyColumns::default() },
+                ..Answer::default()
+            });
+        }
+        let (rocking, mut warnings) = models(object)?;
+        let weaker = &rocking.directions[0];
+        let columns = ObjectColumns::new(object, Some(weaker));
+        let mut answer = Answer { object: columns, ..Answer::default() };
+        let (budget, motion) = match question {
+            Question::Motion(motion) => {
+                let budget;
+                (answer.tree, answer.p, budget) = TreeColumns::new(motion, &rocking);
+                (budget, motion.peaks(&weaker.model))
+            }
+            Question::Hazard { site, years, target } => {
+                let rates = site.rates(&rocking);
+                (answer.rates, answer.p) = RateColumns::new(&rates, *years);
+                if let Some(p) = *target {
+                    let with_models = |object: &Object| Some(models(object).ok()?.0);
+                    let (rate, target) = (rates.states.overturning, -(-p).ln_1p() / years);
+                    answer.rates.target = Some(p);
+                    answer.rates.bases = site.bases(object, &with_models, rate, target);
+                }
+                warnings.extend(rates.warnings);
+                (rates.budget, rates.motion)
+            }
+            Question::Curve { general, site } => {
+                let fragility =
+                    at_site(site.as_ref(), &rocking).unwrap_or_else(|| general.fragility(&rocking));
+                answer.fragility = FragilityColumns::new(&fragility);
+                answer.points = fragility.points;
+                (fragility.budget, fragility.motion)
+            }
+        };
+        warnings.extend(rocking.warnings(motion));
+        warnings.sort();
+        warnings.dedup();
+        answer.uncertainty = UncertaintyColumns::new(&warnings, &budget);
+        Ok(answer)
+    }
+
+    /// Whether it has an answer: a probability, a range of it, or a fragility.
+    pub fn is_answered(&self) -> bool {
+        self.severity() >= 0.0
+    }
+
+    /// By what answers are sorted, the worst first: the probability of overturning, where there is no value
+    /// its upper end; else the inverse of the intensity that overturns it under half of the motions.
+    pub fn severity(&self) -> f64 {
+        let p = self.p.p_overturning;
+        let fragility = &self.fragility;
+        let weakness = || fragility.over.map(|_| fragility.overturning.theta.value.map_or(0.0, f64::recip));
+        p.value.or(p.high).or_else(weakness).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+fn at_site(site: Option<&Site>, object: &RockingObject) -> Option<Fragility> {
+    site?.fragility(object)
+}
+
+impl FragilityColumns {
+    fn new(fragility: &Fragility) -> FragilityColumns {
+        let (_, unit, _) = fragility.over.name_and_unit();
+        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
+            at_16: of.at_16.map(|intensity| intensity / unit),
+            theta: of.theta.map(|intensity| intensity / unit),
+            at_84: of.at_84.map(|intensity| intensity / unit),
+            ..of
+        });
+        FragilityColumns { over: Some(fragility.over), failure, overturning }
+    }
+}
+
+/// The answers as a table, without the columns of other questions.
+pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
+    let objects = rows::batch(answers.iter().map(|answer| &answer.object))?;
+    let states = || rows::batch(answers.iter().map(|answer| &answer.p));
+    let mut parts = match question {
+        Question::Motion(_) => vec![rows::batch(answers.iter().map(|answer| &answer.tree))?, states()?],
+        Question::Hazard { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.rates))?, states()?],
+        Question::Curve { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.fragility))?],
+    };
+    parts.insert(0, objects);
+    parts.push(rows::batch(answers.iter().map(|answer| &answer.uncertainty))?);
+    rows::side_by_side(&parts)
+}
+
+/// The points of the fragilities as a table, each with the columns of its answer.
+pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
+    let over = |answer: &Answer| answer.fragility.over.unwrap_or(rockfrag_core::fragility::Peak::Pga);
+    let all = || answers.iter().flat_map(|answer| iter::repeat_n(answer, answer.points.len()));
+    let points = answers.iter().flat_map(|one| one.points.iter().map(|at| CurveRow::new(over(one), at)));
+    rows::side_by_side(&[
+        rows::batch(all().map(|answer| &answer.object))?,
+        rows::batch(&points.collect::<Vec<_>>())?,
+        rows::batch(all().map(|answer| &answer.fragility))?,
+        rows::batch(all().map(|answer| &answer.uncertainty))?,
+    ])
+}
+
+impl AnswerTable {
+    /// Reads the answers of a file, and the variants beside it.
+    pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let mut rows: Vec<Answer> = rows::read(path)?;
+        if rows.iter().any(|answer| answer.fragility.over.is_some()) {
+            rows = with_points(rows, &rows::read(path)?);
+        }
+        rows.iter_mut().for_each(|answer| answer.file = file.to_string());
+        let beside = variants_beside(path);
+        let other = Provenance::read(&beside).ok().flatten();
+        let of_these =
+            other.filter(|other| (Provenance { output: made.output, ..other.clone() }).key() == made.key());
+        let variants = if of_these.is_some() { rows::read(&beside)? } else { Vec::new() };
+        Ok(AnswerTable { rows, variants, made: vec![made] })
+    }
+
+    /// The answers of several files, without a target that is not that of all.
+    pub fn joined(all: &[AnswerTable]) -> AnswerTable {
+        let (mut rows, mut variants, mut made) = (Vec::new(), Vec::new(), Vec::new());
+        for table in all {
+            rows.extend_from_slice(&table.rows);
+            variants.extend_from_slice(&table.variants);
+            made.extend_from_slice(&table.made);
+        }
+        let target = rows.iter().find_map(|answer| answer.rates.target);
+        if rows.iter().any(|answer| answer.is_answered() && answer.rates.target != target) {
+            rows.iter_mut().for_each(|answer| answer.rates.target = None);
+        }
+        AnswerTable { rows, variants, made }
+    }
+
+    /// The name of its file; none of a call's own answers.
+    pub fn file(&self) -> String {
+        self.rows.first().map_or(String::new(), |answer| literal(&answer.file))
+    }
+
+    /// The key of the hazard: the same for the same files.
+    pub fn hazard_key(&self) -> Option<String> {
+        self.made.first()?.input("hazard")
+    }
+
+    /// The hazards, after a place: `; hazard: pga.csv`.
+    pub fn hazards(&self) -> String {
+        let mut hazards: Vec<String> = self.made.iter().filter_map(|made| made.names("hazard")).collect();
+        hazards.dedup();
+        match &hazards[..] {
+            [] => String::new(),
+            files => format!("; hazard: {}", literal(&files.join("; "))),
+        }
+    }
+
+    /// The variants of an answer, which follow each other.
+    pub fn variants_of(&self, answer: &Answer) -> &[Variant] {
+        let is_its = |variant: &&Variant| variant.structure == answer.object.structure;
+        let start = self.variants.iter().position(|variant| is_its(&variant)).unwrap_or_default();
+        let count = self.variants[start..].iter().take_while(is_its).count();
+        &self.variants[start..start + count]
+    }
+}
+
+/// The file of the variants of a file of answers.
+pub fn variants_beside(path: &Path) -> PathBuf {
+    path.with_extension("variants.parquet")
+}
+
+/// Gives each answer of a table of points its points.
+fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
+    let mut answers: Vec<Answer> = Vec::new();
+    for (row, point) in rows.into_iter().zip(points) {
+        if answers.last().is_none_or(|last| last.object.structure != row.object.structure) {
+            answers.push(Answer { p: StateColumns::default(), ..row });
+        }
+        answers.last_mut().into_iter().for_each(|answer| answer.points.push(point.point()));
+    }
+    answers
+}

@@ -1,0 +1,285 @@
+//! The columns of an answer. Those of another question than the one that was asked are empty.
+
+use rockfrag_core::fragility::{LimitStates, MotionKind, Peak, RockingDirection, Tau};
+use rockfrag_core::hazard::{
+    Bases, Budget, FragilityPoint, GroundMotion, Lognormal, MotionProbabilities, SiteRates, VelocitySource,
+    probability_in_years,
+};
+use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::object::{Object, RockingObject, UncertaintySource};
+use rockfrag_core::statistics::Interval;
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::Warning;
+use serde::{Deserialize, Serialize};
+use strum::VariantArray;
+
+/// An object and the model that predicts for it; without parameters where it has no answer.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ObjectColumns {
+    pub structure: String,
+    /// Block, body, frame or structure.
+    pub object_kind: Option<String>,
+    pub width_m: Option<f64>,
+    pub depth_m: Option<f64>,
+    pub height_m: Option<f64>,
+    pub centre_height_m: Option<f64>,
+    pub centre_offset_m: Option<f64>,
+    pub floor_period_s: Option<f64>,
+    pub floor_level: Option<f64>,
+    /// The floor as the list of the object has it.
+    pub floor: Option<String>,
+    /// Number of such objects.
+    pub count: Option<f64>,
+    pub p_rad_s: Option<f64>,
+    pub alpha_rad: Option<f64>,
+    pub eta: Option<f64>,
+    /// tan(alpha): with less friction it slides.
+    pub friction: Option<f64>,
+    /// Whether its friction was given, and is enough.
+    pub is_friction_known: Option<bool>,
+    pub model: Option<String>,
+    /// Kind of motion that the model is for.
+    pub motions: Option<MotionKind>,
+    /// Responses that the model was fitted to.
+    pub responses: Option<i64>,
+    pub limit_state: Option<f64>,
+}
+
+impl ObjectColumns {
+    /// Makes the columns of an object and, if it has an answer, of the direction in which it is weaker.
+    pub fn new(object: &Object, weaker: Option<&RockingDirection>) -> ObjectColumns {
+        let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
+        let structure = weaker.map(|direction| &direction.structure);
+        let model = weaker.map(|direction| &direction.model);
+        // A frame has no centre of mass of its own.
+        let body_height = shape.height.filter(|_| shape.beam_mass_ratio.is_none());
+        ObjectColumns {
+            structure: object.name.clone(),
+            object_kind: Some(shape.kind().to_string()),
+            width_m: shape.width,
+            depth_m: shape.depth,
+            height_m: shape.height,
+            centre_height_m: body_height.map(|height| shape.centre_height.unwrap_or(0.5 * height)),
+            centre_offset_m: body_height.map(|_| shape.centre_offset.unwrap_or(0.0)),
+            floor_period_s: floor.map(|floor| floor.period_s),
+            floor_level: floor.map(|floor| floor.level),
+            floor: object.floor.clone().filter(|_| floor.is_some()),
+            count: object.count.map(f64::from),
+            p_rad_s: structure.map(|structure| structure.p_rad_s),
+            alpha_rad: structure.map(|structure| structure.alpha_rad),
+            eta: structure.map(|structure| structure.eta),
+            friction: structure.map(|structure| structure.alpha_rad.tan()),
+            is_friction_known: Some(object.place.friction.is_some()),
+            model: model.map(|model| model.description()),
+            motions: model.map(|model| model.kind()),
+            responses: model.map(|model| model.responses()),
+            limit_state: model.and_then(|model| model.limit_state()),
+        }
+    }
+}
+
+/// The probabilities of the paper's tree under a motion (Eqs. 8 to 12); none where they are not known.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct TreeColumns {
+    pub pga_m_s2: Option<f64>,
+    pub pgv_m_s: Option<f64>,
+    pub p_nr: Option<f64>,
+    pub p_ex: Interval<Option<f64>>,
+    pub p_ro: Interval<Option<f64>>,
+    pub p_f_r: Interval<Option<f64>>,
+    pub p_f: Option<f64>,
+}
+
+impl TreeColumns {
+    /// Predicts for an object under a motion; returns also the probabilities of its limit states, and the
+    /// budget of the logit of P_ro.
+    pub fn new(motion: &GroundMotion, object: &RockingObject) -> (TreeColumns, StateColumns, Budget) {
+        let MotionProbabilities { states, budget } = motion.probabilities(object);
+        let rocking = states.rocking.value;
+        // The demand has a probability of its own under a motion that is known.
+        let p_ex = match (&object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
+            _ if motion.is_still() => None,
+            ([RockingDirection { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
+                let measures = IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None);
+                model.probabilities(structure, &measures, motion.mw, Tau::Included).given_rocking
+            }
+            _ => None,
+        };
+        // Over that of rocking; none where that is 0.
+        let given_rocking = |p: Interval<Option<f64>>| {
+            let rocking = rocking.filter(|rocking| *rocking > 0.0);
+            rocking.map_or(Interval::default(), |rocking| p.map(|p| p / rocking))
+        };
+        let tree = TreeColumns {
+            pga_m_s2: motion.pga_m_s2,
+            pgv_m_s: motion.pgv_m_s,
+            p_nr: rocking.map(|p| 1.0 - p),
+            p_ex: p_ex.and_then(|given| given.p_ex).into(),
+            p_ro: given_rocking(states.overturning),
+            p_f_r: given_rocking(states.failure),
+            p_f: states.failure.value,
+        };
+        (tree, StateColumns::new(states), budget)
+    }
+}
+
+/// Probabilities of the limit states: under a motion, or in the time of exposure. Where the hazard ends too
+/// early for a value there is a range alone, in the columns of limits.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct StateColumns {
+    pub p_rocking: Option<f64>,
+    pub p_failure: Interval<Option<f64>>,
+    pub p_overturning: Interval<Option<f64>>,
+}
+
+impl StateColumns {
+    fn new(states: LimitStates<Interval<Option<f64>>>) -> StateColumns {
+        let LimitStates { rocking, failure, overturning } = states;
+        StateColumns { p_rocking: rocking.value, p_failure: failure, p_overturning: overturning }
+    }
+}
+
+/// Annual rates of an object at a site.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RateColumns {
+    pub rocking_per_year: Option<f64>,
+    pub failure_per_year: Interval<Option<f64>>,
+    pub overturning_per_year: Interval<Option<f64>>,
+    pub return_period_years: Option<f64>,
+    pub years: Option<f64>,
+    /// Whether the hazard ends too early for a rate of overturning.
+    pub is_range: Option<bool>,
+    /// Source of PGV / PGA.
+    pub velocity_by: Option<VelocitySource>,
+    /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    pub share_extrapolated: Option<f64>,
+    /// Probability of overturning that is aimed at.
+    pub target: Option<f64>,
+    pub bases: Bases,
+}
+
+impl RateColumns {
+    pub fn new(rates: &SiteRates, years: f64) -> (RateColumns, StateColumns) {
+        let LimitStates { rocking, failure, overturning } = rates.states;
+        let columns = RateColumns {
+            rocking_per_year: rocking.value,
+            failure_per_year: failure,
+            overturning_per_year: overturning,
+            return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
+            years: Some(years),
+            is_range: overturning.low.map(|_| overturning.value.is_none()),
+            velocity_by: rates.pgv_pga_source,
+            share_extrapolated: rates.beyond,
+            target: None,
+            bases: Bases::default(),
+        };
+        let in_years = rates.states.map(|rate| rate.map(|rate| probability_in_years(rate, years)));
+        (columns, StateColumns::new(in_years))
+    }
+}
+
+/// What the fragility of an object comes to, over PGA in g or PGV in m/s.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct FragilityColumns {
+    pub over: Option<Peak>,
+    pub failure: Lognormal,
+    pub overturning: Lognormal,
+}
+
+/// A point of the fragility curve of an object: the shares of the motions of an intensity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CurveRow {
+    pub pga_g: Option<f64>,
+    pub pgv_m_s: Option<f64>,
+    pub p_rocking: Interval<Option<f64>>,
+    pub p_failure: Interval<Option<f64>>,
+    pub p_overturning: Interval<Option<f64>>,
+}
+
+impl CurveRow {
+    pub fn new(over: Peak, FragilityPoint { intensity, p }: &FragilityPoint) -> CurveRow {
+        CurveRow {
+            pga_g: (over == Peak::Pga).then_some(intensity / G_M_S2),
+            pgv_m_s: (over == Peak::Pgv).then_some(*intensity),
+            p_rocking: p.rocking,
+            p_failure: p.failure,
+            p_overturning: p.overturning,
+        }
+    }
+
+    pub fn point(&self) -> FragilityPoint {
+        FragilityPoint {
+            intensity: self.pga_g.map(|pga_g| pga_g * G_M_S2).or(self.pgv_m_s).unwrap_or_default(),
+            p: LimitStates {
+                rocking: self.p_rocking,
+                failure: self.p_failure,
+                overturning: self.p_overturning,
+            },
+        }
+    }
+}
+
+/// The warnings about an answer, and the parts of the error of overturning: standard deviations of ln of its
+/// annual rate, or of the logit of its probability; none where nothing of a part is unknown.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct UncertaintyColumns {
+    /// Warnings, or why there is no answer.
+    pub warnings: Option<String>,
+    pub error_fit: Option<f64>,
+    pub error_magnitude: Option<f64>,
+    pub error_velocity: Option<f64>,
+    pub error_eta: Option<f64>,
+    pub error_object: Option<f64>,
+    pub error_floor: Option<f64>,
+    pub error_hazard: Option<f64>,
+    /// The largest source.
+    pub error_largest: Option<UncertaintySource>,
+}
+
+/// Stands between warnings.
+const BETWEEN: &str = "; ";
+
+impl UncertaintyColumns {
+    pub fn new(warnings: &[Warning], budget: &Budget) -> UncertaintyColumns {
+        let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
+        UncertaintyColumns {
+            warnings: (!texts.is_empty()).then(|| texts.join(BETWEEN)),
+            error_fit: budget.source_sd(UncertaintySource::Fit),
+            error_magnitude: budget.source_sd(UncertaintySource::Magnitude),
+            error_velocity: budget.source_sd(UncertaintySource::Velocity),
+            error_eta: budget.source_sd(UncertaintySource::Eta),
+            error_object: budget.source_sd(UncertaintySource::Object),
+            error_floor: budget.source_sd(UncertaintySource::Floor),
+            error_hazard: budget.source_sd(UncertaintySource::Hazard),
+            error_largest: budget.largest(),
+        }
+    }
+
+    /// The standard deviations of what is unknown, by source.
+    pub fn source_sds(&self) -> Vec<(UncertaintySource, f64)> {
+        let sds = UncertaintySource::VARIANTS.iter().map(|&source| {
+            let sd = match source {
+                UncertaintySource::Fit => self.error_fit,
+                UncertaintySource::Magnitude => self.error_magnitude,
+                UncertaintySource::Velocity => self.error_velocity,
+                UncertaintySource::Eta => self.error_eta,
+                UncertaintySource::Object => self.error_object,
+                UncertaintySource::Floor => self.error_floor,
+                UncertaintySource::Hazard => self.error_hazard,
+            };
+            Some((source, sd?))
+        });
+        sds.flatten().collect()
+    }
+
+    /// The warnings; none for an object without an answer.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let texts: Vec<&str> = self.warnings.iter().flat_map(|texts| texts.split(BETWEEN)).collect();
+        Warning::VARIANTS.iter().copied().filter(|warning| texts.contains(&warning.text())).collect()
+    }
+}

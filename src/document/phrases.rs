@@ -1,0 +1,367 @@
+//! Every sentence about an answer, once.
+
+use std::collections::BTreeSet;
+
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::hazard::{Bases, Hazard, PeakHazard, SLENDERNESSES, SearchEnd};
+use rockfrag_core::object::UncertaintySource;
+use rockfrag_core::statistics::Interval;
+use rockfrag_core::units::G_M_S2;
+use rockfrag_core::warning::UNNAMED;
+use strum::VariantArray;
+
+use crate::answer::{Answer, ObjectColumns};
+use crate::chart::text::literal;
+use crate::number::{self, PERCENT, RATE, count, fixed, period, plain, significant};
+
+/// What two words mean.
+pub const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its \
+                          angular velocity after an impact over that before.";
+const NO_RATE: &str =
+    "has no rate of overturning: its model has no probability for some motions of the hazard";
+
+impl ObjectColumns {
+    /// The name; none where it was given without one.
+    pub fn name(&self) -> Option<&str> {
+        Some(self.structure.as_str()).filter(|name| *name != UNNAMED)
+    }
+
+    /// Width, depth and height, else p and alpha.
+    pub fn size(&self) -> String {
+        let sides = [self.width_m, self.depth_m, self.height_m].into_iter().flatten().map(number::length);
+        match (self.width_m.zip(self.height_m), self.p_rad_s.zip(self.alpha_rad)) {
+            (Some(_), _) => format!("{} m", sides.collect::<Vec<_>>().join(" × ")),
+            (_, Some((p, alpha))) => {
+                let [p, alpha] = [p, alpha].map(|value| significant(value, 3));
+                format!("p {p} rad/s, α {alpha}")
+            }
+            _ => "-".to_string(),
+        }
+    }
+
+    pub fn is_upstairs(&self) -> bool {
+        self.floor_level.is_some()
+    }
+
+    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`.
+    pub fn place(&self) -> String {
+        match (&self.floor, self.floor_level) {
+            (_, None) => "on the ground".to_string(),
+            (Some(floor), _) => format!("on {}", literal(floor)),
+            (None, Some(1.0)) => "on the roof".to_string(),
+            (None, Some(level)) => format!("{} % up the building", fixed(100.0 * level, 0)),
+        }
+    }
+
+    /// The place in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
+    pub fn short_place(&self) -> String {
+        let place = self.place().replace(" the building", "");
+        place.trim_start_matches("on ").trim_start_matches("the ").replace(' ', "\u{a0}")
+    }
+
+    /// The place, and the period of the building: `on the roof (period 0.5 s)`.
+    pub fn place_in_building(&self) -> String {
+        let Some((period, level)) = self.floor_period_s.zip(self.floor_level) else { return self.place() };
+        let period = plain((100.0 * period).round() / 100.0);
+        // Floors are numbered in many ways.
+        let height = self.floor.as_ref().map_or(String::new(), |_| format!("{:.0} % up, ", 100.0 * level));
+        format!("{} ({height}period {period} s)", self.place())
+    }
+
+    /// The name, or what it is: `Block of 0.50 × 1.90 m`.
+    pub fn called(&self) -> String {
+        let kind = self.object_kind.as_deref().unwrap_or("Object");
+        match self.name() {
+            Some(name) => literal(&number::name(name)),
+            None => format!("{kind} of {}", self.size()),
+        }
+    }
+
+    /// The name, and the floor if it stands on one.
+    pub fn name_and_floor(&self) -> String {
+        let floor = self.is_upstairs().then(|| format!(", {}", self.short_place()));
+        self.called() + &floor.unwrap_or_default()
+    }
+
+    pub fn title(&self) -> String {
+        let size = self.name().map_or(String::new(), |_| format!(", {}", self.size()));
+        self.called() + &size
+    }
+
+    pub fn too_far(&self) -> String {
+        format!("rocks beyond {} of its slenderness", PERCENT.one(self.limit_state.unwrap_or(0.1)))
+    }
+}
+
+/// A limit state, how likely it is in the exposure time or under the motion, and how often it comes a year.
+pub struct State {
+    pub name: String,
+    pub p: Interval<Option<f64>>,
+    pub per_year: Interval<Option<f64>>,
+}
+
+impl Answer {
+    /// The exposure time, the motion or the peak: `in 50 years`, `at 0.5 g and 0.6 m/s`.
+    pub fn when(&self) -> Option<String> {
+        let pga = self.tree.pga_m_s2.map(|pga| format!("{} g", plain(pga / G_M_S2)));
+        let pgv = self.tree.pgv_m_s.map(|pgv| format!("{} m/s", plain(pgv)));
+        let peaks: Vec<String> = [pga, pgv].into_iter().flatten().collect();
+        match self.rates.years {
+            Some(years) => Some(format!("in {} year{}", plain(years), if years == 1.0 { "" } else { "s" })),
+            None => (!peaks.is_empty()).then(|| format!("at {}", peaks.join(" and "))),
+        }
+    }
+
+    /// The limit states, each beyond those before.
+    pub fn states(&self) -> [State; 3] {
+        let too_far = format!("{}, or overturns", self.object.too_far());
+        let [rocks, rocking_per_year] =
+            [self.p.p_rocking, self.rates.rocking_per_year].map(Interval::without_limits);
+        [
+            ("rocks", rocks, rocking_per_year),
+            (&too_far, self.p.p_failure, self.rates.failure_per_year),
+            ("overturns", self.p.p_overturning, self.rates.overturning_per_year),
+        ]
+        .map(|(name, p, per_year)| State { name: name.to_string(), p, per_year })
+    }
+
+    fn rocks(&self) -> bool {
+        self.p.p_rocking.is_some_and(|p| p > 0.0)
+    }
+
+    /// How likely it is to overturn, with limits or bounds: the sentence that begins with the object.
+    pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
+        let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
+        let limits = PERCENT.limits(p, "95 % limits ");
+        match (self.rates.years, self.rates.overturning_per_year) {
+            _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
+            (None, _) if !self.rocks() => self.uplift(),
+            (None, _) => format!("overturns with a probability of {} {when} {limits}", PERCENT.value(p)),
+            (_, Interval { value: Some(0.0), .. }) => {
+                "does not overturn: nothing of the hazard uplifts it".to_string()
+            }
+            (_, Interval { value: Some(rate), .. }) => {
+                format!(
+                    "overturns once in {} years; {} {when} {limits}",
+                    period(1.0 / rate),
+                    PERCENT.value(p)
+                )
+            }
+            (_, bounds @ Interval { low: Some(_), high: Some(_), .. }) => {
+                let end = match hazard {
+                    Some(Hazard::Curve(PeakHazard { peak, curve, .. })) => {
+                        let [_, (last, rate)] = curve.ends();
+                        let years = count((1.0 / rate).round() as usize);
+                        format!(": the curve ends at {} (once in {years} years)", with_unit(*peak, last))
+                    }
+                    _ => ": the hazard ends too early for one number".to_string(),
+                };
+                let bounds = RATE.value(bounds).replacen(" to ", " and ", 1);
+                format!("overturns between {bounds} times a year, {} {when}{end}", PERCENT.value(p))
+            }
+            _ => NO_RATE.to_string(),
+        }
+    }
+
+    /// Whether it rocks: on the ground by PGA over that of uplift.
+    pub fn uplift(&self) -> String {
+        let friction = self.object.friction.filter(|_| !self.object.is_upstairs());
+        let rocks = if self.rocks() { "rocks" } else { "does not rock" };
+        match (self.tree.pga_m_s2.zip(friction), self.p.p_rocking) {
+            _ if self.tree.pga_m_s2 == Some(0.0) || self.tree.pgv_m_s == Some(0.0) => {
+                "does not rock: nothing moves it".to_string()
+            }
+            (Some((pga_m_s2, friction)), _) => {
+                let times = pga_m_s2 / (friction * G_M_S2);
+                let times = fixed(times, if times > 10.0 { 0 } else { 1 });
+                format!("{rocks}: PGA is {times} times what uplifts it")
+            }
+            (None, Some(p)) => format!("rocks with a probability of {}", PERCENT.one(p)),
+            _ => rocks.to_string(),
+        }
+    }
+
+    pub fn meets(&self, target: f64) -> bool {
+        self.p.p_overturning.value.or(self.p.p_overturning.high).is_some_and(|p| p <= target)
+    }
+
+    /// The base with which it meets its target, by the estimate and by the upper limit, or why none does.
+    pub fn about_target(&self) -> Option<String> {
+        let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
+        let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
+        let Some(base) = self.base() else {
+            return Some(format!("No base reaches {target}: {why_none}. Anchored, it would not rock."));
+        };
+        let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.is_none());
+        let depth = depth.map_or(String::new(), |depth| {
+            let depth = number::length(depth);
+            format!("No width reaches {target}: it then falls over its depth ({depth} m). ")
+        });
+        let by_limit = match self.base_by_limit() {
+            Some(base) => format!("{base} by the upper limit"),
+            None => format!("none by the upper limit: {why_none}"),
+        };
+        Some(format!("{depth}Base for {target}: {base}; {by_limit}."))
+    }
+
+    fn why_no_base(&self) -> String {
+        match self.rates.bases.target_end {
+            None => "its width and height are not known".to_string(),
+            Some(SearchEnd::Model) => format!("the model ends at a slenderness of {}", SLENDERNESSES[1]),
+            Some(SearchEnd::Hazard) => "the hazard curve ends too early (--extrapolate)".to_string(),
+        }
+    }
+
+    /// The base that meets the target, if there is one.
+    pub fn base(&self) -> Option<String> {
+        let Bases { target_width_m, target_sides_m, .. } = self.rates.bases;
+        base_in_words(&self.object, target_width_m, target_sides_m)
+    }
+
+    fn base_by_limit(&self) -> Option<String> {
+        let Bases { target_width_m_high, target_sides_m_high, .. } = self.rates.bases;
+        base_in_words(&self.object, target_width_m_high, target_sides_m_high)
+    }
+
+    /// Why there is no answer.
+    pub fn reason(&self) -> String {
+        let words = self.uncertainty.warnings.as_deref().and_then(|words| words.split(';').next());
+        literal(words.unwrap_or("no reason known"))
+    }
+
+    /// The largest part of the error, and what would narrow it.
+    fn largest_uncertainty(&self) -> Option<String> {
+        let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
+        let part = self.uncertainty.error_largest.filter(|_| is_known)?;
+        let advice = match part {
+            UncertaintySource::Fit if self.object.responses > Some(0) => "",
+            UncertaintySource::Fit => "Calibrate it with records of the site (--fits).",
+            UncertaintySource::Magnitude => "Add --magnitude.",
+            UncertaintySource::Velocity => "Give both peaks, or the hazard of both.",
+            UncertaintySource::Eta => "Measure it (--eta, --eta-sd).",
+            UncertaintySource::Object => "Measure its centre of mass.",
+            UncertaintySource::Floor => "Measure its period (--period, --period-sd).",
+            UncertaintySource::Hazard => "",
+        };
+        Some(format!("Largest uncertainty: {}. {advice}", part.description()).trim_end().to_string())
+    }
+}
+
+/// The base of an object that a search for a target found: of this width, or with both sides no less than
+/// this. To the millimetre, never below.
+fn base_in_words(object: &ObjectColumns, width: Option<f64>, sides: Option<f64>) -> Option<String> {
+    let least = sides.unwrap_or(0.0);
+    let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
+    // What is given in millimetres stays.
+    let up = |side_m: f64| number::length((1e3 * side_m - 1e-6).ceil() / 1e3);
+    let depth = object.depth_m.map(|depth| format!(" × {}", up(depth.max(least))));
+    Some(format!("{}{} m", up(width), depth.unwrap_or_default()))
+}
+
+fn with_unit(peak: Peak, intensity: f64) -> String {
+    let (_, unit, symbol) = peak.name_and_unit();
+    format!("{} {symbol}", significant(intensity / unit, 3))
+}
+
+/// What answers rest on, the worst of which is the first: a line each.
+pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
+    let Some(worst) = all.first() else { return Vec::new() };
+    let uncertain = [worst.largest_uncertainty(), limits_cover(all)];
+    let uncertain: Vec<String> = uncertain.into_iter().flatten().collect();
+    let beyond = worst
+        .rates
+        .share_extrapolated
+        .map(|share| format!("{} of the rate lies beyond the curve.", PERCENT.one(share)));
+    let valid = match all {
+        [one] => one
+            .object
+            .friction
+            .filter(|_| one.object.is_friction_known != Some(true))
+            .map(|friction| format!("Valid if friction is above {}; else it slides.", fixed(friction, 2))),
+        _ => Some("With less friction than it needs, an object slides instead of rocking.".to_string()),
+    };
+    let mut upstairs = all.iter().map(|answer| &answer.object).filter(|object| object.is_upstairs());
+    let building = upstairs.clone().next().map(|_| {
+        let percent = upstairs.any(|object| object.floor.is_none());
+        let percent = if percent { "; 60 % up is at 60 % of its height" } else { "" };
+        format!("The building is taken as linear{percent}.")
+    });
+    let valid: Vec<String> = [valid, building].into_iter().flatten().collect();
+    let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
+    let lines = [Some(uncertain.join(" ")), beyond, model, Some(valid.join(" "))];
+    lines.into_iter().flatten().filter(|line| !line.is_empty()).collect()
+}
+
+/// What predicts; of objects that are fitted each to its own responses, what is the same.
+fn model_of_all(all: &[&Answer]) -> Option<String> {
+    let models: BTreeSet<&str> = all.iter().filter_map(|answer| answer.object.model.as_deref()).collect();
+    let (first, object) = (models.first()?, &all[0].object);
+    Some(match object.motions.filter(|_| models.len() > 1 && first.contains("surface")) {
+        Some(kind) => format!(
+            "rockfrag's universal surface, calibrated to the simulated responses ({})",
+            kind.description()
+        ),
+        None => literal(object.model.as_deref().unwrap_or(first)),
+    })
+}
+
+/// The motion that codes design for, by the curve: who knows the site sees a wrong unit or column by it.
+fn usual_motion(hazard: Option<&Hazard>) -> String {
+    let Some(Hazard::Curve(PeakHazard { peak, curve, .. })) = hazard else { return String::new() };
+    let intensity = curve.intensity(1.0 / 475.0);
+    let years = count((1.0 / curve.exceedance(intensity)).round() as usize);
+    format!("; {} {} once in {years} years", peak.name_and_unit().0, with_unit(*peak, intensity))
+}
+
+/// What the limits cover.
+pub fn limits_cover(all: &[&Answer]) -> Option<String> {
+    let unknown: Vec<_> = all.iter().flat_map(|answer| answer.uncertainty.source_sds()).collect();
+    let parts =
+        UncertaintySource::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
+    let parts: Vec<&str> = parts.map(|part| part.description()).collect();
+    let joined = match parts.split_last()? {
+        (only, []) => (*only).to_string(),
+        (last, others) => format!("{} and {last}", others.join(", ")),
+    };
+    Some(format!("The 95 % limits cover uncertainty in {joined} only."))
+}
+
+/// How many objects of a list are expected to overturn, and how likely at least one does.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Expected {
+    /// With the lower ends of what is known as a range alone.
+    least: f64,
+    /// With the upper ends.
+    most: f64,
+    /// The number of all objects.
+    pub all: f64,
+    /// If all fall together: the probability of the worst.
+    pub together: f64,
+    /// If each falls by itself.
+    pub independent: f64,
+}
+
+impl Expected {
+    pub fn new<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Expected {
+        let (mut sum, mut ln_none) = (Expected::default(), 0.0);
+        for answer in answers {
+            let (count, Interval { value, low, high }) =
+                (answer.object.count.unwrap_or(1.0), answer.p.p_overturning);
+            let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else {
+                continue;
+            };
+            sum.all += count;
+            sum.least += count * low;
+            sum.most += count * high;
+            sum.together = sum.together.max(low);
+            ln_none += count * (-high).ln_1p();
+        }
+        Expected { independent: -f64::exp_m1(ln_none), ..sum }
+    }
+
+    /// The expected number, or its range.
+    pub fn number(&self) -> String {
+        let (low, high) = (significant(self.least, 2), significant(self.most, 2));
+        if low == high { low } else { format!("{low} to {high}") }
+    }
+}

@@ -1,0 +1,399 @@
+//! Answers: an object to scale, its fragility, the hazard, what would change it, what is not known of it; and
+//! lists of objects.
+
+use rockfrag_core::fragility::{LimitState, Peak};
+use rockfrag_core::hazard::{
+    Fragility, FragilityPoint, Hazard, HazardCurve, RateByIntensity, Site, exceedance,
+};
+use rockfrag_core::object::{RockingObject, UncertaintySource};
+use rockfrag_core::statistics::normal::Z_95;
+use rockfrag_core::statistics::{Interval, Range};
+
+use crate::answer::{Answer, ObjectColumns, Variant};
+use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
+use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
+
+/// Height of the area of the data of a panel, points.
+const HEIGHT: f64 = 150.0;
+/// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
+/// consider.
+const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
+/// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
+/// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
+pub const BANDS: [f64; 2] = [0.02, 0.1];
+/// The most objects of a list, and the most curves in one panel.
+const ROWS: usize = 60;
+const CURVES: usize = 6;
+/// Bins of intensity.
+const BINS: usize = 60;
+
+/// What is drawn of an object at a site: its fragility there, how often an intensity is exceeded, and where the
+/// rate of overturning comes from.
+pub struct AtSite {
+    pub peak: Peak,
+    curve: HazardCurve,
+    parts: RateByIntensity,
+    pub fragility: Option<Fragility>,
+}
+
+/// An intensity that comes once in so many years.
+pub struct Usual {
+    pub intensity: f64,
+    pub years: f64,
+}
+
+impl AtSite {
+    /// None for pairs of peaks that make no curve.
+    pub fn new(site: &Site, object: &RockingObject) -> Option<AtSite> {
+        let (peak, curve) = match &site.hazard {
+            Hazard::Curve(hazard) => (hazard.peak, hazard.curve.clone()),
+            Hazard::Joint(pairs) => {
+                (Peak::Pga, HazardCurve::new(exceedance(pairs, |pair| pair.peaks.pga_m_s2)).ok()?)
+            }
+        };
+        let parts = site.rate_by_intensity(object, BINS);
+        Some(AtSite { peak, curve, parts, fragility: site.fragility(object) })
+    }
+
+    /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
+    pub fn usual(&self) -> impl Iterator<Item = Usual> {
+        let [(_, often), (_, rarely)] = self.curve.ends();
+        let known = USUAL_YEARS.into_iter().filter(move |years| rarely < 1.0 / years && 1.0 / years <= often);
+        known.map(|years| {
+            let intensity = self.curve.intensity(1.0 / years) / self.peak.name_and_unit().1;
+            Usual { intensity, years }
+        })
+    }
+}
+
+/// How rare an intensity is: `475 years`.
+pub fn years(years: f64) -> String {
+    format!("{} years", count(years as usize))
+}
+
+/// The figure of an object: what there is of its panels.
+pub fn object(answer: &Answer, variants: &[Variant], drawn: Option<&AtSite>) -> Figure {
+    let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
+    let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
+    panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, &answer.object, drawn)));
+    if variants.len() > 1 {
+        panels.push(variants_panel(variants, answer));
+    }
+    if let Some(drawn) = drawn {
+        panels.push(hazard_panel(drawn));
+        panels.extend(shares(drawn));
+    }
+    panels.extend(unknown(answer));
+    Figure::new("object", &answer.object.title(), 2, HEIGHT, panels)
+}
+
+/// The fragility of one object with all its limit states, or overturning of several, the weakest first.
+pub fn fragilities(answers: &[&Answer], over: Peak) -> Figure {
+    if let [answer] = answers {
+        let panels = sketch(&answer.object).into_iter();
+        let panels = panels.chain([fragility_panel(over, &answer.points, &answer.object, None)]).collect();
+        return Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels);
+    }
+    let mut layers = Vec::new();
+    for (number, answer) in answers.iter().take(CURVES).enumerate() {
+        let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
+        layers.push(Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks));
+    }
+    let rest = match answers.len().saturating_sub(CURVES) {
+        0 => String::new(),
+        rest => format!(" Not drawn: {} that take a stronger motion.", counted(rest, "object")),
+    };
+    let (what, averaged) = (over.name_and_unit().0, averaged(over));
+    let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
+    let panel = curves_panel("", over, layers);
+    let title = "How strong a motion overturns each object";
+    Figure::new("fragility", title, 1, HEIGHT, vec![panel]).explained(caption)
+}
+
+/// How likely each object of a list overturns, the worst first; those on floors with their floor.
+pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
+    let drawn = &answers[..answers.len().min(ROWS)];
+    let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
+    let rows = drawn.iter().map(|answer| {
+        let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
+        let name = answer.object.name_and_floor();
+        ProbabilityRow::new(&name, Ink::Band(band), bands[band], &[answer.p.p_overturning])
+    });
+    let rows: Vec<ProbabilityRow> = rows.collect();
+    let rest = match answers.len() - drawn.len() {
+        0 => String::new(),
+        rest => format!(" Not drawn: {} that are less likely to overturn.", counted(rest, "object")),
+    };
+    let caption = format!("Probability of overturning {when} with 95 % limits.{rest}");
+    let panel = (!rows.is_empty()).then(|| probabilities("", when, &rows, target));
+    let title = "How likely each object is to overturn";
+    Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
+}
+
+/// The object as it stands over the side to which it falls first, and as it is about to tip; none without
+/// width and height.
+fn sketch(object: &ObjectColumns) -> Option<Panel> {
+    let (width, height, alpha_rad) = (object.width_m?, object.height_m?, object.alpha_rad?);
+    let centre_height = object.centre_height_m.unwrap_or(0.5 * height);
+    let is_weaker = |depth: &f64| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9;
+    let (width, centre_offset) = match object.depth_m.filter(is_weaker) {
+        Some(depth) => (depth, 0.0),
+        None => (width, object.centre_offset_m.unwrap_or(0.0)),
+    };
+    let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height), (0.0, 0.0)];
+    let corners = corners.map(|(x, y)| Mark::new(x, y));
+    // It tips over its nearer edge, which is drawn at the right.
+    let edge = Mark::new(width, 0.0);
+    let centre = Mark::new(0.5 * width + centre_offset.abs(), centre_height);
+    let tipped = |mark: Mark| {
+        let (sin, cos, away) = (alpha_rad.sin(), alpha_rad.cos(), mark.x - width);
+        Mark::new(width + away * cos + mark.y * sin, mark.y * cos - away * sin)
+    };
+    let turned = corners.map(tipped);
+    let room = 0.16 * height.max(width);
+    let right = turned.iter().map(|corner| corner.x).fold(width, f64::max);
+    let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
+    let layers = vec![
+        Layer::line("", Ink::Muted, [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0))),
+        Layer::line(
+            "",
+            Ink::Data(0),
+            [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) }),
+        ),
+        Layer::line("", Ink::Text, corners),
+        Layer::guide(Ink::Data(1), turned),
+        Layer::guide(Ink::Data(1), [edge, tipped(centre)]),
+        Layer::guide(Ink::Muted, [edge, centre]),
+        Layer::points("", Ink::Data(1), [tipped(centre)]),
+        Layer::points("", Ink::Text, [centre]),
+    ];
+    let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
+    let degrees = significant(alpha_rad.to_degrees(), 3);
+    let caption = format!(
+        "To scale, with its centre of mass, {}. It tips over its weaker side at {degrees}°.",
+        object.place()
+    );
+    let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
+    let y = Axis::linear("").over(-1.1 * room, top + 0.3 * room);
+    let words = [
+        (0.5 * width, 0.0, width_m, LabelPosition::Below, Ink::Muted),
+        (0.0, 0.5 * height, height_m, LabelPosition::Left, Ink::Muted),
+        (turned[2].x, turned[2].y, format!("tips at {degrees}°"), LabelPosition::Right, Ink::Data(1)),
+    ];
+    let words = words.map(|(x, y, text, position, ink)| Words { x, y, text, position, ink }).into();
+    let panel = Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers) };
+    Some(panel.explained(caption))
+}
+
+/// The curve of a limit state, in percent; with its limits if they are wanted.
+fn curve(over: Peak, points: &[FragilityPoint], state: LimitState, has_limits: bool) -> Vec<Mark> {
+    let (_, unit, _) = over.name_and_unit();
+    let marks = points.iter().filter_map(|point| {
+        let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
+        Some(if has_limits { Mark::estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
+    });
+    marks.collect()
+}
+
+fn peak_axis(peak: Peak) -> Axis {
+    let (what, _, symbol) = peak.name_and_unit();
+    Axis::log(&format!("{what} ({symbol})"))
+}
+
+fn curves_panel(title: &str, over: Peak, layers: Vec<Layer>) -> Panel {
+    Panel::new(title, peak_axis(over), Axis::linear("probability, %").over(0.0, 101.0), layers)
+}
+
+/// The limit states of one object, with the usual intensities of a site.
+fn fragility_panel(
+    over: Peak,
+    points: &[FragilityPoint],
+    object: &ObjectColumns,
+    drawn: Option<&AtSite>,
+) -> Panel {
+    let too_far = format!("{}, or overturns", object.too_far().replace("its slenderness", "*α*"));
+    let layers = vec![
+        Layer::line(&too_far, Ink::Data(0), curve(over, points, LimitState::Failure, false)),
+        Layer::line(
+            "overturns, with 95 % limits",
+            Ink::Data(1),
+            curve(over, points, LimitState::Overturning, true),
+        ),
+    ];
+    let mut panel = curves_panel("Fragility", over, layers);
+    let drawn = drawn.filter(|drawn| drawn.peak == over);
+    for Usual { intensity: x, years: period } in drawn.iter().flat_map(|drawn| drawn.usual()) {
+        panel.add_upright(upright(x, 100.0, years(period)), 0.0);
+    }
+    let (what, place) = (over.name_and_unit().0, if drawn.is_some() { " at the site" } else { "" });
+    panel.explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(over)))
+}
+
+fn upright(x: f64, y: f64, text: String) -> Words {
+    Words { x, y, text, position: LabelPosition::Along, ink: Ink::Muted }
+}
+
+/// Over what a fragility is averaged.
+fn averaged(over: Peak) -> String {
+    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
+    format!("averaged over the {} of such motions", other.name_and_unit().0)
+}
+
+fn variants_panel(variants: &[Variant], answer: &Answer) -> Panel {
+    let rows = variants.chunk_by(|a, b| a.variant == b.variant).enumerate().map(|(place, same)| {
+        let ink = if place == 0 { Ink::Data(1) } else { Ink::Data(0) };
+        let p: Vec<Interval<Option<f64>>> = same.iter().map(|one| one.p_overturning).collect();
+        ProbabilityRow::new(&same[0].variant, ink, "", &p)
+    });
+    let rows: Vec<ProbabilityRow> = rows.collect();
+    let when = answer.when().unwrap_or_default();
+    let caption = format!(
+        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
+         test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces see ASCE 7, \
+         chapter 13, or EN 1998-1, 4.3.5."
+    );
+    probabilities("What would change it", &when, &rows, answer.rates.target).explained(caption)
+}
+
+fn hazard_panel(drawn: &AtSite) -> Panel {
+    let (what, unit, symbol) = drawn.peak.name_and_unit();
+    let [_, (_, lowest)] = drawn.curve.ends();
+    let mut panel =
+        Panel::new("Hazard", peak_axis(drawn.peak), Axis::log("exceeded, times a year"), Vec::new());
+    let (mut words, mut dots) = (Vec::new(), Vec::new());
+    for Usual { intensity, years: period } in drawn.usual() {
+        let (text, y) = (years(period), 1.0 / period);
+        words.push(format!("{} {symbol} once in {text}", significant(intensity, 2)));
+        dots.push(Mark::new(intensity, y));
+        panel.add_upright(upright(intensity, y, text), lowest);
+    }
+    let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
+    panel.layers.push(Layer::line("", Ink::Text, curve));
+    panel.layers.push(Layer::points("", Ink::Text, dots));
+    let caption = format!("How often {what} is exceeded at the site: {}.", words.join(", "));
+    panel.explained(caption)
+}
+
+/// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
+/// share.
+fn shares(drawn: &AtSite) -> Option<Panel> {
+    let (what, unit, _) = drawn.peak.name_and_unit();
+    let parts = &drawn.parts;
+    let all = parts.rates.iter().sum::<f64>() + parts.beyond;
+    let mut outline = Vec::new();
+    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates) {
+        let y = 100.0 * rate / all / (edge[1] / edge[0]).ln();
+        outline.extend([edge[0], edge[1]].map(|x| Mark { low: 0.0, high: y, ..Mark::new(x / unit, y) }));
+    }
+    if outline.is_empty() || all <= 0.0 {
+        return None;
+    }
+    let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
+    let beyond = match parts.beyond / all {
+        share if share >= 0.0005 => format!(" {} lies beyond the hazard curve.", PERCENT.one(share)),
+        _ => String::new(),
+    };
+    let caption = format!(
+        "Which motions overturn it: its rate of overturning by {what}; the whole area is 100 %.{beyond}"
+    );
+    let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
+    let layers = vec![Layer::line("", Ink::Data(1), outline)];
+    Some(Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption))
+}
+
+/// What is not known, by how far it moves the rate.
+fn unknown(answer: &Answer) -> Option<Panel> {
+    let mut parts = answer.uncertainty.source_sds();
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let most = (Z_95 * parts.first()?.1).exp();
+    let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
+    let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
+    let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
+    let (mut marks, mut words) = (Vec::new(), Vec::new());
+    for (row, (_, sd)) in parts.iter().enumerate() {
+        let (x, y) = ((Z_95 * sd).exp(), row as f64);
+        marks.push(Mark { low: 1.0, high: x, ..Mark::new(x, y) });
+        let text = format!("× {}", significant(x, 2));
+        words.push(Words { x, y, text, position: LabelPosition::Margin, ink: Ink::Text });
+    }
+    let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
+    let caption = format!(
+        "What is not known, and what would narrow it: how far each may raise or lower the {what} of \
+         overturning (95 % limits)."
+    );
+    Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
+}
+
+/// What is not known, and what to measure.
+fn what_to_measure(part: UncertaintySource) -> &'static str {
+    match part {
+        UncertaintySource::Fit => "fragility: records of the site",
+        UncertaintySource::Magnitude => "magnitude: disaggregation",
+        UncertaintySource::Velocity => "PGV: its hazard curve",
+        UncertaintySource::Eta => "restitution: a rocking test",
+        UncertaintySource::Object => "centre of mass: weigh it",
+        UncertaintySource::Floor => "building: measure its period",
+        UncertaintySource::Hazard => "hazard: its fractiles",
+    }
+}
+
+/// A row of a panel of probabilities.
+pub struct ProbabilityRow {
+    pub name: String,
+    /// One below the other, each in a colour that the legend names.
+    pub values: Vec<(Interval<Option<f64>>, Ink, &'static str)>,
+    /// At the right edge.
+    pub words: String,
+}
+
+impl ProbabilityRow {
+    /// A row of probabilities in one colour, with their values at its end.
+    fn new(name: &str, ink: Ink, label: &'static str, all: &[Interval<Option<f64>>]) -> ProbabilityRow {
+        let words = all.iter().map(|p| match (p.value, p.high) {
+            (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
+            _ => OF_HUNDRED.value(*p),
+        });
+        let words = words.collect::<Vec<_>>().join(", ") + " %";
+        ProbabilityRow {
+            name: name.to_string(),
+            values: all.iter().map(|&p| (p, ink, label)).collect(),
+            words,
+        }
+    }
+}
+
+/// How far apart the values of a row stand, rows.
+const APART: f64 = 0.34;
+
+/// A panel of rows, in percent, over all values and the target.
+pub fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
+    let (mut layers, mut words): (Vec<Layer>, _) = (Vec::new(), Vec::new());
+    let mut ends: Vec<f64> = target.into_iter().collect();
+    for (at, row) in rows.iter().enumerate() {
+        let (y, text) = (at as f64, row.words.clone());
+        words.push(Words { x: 0.0, y, text, position: LabelPosition::Margin, ink: Ink::Text });
+        for (place, (p, ink, label)) in row.values.iter().enumerate() {
+            ends.extend([p.value, p.low, p.high].into_iter().flatten());
+            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
+            let y = y + APART * (place as f64 - 0.5 * (row.values.len() as f64 - 1.0));
+            let mark = Mark { low, high, ..Mark::new(x, y) };
+            match layers.iter_mut().find(|layer| layer.ink == *ink) {
+                Some(layer) => layer.marks.push(mark),
+                None => layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
+            }
+        }
+    }
+    let Range { low, high } = Range::over(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
+    let x = Axis::log(&format!("probability of overturning {when}, %"));
+    let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
+    let names = Axis::names(rows.iter().map(|row| row.name.clone()));
+    let mut panel = Panel::new(title, x, names, Vec::new());
+    if let Some(target) = target {
+        let (x, text) = (100.0 * target, format!("target {}", PERCENT.one(target)));
+        let words = Words { x, y: -0.5, text, position: LabelPosition::Above, ink: Ink::Muted };
+        panel.add_upright(words, rows.len() as f64 - 0.5);
+    }
+    panel.layers.extend(layers);
+    panel.words.extend(words);
+    panel
+}
