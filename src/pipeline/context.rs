@@ -16,7 +16,7 @@ use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
-use crate::table::writer::{Existing, PendingFile, TableWriter, persist};
+use crate::table::writer::{PendingFile, TableWriter, persist};
 
 /// More threads than any machine runs at once take minutes to start.
 const MOST_THREADS: usize = 1024;
@@ -193,7 +193,7 @@ impl Context {
     pub fn persist(&self) -> anyhow::Result<()> {
         self.observed.expect_running()?;
         self.expect_unchanged()?;
-        persist(std::mem::take(&mut *locked(&self.written)), Existing::Replaced)?;
+        persist(std::mem::take(&mut *locked(&self.written)))?;
         for former in &*locked(&self.former) {
             let _ = std::fs::remove_file(former);
         }

@@ -1,17 +1,17 @@
 //! init: a folder to start from. It replaces nothing.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use chrono::Local;
 use clap::ValueEnum;
 
 use crate::number;
 use crate::pipeline::UsageError;
-use crate::table::writer::{Existing, PendingFile, persist};
+use crate::table::writer::{PendingFile, persist};
 
 /// What a folder starts from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Start {
     /// The paper's set-up
     Paper,
@@ -42,22 +42,21 @@ impl Start {
 /// Writes the files of a start into a folder, unless one of them is there already. Returns which.
 pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     let folder = folder.strip_prefix(".").unwrap_or(folder);
-    let files: Vec<_> = start.files().iter().map(|(name, text)| (folder.join(name), text)).collect();
-    if let Some((path, _)) = files.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
-        let path = path.display();
-        return Err(UsageError::because(format!(
-            "{path}: is there already; choose another folder with --out"
-        )));
-    }
     let today = Local::now().date_naive().to_string();
-    let written =
-        files.iter().map(|(path, text)| PendingFile::new(path, text.replace("TODAY", &today).as_bytes()));
-    persist(written.collect::<Result<_, _>>()?, Existing::Kept)?;
-    let wrote = |(path, _): &(PathBuf, _)| format!("wrote {}\n", number::path(path));
-    let mut text: String = files.iter().map(wrote).collect();
-    let there =
-        if folder == Path::new("") { String::new() } else { format!("cd {} && ", number::path(folder)) };
-    let before = if start == Start::Records { "put your records into the folder records, then " } else { "" };
+    let (mut files, mut text) = (Vec::new(), String::new());
+    for (name, content) in start.files() {
+        let path = folder.join(name);
+        if path.symlink_metadata().is_ok() {
+            let problem = "is there already; choose another folder with --out";
+            return Err(UsageError::because(format!("{}: {problem}", path.display())));
+        }
+        files.push(PendingFile::new(&path, content.replace("TODAY", &today).as_bytes())?);
+        writeln!(text, "wrote {}", number::path(&path))?;
+    }
+    persist(files)?;
+    let before =
+        if let Start::Records = start { "put your records into the folder records, then " } else { "" };
+    let there = if folder == Path::new("") { "" } else { &format!("cd {} && ", number::path(folder)) };
     writeln!(text, "next: {before}{there}rockfrag run")?;
     Ok(text)
 }

@@ -79,13 +79,6 @@ pub struct PendingFile {
     target: PathBuf,
 }
 
-/// What becomes of a file that has the name already.
-#[derive(Debug, Clone, Copy)]
-pub enum Existing {
-    Replaced,
-    Kept,
-}
-
 impl PendingFile {
     pub fn new(path: &Path, content: &[u8]) -> Result<PendingFile, TableError> {
         let mut written = PendingFile::begin(path)?;
@@ -130,7 +123,7 @@ impl PendingFile {
 }
 
 /// Gives files their names, all or none of them.
-pub fn persist(files: Vec<PendingFile>, existing: Existing) -> Result<(), TableError> {
+pub fn persist(files: Vec<PendingFile>) -> Result<(), TableError> {
     for file in &files {
         file.take_permissions().map_err(|source| cannot_write(&file.path, source))?;
     }
@@ -141,13 +134,8 @@ pub fn persist(files: Vec<PendingFile>, existing: Existing) -> Result<(), TableE
         } else {
             Ok(None)
         };
-        let renamed = former.and_then(|former| {
-            let renamed = match existing {
-                Existing::Replaced => partial.persist(&target),
-                Existing::Kept => partial.persist_noclobber(&target),
-            };
-            renamed.map(|_| former).map_err(|refused| refused.error)
-        });
+        let renamed = former
+            .and_then(|former| partial.persist(&target).map(|_| former).map_err(|refused| refused.error));
         match renamed {
             Ok(former) => named.push((target, former)),
             Err(source) => {
