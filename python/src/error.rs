@@ -2,7 +2,7 @@
 
 use std::io;
 
-use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use rockfrag::inputs::InputError;
 use rockfrag::pipeline::UsageError;
@@ -15,7 +15,8 @@ pyo3::create_exception!(
     "A stage failed; the message names the file and what was expected."
 );
 
-/// The exception of an error: ValueError for a mistake in the call, FileNotFoundError, else [`Error`].
+/// The exception of an error: TypeError for an unknown option, ValueError for another mistake in the call,
+/// FileNotFoundError, else [`Error`].
 pub fn to_python(error: &anyhow::Error) -> PyErr {
     let is_missing = |cause: &(dyn std::error::Error + 'static)| {
         let mut input = cause.downcast_ref::<InputError>();
@@ -29,10 +30,12 @@ pub fn to_python(error: &anyhow::Error) -> PyErr {
     let message = in_python(&format!("{error:#}"));
     if error.chain().any(is_missing) {
         PyFileNotFoundError::new_err(message)
-    } else if error.chain().any(|cause| cause.is::<UsageError>()) {
-        PyValueError::new_err(message)
     } else {
-        Error::new_err(message)
+        match error.chain().find_map(|cause| cause.downcast_ref()) {
+            Some(UsageError::UnknownOption(_)) => PyTypeError::new_err(message),
+            Some(UsageError::Mistake(_)) => PyValueError::new_err(message),
+            None => Error::new_err(message),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use rockfrag::pipeline::context::{Context, Observed, threads_of};
+use rockfrag::pipeline::context::{Common, Observed, threads_of};
 use rockfrag::source::forget_pipes;
 
 use crate::error::to_python;
@@ -35,16 +35,15 @@ pub fn run<T: Send + 'static>(
     py: Python,
     threads: Option<usize>,
     progress: Option<&Py<PyAny>>,
-    work: impl FnOnce(Context) -> anyhow::Result<T> + Send + 'static,
+    work: impl FnOnce(Common) -> anyhow::Result<T> + Send + 'static,
 ) -> PyResult<T> {
     forget_pipes();
     expect_own_threads().map_err(|error| to_python(&error))?;
-    let mut context = Context::default();
-    context.common.quiet = true;
-    let observed = &context.observed.clone();
+    let common = Common { quiet: true, ..Common::default() };
+    let observed = &common.observed.clone();
     let (finished, wait) = sync_channel(1);
     // Nobody waits for an interrupted one.
-    thread::spawn(move || drop(finished.send(on_threads(threads, || work(context)))));
+    thread::spawn(move || drop(finished.send(on_threads(threads, || work(common)))));
     let result = py.detach(move || {
         let (mut interrupted, mut last) = (None, 0..LAST_CHECKS);
         loop {
@@ -68,10 +67,8 @@ fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> anyhow::Result<T> + Send,
 ) -> anyhow::Result<T> {
-    match threads_of(threads)? {
-        Some(threads) => threads.build()?.install(work),
-        None => work(),
-    }
+    let pool = threads_of(threads)?;
+    if threads.is_some() { pool.build()?.install(work) } else { work() }
 }
 
 /// Lets Python interrupt, and calls `progress` with the number of steps done and of all.

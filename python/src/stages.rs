@@ -1,6 +1,5 @@
 //! Any stage by the parser of the command line: options as JSON in, the paths of what was written out.
 
-use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -8,10 +7,9 @@ use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use rockfrag::cli::calls;
-use rockfrag::pipeline::cache::{self, Done};
-use rockfrag::pipeline::call::Call;
-use rockfrag::pipeline::context::{Caller, Context};
-use rockfrag::pipeline::given::{Base, UnknownOption, in_one_form};
+use rockfrag::pipeline::call::{Call, Done, Planned};
+use rockfrag::pipeline::context::Common;
+use rockfrag::pipeline::options::Given;
 use rockfrag::stages::inspect::Inspect;
 use serde_json::Value;
 
@@ -50,24 +48,18 @@ pub fn call(
 ) -> PyResult<Made> {
     let kind = rockfrag::stages::all().into_iter().find(|kind| kind.name() == stage);
     let kind = kind.ok_or_else(|| PyTypeError::new_err(format!("no stage {stage}")))?;
-    let options: BTreeMap<String, Value> =
+    let options: Given =
         serde_json::from_str(options).map_err(|error| PyTypeError::new_err(error.to_string()))?;
-    let given = in_one_form(&kind.command, options, &Base::default()).map_err(|error| match error
-        .is::<UnknownOption>(
-    ) {
-        true => PyTypeError::new_err(in_python(&format!("{stage}: {error}"))),
-        false => to_python(&error),
-    })?;
-    run(py, threads, progress.as_ref(), move |mut context| {
-        let call = calls::of_stage(&kind, given)?;
-        context.common.force = call.common.force;
-        make(&call, &context, &mut HashMap::new())
+    run(py, threads, progress.as_ref(), move |mut common| {
+        let call = calls::of_stage(&kind, options)?;
+        common.force = call.common.force;
+        make(&call, &common, &mut Planned::new())
     })
 }
 
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
-fn make(call: &Call, context: &Context, made: &mut HashMap<PathBuf, String>) -> anyhow::Result<Made> {
-    let Done { summary, warnings, .. } = cache::run(call, context, made)?;
+fn make(call: &Call, common: &Common, made: &mut Planned) -> anyhow::Result<Made> {
+    let Done { summary, warnings, .. } = call.run(common, made)?;
     Ok((call.name.clone(), call.stage.outputs(), summary, warnings.lines()))
 }
 
@@ -82,11 +74,11 @@ pub fn run_pipeline(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<Made>> {
-    run(py, threads, progress.as_ref(), move |mut context| {
+    run(py, threads, progress.as_ref(), move |mut common| {
         let calls = calls::of_run(&pipeline, out, seed)?;
-        (context.common.force, context.caller) = (force, Caller::Run);
-        let mut made = HashMap::new();
-        calls.iter().map(|call| make(call, &context, &mut made)).collect()
+        (common.force, common.is_run) = (force, true);
+        let mut made = Planned::new();
+        calls.iter().map(|call| make(call, &common, &mut made)).collect()
     })
 }
 

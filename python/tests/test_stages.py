@@ -35,7 +35,7 @@ def test_a_stage_writes_the_bytes_of_the_command(tmp_path, command):
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"alpah": 0.15}, TypeError, "simulate: unknown option 'alpah'; did you mean 'alpha'?"),
+        ({"alpah": 0.15}, TypeError, "unknown option 'alpah'; did you mean 'alpha'?"),
         ({"p": "x", "alpha": 0.15, "eta": 0.92}, ValueError, "p is x; expected"),
         ({"p": float("nan"), "alpha": 0.15, "eta": 0.92}, ValueError, "simulate: an option is NaN"),
         ({"p": 1.5, "alpha": 15, "eta": 0.92}, ValueError, "alpha is 15; .*is it in degrees"),

@@ -1,66 +1,52 @@
-//! Calls of stages, of what is given to them.
+//! Calls of stages, of the options of a user and of pipeline files: sections of options, the folder of outputs
+//! and the seed.
 
 use std::collections::HashMap;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use clap::value_parser;
+use anyhow::Context as _;
+use clap::Command;
+use rockfrag_core::spelling::hint;
+use saphyr::{ScalarStyle, Yaml, YamlLoader};
+use saphyr_parser::Parser;
 use serde_json::Value;
 
-use super::command;
-use super::pipeline_file::PipelineFile;
 use crate::pipeline::UsageError;
-use crate::pipeline::cache::is_view;
-use crate::pipeline::call::Call;
-use crate::pipeline::given::{by_user, defaults, name_of};
-use crate::pipeline::options::{Given, Rule, first_of, merge};
-use crate::source::split_sheet;
+use crate::pipeline::call::{Call, is_view};
+use crate::pipeline::options::{Given, in_one_form};
+use crate::source::{self, split_sheet};
 use crate::stages::{self, StageKind};
 use crate::table::keys::resolved;
-
-/// Makes the call of a stage from a command line, program name first.
-pub fn of_line(stage: &StageKind, line: &[OsString]) -> anyhow::Result<Call> {
-    // As part of the whole command line, which usage lines name. A pipeline file may have what is required.
-    let whole = command().mut_subcommand(stage.name(), |stage| {
-        stage.mut_args(|arg| arg.required(false).value_parser(value_parser!(OsString)))
-    });
-    let line = [OsString::from("rockfrag")].into_iter().chain(line.iter().skip(1).cloned());
-    let matches = whole.try_get_matches_from(line)?;
-    let matches = matches.subcommand_matches(stage.name()).cloned().unwrap_or_default();
-    of_stage(stage, by_user(&stage.command, &matches)?)
-}
+use crate::table::provenance::text_of;
 
 /// Makes the call of a stage from the options of the user, and those of its section where `config` names a file.
 pub fn of_stage(stage: &StageKind, user: Given) -> anyhow::Result<Call> {
-    let file = match user.get("config").and_then(Value::as_str) {
-        Some(path) => Some(PipelineFile::read(Path::new(path), &stages::all())?),
-        None => None,
+    let user = in_one_form(&stage.command, user, &|path| path.into())?;
+    let section = match user.get("config").and_then(Value::as_str) {
+        Some(path) => PipelineFile::read(Path::new(path))?.section(&stage.command, None)?,
+        None => Given::new(),
     };
-    let section = file.as_ref().map_or(Ok(Given::new()), |file| file.section(&stage.command, &user, None))?;
-    Options { stage, file: file.as_ref(), section, user }.call(Path::new(""))
+    stage.call(&section, &user, Path::new(""))
 }
 
 /// Makes the calls of a pipeline file, in the order of a run.
 pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyhow::Result<Vec<Call>> {
-    let stages = stages::all();
-    let mut file = PipelineFile::read(pipeline, &stages)?;
+    let mut file = PipelineFile::read(pipeline)?;
     file.seed = seed.map(|seed| seed.to_string()).or(file.seed);
     let out = out.unwrap_or_else(|| file.folder().join(&file.out));
-    let (mut calls, mut written): (Vec<Call>, HashMap<PathBuf, &str>) = (Vec::new(), HashMap::new());
-    for stage in stages.iter().filter(|stage| file.has(stage.name())) {
-        let name = stage.name();
-        let section = file.section(&stage.command, &Given::new(), Some(&out))?;
+    let refuse = |problem: String| Err(UsageError::because(format!("{}: {problem}", pipeline.display())));
+    let (mut calls, mut written): (Vec<Call>, HashMap<PathBuf, String>) = Default::default();
+    for stage in stages::all().iter().filter(|stage| file.sections.contains_key(stage.name())) {
+        let (name, section) = (stage.name(), file.section(&stage.command, Some(&out))?);
         if let Some(line) = missing_line(name, &file, &section) {
-            return Err(refuse(pipeline, &format!("{name}: {line}")));
+            return refuse(format!("{name}: {line}"));
         }
-        let call = Options { stage, file: Some(&file), section, user: Given::new() }.call(&out)?;
+        let call = stage.call(&section, &Given::new(), &out);
+        let call = call.with_context(|| format!("{}: {name}", pipeline.display()))?;
         for path in call.stage.outputs() {
-            if let Some(first) = written.insert(resolved(&path), name) {
-                return Err(refuse(pipeline, &format!("{first} and {name} both write {}", path.display())));
+            if let Some(first) = written.insert(resolved(&path), name.to_string()) {
+                return refuse(format!("{first} and {name} both write {}", path.display()));
             }
-        }
-        if let Some(problem) = other_fits(&call, &calls) {
-            return Err(refuse(pipeline, &format!("{name}: {problem}")));
         }
         calls.push(call);
     }
@@ -68,125 +54,112 @@ pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyho
         let read = call.stage.inputs().into_iter().flat_map(|read| read.paths);
         for path in read.map(|path| split_sheet(&path).0).filter(|path| is_view(path)) {
             if let Some(writer) = written.get(&resolved(&path)) {
-                let problem = format!("{writer} writes {}, which {} reads", path.display(), call.name);
-                return Err(refuse(pipeline, &problem));
+                return refuse(format!("{writer} writes {}, which {} reads", path.display(), call.name));
             }
         }
     }
-    match calls.is_empty() {
-        true => Err(refuse(pipeline, "no stage; expected at least one")),
-        false => Ok(calls),
-    }
+    if calls.is_empty() { refuse("no stage; expected at least one".to_string()) } else { Ok(calls) }
 }
 
-fn refuse(pipeline: &Path, problem: &str) -> anyhow::Error {
-    UsageError::because(format!("{}: {problem}", pipeline.display()))
-}
-
-/// Says which line a section needs where another stage makes what it may read, or it would only print.
+/// Says which line a section needs where another stage makes what it may read.
 fn missing_line(stage: &str, file: &PipelineFile, section: &Given) -> Option<String> {
+    let makes = |stage: &str| file.sections.contains_key(stage);
     let (lacks, out) = (|option: &str| !section.contains_key(option), file.out.display());
     match stage {
-        "evaluate" | "export" | "validate" if file.has("fit-pro") && lacks("fits") && lacks("model") => {
-            Some(format!(
-                "add 'fits: {out}' to use the fits of this run, or 'model: calibrated' for the universal surface"
-            ))
+        "evaluate" | "export" | "validate" if makes("fit-pro") && lacks("fits") && lacks("model") => {
+            Some(format!("add 'fits: {out}' to use the fits of this run, or 'model: calibrated'"))
         }
-        "simulate" | "ida" if file.has("floor-motions") && lacks("in") => Some(format!(
+        "simulate" | "ida" if makes("floor-motions") && lacks("in") => Some(format!(
             "add 'in: {out}/floor.parquet' for the motions of the floor, or 'in: {out}/motions.parquet'"
         )),
-        "evaluate" if lacks("out") => {
-            Some(format!("add 'out: {out}/evaluated.parquet'; without a file it only prints"))
-        }
         _ => None,
     }
 }
 
-/// Says that a stage reads other fits than those of the run.
-fn other_fits(call: &Call, before: &[Call]) -> Option<String> {
-    let inputs = call.stage.inputs();
-    let read = inputs.iter().find(|read| read.flag == "fits")?.paths.first()?.parent()?;
-    let made = before.iter().find(|call| call.name == "fit-pro")?.stage.outputs();
-    let folder = made.last()?.parent()?;
-    let (read_from, made_in) = (read.display(), folder.display());
-    (resolved(read) != resolved(folder))
-        .then(|| format!("fits is {read_from}; expected {made_in}, where fit-pro of this run writes"))
+struct PipelineFile {
+    path: PathBuf,
+    seed: Option<String>,
+    /// The folder of outputs, as it is written.
+    out: PathBuf,
+    sections: Given,
 }
 
-/// What is given to a stage, by whom.
-struct Options<'a> {
-    stage: &'a StageKind,
-    file: Option<&'a PipelineFile>,
-    section: Given,
-    user: Given,
-}
+impl PipelineFile {
+    fn read(path: &Path) -> anyhow::Result<PipelineFile> {
+        let read = PipelineFile::parse(path).map_err(UsageError::Mistake);
+        read.with_context(|| path.display().to_string())
+    }
 
-impl Options<'_> {
-    /// Merges defaults, the file and the user, and makes the call. Default files are in `folder`.
-    fn call(&self, folder: &Path) -> anyhow::Result<Call> {
-        let StageKind { command, rules, .. } = self.stage;
-        let given = merge(&self.section, &self.user, rules);
-        for rule in rules {
-            match rule {
-                Rule::Either(these, those) => {
-                    if let Some((one, other)) = first_of(these, &given).zip(first_of(those, &given)) {
-                        return Err(self.refuse(&[one, other], ": expected one of them"));
-                    }
+    fn parse(path: &Path) -> Result<PipelineFile, String> {
+        let text = source::read(path);
+        let text = text.map_err(|error| format!("{error}; `rockfrag init` writes one to start from"))?;
+        let text = String::from_utf8(text).map_err(|_| "not text in UTF-8")?;
+        let mut sections = match texts(&text)? {
+            Value::Object(sections) => sections,
+            other => return Err(format!("{other}; expected sections of options")),
+        };
+        let mut text_at = |key| sections.remove(key).filter(|value| !value.is_null()).as_ref().map(text_of);
+        let (seed, out) = (text_at("seed"), text_at("out").unwrap_or("out".to_string()).into());
+        let stages = stages::all();
+        let names: Vec<&str> = stages.iter().map(StageKind::name).chain(["seed", "out"]).collect();
+        for (key, value) in &sections {
+            match value {
+                _ if !names.contains(&&**key) => {
+                    return Err(format!("unknown section '{key}'{}", hint(key, &names)));
                 }
-                Rule::Needs(these, those) => {
-                    if let (Some(option), None) = (first_of(these, &given), first_of(those, &given)) {
-                        let needed: Vec<String> =
-                            those.iter().map(|needed| self.word(&[option], needed)).collect();
-                        return Err(self.refuse(&[option], &format!(" needs {}", needed.join(" or "))));
-                    }
-                }
+                Value::Object(_) | Value::Null => {}
+                _ => return Err(format!("{key} is {value}; expected a section of options")),
             }
         }
-        let mut required = command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
-        if let Some(option) = required.find(|option| !given.contains_key(*option)) {
-            return Err(self.refuse(&[option], " is missing"));
+        Ok(PipelineFile { path: path.into(), seed, out, sections })
+    }
+
+    fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// Returns the options of a stage; a run has its outputs in the folder `out`.
+    fn section(&self, command: &Command, out: Option<&Path>) -> anyhow::Result<Given> {
+        let (stage, path) = (command.get_name(), self.path.display());
+        let mut section = self.sections.get(stage).and_then(Value::as_object).cloned().unwrap_or_default();
+        if let Some(seed) = &self.seed
+            && command.get_arguments().any(|arg| arg.get_id() == "seed")
+        {
+            section.entry("seed").or_insert(seed.as_str().into());
         }
-        let mut all = defaults(command, folder);
-        all.extend(given);
-        let made = self.stage.make(all.clone());
-        let (stage, options) = made.map_err(|error| self.refuse(&[], &error.to_string()))?;
-        let common = serde_json::from_value(Value::Object(all))?;
-        let inputs = stage.inputs();
-        let piped = inputs.iter().filter(|read| read.paths.contains(&PathBuf::from("-")));
-        let piped: Vec<&str> = piped.map(|read| read.flag).collect();
-        if piped.len() > 1 {
-            return Err(self.refuse(&piped, ": expected one of them from stdin"));
-        }
-        let (outputs, endings) = (stage.outputs(), stage.endings());
-        let is_other = |out: &&PathBuf| match out.extension() {
-            Some(ending) => !endings.iter().any(|known| ending == *known),
-            None => endings.len() > 1,
+        let located = |path: &str| match out.zip(Path::new(path).strip_prefix(&self.out).ok()) {
+            Some((out, rest)) => out.iter().chain(rest).collect(),
+            None => self.folder().join(path),
         };
-        if let Some(out) = outputs.last().filter(is_other) {
-            let expected = format!("expected a name that ends in .{}", endings.join(", ."));
-            return Err(self.refuse(&["out"], &format!(" is {}; {expected}", out.display())));
-        }
-        stage.check()?;
-        Ok(Call { name: self.stage.name().to_string(), stage, common, options })
+        in_one_form(command, section, &located).with_context(|| format!("{path}: {stage}"))
     }
+}
 
-    /// Names an option as who gave the first of these does.
-    fn word(&self, given: &[&str], option: &str) -> String {
-        let is_of_file = self.file.is_some() && !given.iter().any(|option| self.user.contains_key(*option));
-        let mut positional = self.stage.command.get_positionals();
-        match is_of_file || positional.any(|arg| name_of(arg) == option) {
-            true => option.to_string(),
-            false => format!("--{option}"),
-        }
+/// Reads YAML as JSON of texts, as they are written: a name may be `007`. What is left empty is null.
+fn texts(yaml: &str) -> Result<Value, String> {
+    let mut loader = YamlLoader::<Yaml>::default();
+    loader.early_parse(false);
+    Parser::new_from_str(yaml).load(&mut loader, true).map_err(|error| error.to_string())?;
+    if let Some(error) = loader.error() {
+        return Err(error.to_string());
     }
+    match &loader.into_documents()[..] {
+        [document] => in_text(document),
+        documents => Err(format!("{} documents; expected one", documents.len())),
+    }
+}
 
-    fn refuse(&self, options: &[&str], problem: &str) -> anyhow::Error {
-        let words: Vec<String> = options.iter().map(|option| self.word(options, option)).collect();
-        let text = format!("{}{problem}", words.join(" and "));
-        let is_of_user = options.iter().any(|option| self.user.contains_key(*option));
-        match self.file.filter(|_| !is_of_user) {
-            Some(file) => refuse(&file.path, &format!("{}: {text}", self.stage.name())),
-            None => UsageError::because(text),
+fn in_text(yaml: &Yaml) -> Result<Value, String> {
+    match yaml {
+        Yaml::Representation(text, ScalarStyle::Plain, _) if ["", "~", "null"].contains(&&**text) => {
+            Ok(Value::Null)
         }
+        Yaml::Representation(text, ..) => Ok(text.as_ref().into()),
+        Yaml::Sequence(items) => items.iter().map(in_text).collect(),
+        Yaml::Mapping(pairs) => {
+            let pair = |(key, value): (&Yaml, &Yaml)| Ok((text_of(&in_text(key)?), in_text(value)?));
+            Ok(Value::Object(pairs.iter().map(pair).collect::<Result<_, String>>()?))
+        }
+        _ => Err("a tag; expected texts, lists and mappings".to_string()),
     }
 }

@@ -1,36 +1,38 @@
-//! The command line: commands, what is given to them, and printed text.
-//!
-//! ```text
-//! pipeline_file  sections of options
-//! calls          calls of stages, of what is given
-//! ```
+//! The command line: commands, their runs, and all that is printed. Names and files of others may hold letters that
+//! move, colour or reorder a terminal.
 
 pub mod calls;
-mod pipeline_file;
 
-use std::collections::HashMap;
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::fmt::Write as _;
+use std::io::{ErrorKind, Write, stderr, stdout};
+use std::path::PathBuf;
+use std::time::Instant;
 
-use clap::builder::StyledStr;
-use clap::{Arg, ArgAction, Command, FromArgMatches, Parser};
+use anyhow::Context as _;
+use clap::{Arg, ArgAction, Command, FromArgMatches, Parser, value_parser};
 use clap_complete::Shell;
+use rockfrag_core::warning::Warnings;
 use serde_json::{Value, json};
 
-use crate::number::shown;
+use crate::number::{LONGEST_TEXT, shown, visible};
 use crate::pipeline::UsageError;
-use crate::pipeline::cache;
-use crate::pipeline::context::{COMMON, Caller, Common, Context, threads_of};
-use crate::pipeline::given::{is_path, name_of};
-use crate::pipeline::options::SeveralErrors;
-use crate::pipeline::terminal::{print, tell};
+use crate::pipeline::call::{Call, Planned, is_view};
+use crate::pipeline::context::{COMMON, Common, threads_of};
+use crate::pipeline::options::{SeveralErrors, is_path, name_of, on_line};
 use crate::source::silence_decoder_panics;
-use crate::stages::{self, StageKind, init, inspect, run};
+use crate::stages::{self, StageKind, init, inspect};
 use crate::table::frame::Format;
+use crate::table::provenance::text_of;
 
-const PIPELINE: &str = "pipeline.yaml";
 /// Letters of an error, which may name what a file says.
 const LONGEST_ERROR: usize = 2000;
+/// Stages whose text is what people make a folder for.
+const STAGES_WITH_ANSWER: [&str; 4] = ["ida", "fit-pro", "compare-paper", "evaluate"];
+/// Warnings that are printed.
+const SHOWN: usize = 3;
+/// Hidden letters of our own texts.
+const OURS: [char; 2] = ['\n', '\t'];
 
 /// How likely free-standing structures are to rock or overturn in an earthquake, and how often at a site
 #[derive(Debug, Parser)]
@@ -40,7 +42,7 @@ enum Tool {
     /// Run all stages of a pipeline file, skipping what is up to date
     Run {
         /// Pipeline file
-        #[arg(default_value = PIPELINE)]
+        #[arg(default_value = "pipeline.yaml")]
         pipeline: PathBuf,
         /// Folder of all files [default: as in the pipeline file, else out beside it]
         #[arg(long, value_name = "DIR")]
@@ -75,8 +77,13 @@ enum Tool {
     Completions { shell: Shell },
 }
 
+/// All commands. The options of stages are texts here, and none is required: a pipeline file may have it.
 pub fn command() -> Command {
-    let stages = stages::all().into_iter().map(|kind| with_short_help(kind.command));
+    let of_stage = |arg: Arg| {
+        let is_usual = arg.get_long().is_none_or(|flag| USUAL.split(' ').any(|usual| usual == flag));
+        arg.hide_short_help(!is_usual).required(false).value_parser(value_parser!(String))
+    };
+    let stages = stages::all().into_iter().map(|kind| kind.command.mut_args(of_stage));
     <Tool as clap::CommandFactory>::command().subcommands(stages)
 }
 
@@ -86,19 +93,12 @@ const USUAL: &str = "about all author candidate column depth dt eta fits from ha
                      pex pga pgv pro re rotate sa samples scale seed site structure structures suite \
                      target terms title to trace unit vs30 width";
 
-fn with_short_help(command: Command) -> Command {
-    command.mut_args(|arg| {
-        let is_usual = arg.get_long().is_none_or(|flag| USUAL.split(' ').any(|usual| usual == flag));
-        arg.hide_short_help(!is_usual)
-    })
-}
-
 /// Describes all stages and their options, as JSON.
 pub fn describe() -> Value {
     let stages = stages::all().into_iter().map(|StageKind { command, .. }| {
-        let options = command.get_arguments().filter(|arg| arg.get_id() != "help").map(option);
-        let options: Vec<Value> = options.collect();
-        json!({ "name": command.get_name(), "help": words(command.get_about()), "options": options })
+        let options: Vec<Value> = command.get_arguments().map(option).collect();
+        let help = command.get_about().map(ToString::to_string);
+        json!({ "name": command.get_name(), "help": help, "options": options })
     });
     stages.collect()
 }
@@ -111,26 +111,20 @@ fn option(arg: &Arg) -> Value {
         _ if is_path(arg) => "input",
         _ => "value",
     };
-    let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
     json!({
         "name": name,
         "kind": kind,
-        "default": default.join(","),
-        "help": words(arg.get_help()),
+        "default": arg.get_default_values().first().map_or("".into(), |text| text.to_string_lossy()),
+        "help": arg.get_help().map(ToString::to_string),
         "positional": arg.is_positional(),
         "common": arg.get_help_heading() == Some(COMMON),
     })
 }
 
-fn words(text: Option<&StyledStr>) -> String {
-    text.map(StyledStr::to_string).unwrap_or_default()
-}
-
 /// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     silence_decoder_panics();
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let error = match run(&arguments) {
+    let error = match run(arguments) {
         Ok(code) => return code,
         Err(error) => error,
     };
@@ -153,24 +147,24 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     if error.is::<UsageError>() || error.is::<clap::Error>() { 2 } else { 1 }
 }
 
-fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
-    if let [_, name, ..] = arguments
-        && let Some(stage) = stages::all().into_iter().find(|stage| stage.name() == *name)
+fn run(arguments: impl IntoIterator<Item = OsString>) -> anyhow::Result<u8> {
+    let matches = command().try_get_matches_from(arguments)?;
+    if let Some((name, matches)) = matches.subcommand()
+        && let Some(stage) = stages::all().into_iter().find(|stage| stage.name() == name)
     {
-        return run_stage(&stage, arguments).map(|()| 0);
+        let call = calls::of_stage(&stage, on_line(&stage.command, matches))?;
+        set_threads(&call.common)?;
+        return run_one(&call).map(|()| 0);
     }
-    let text = match Tool::from_arg_matches(&command().try_get_matches_from(arguments)?)? {
-        Tool::Run { pipeline, out, seed, dry_run, check, common } => {
-            if pipeline == Path::new(PIPELINE) && !pipeline.exists() {
-                let message = format!("no {PIPELINE} here; `rockfrag init` writes one to start from");
-                return Err(UsageError::because(message));
-            }
+    let text = match Tool::from_arg_matches(&matches)? {
+        Tool::Run { pipeline, out, seed, dry_run: is_dry, check, mut common } => {
             set_threads(&common)?;
             let calls = calls::of_run(&pipeline, out, seed)?;
-            if !(dry_run || check) {
-                return run::run(&calls, &Context::new(common, Caller::Run)).map(|()| 0);
+            common.is_run = true;
+            if !(is_dry || check) {
+                return run_all(&calls, &common).map(|()| 0);
             }
-            let (plan, is_due) = run::dry_run(&calls, &Context::new(common, Caller::Run))?;
+            let (plan, is_due) = dry_run(&calls, &common)?;
             print(&plan, Format::Text)?;
             return Ok(u8::from(check && is_due));
         }
@@ -188,20 +182,92 @@ fn run(arguments: &[OsString]) -> anyhow::Result<u8> {
     print(&text, Format::Text).map(|()| 0)
 }
 
-fn run_stage(stage: &StageKind, line: &[OsString]) -> anyhow::Result<()> {
-    let call = calls::of_line(stage, line)?;
-    set_threads(&call.common)?;
-    let context = Context::new(call.common.clone(), Caller::Command);
-    let done = cache::run(&call, &context, &mut HashMap::new())?;
-    if !done.ran && !context.common.quiet {
+fn set_threads(common: &Common) -> anyhow::Result<()> {
+    let threads = threads_of(common.threads)?.build_global();
+    threads.map_err(|error| anyhow::anyhow!("a thread cannot start: {error}"))
+}
+
+fn run_one(call: &Call) -> anyhow::Result<()> {
+    let done = call.run(&call.common, &mut Planned::new())?;
+    if !done.ran && !call.common.quiet {
         tell(&format!("{}: up to date", call.name));
     }
     print(&done.summary, call.stage.format())?;
-    run::warn(&done.warnings);
+    warn(&done.warnings);
     Ok(())
 }
 
-fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let threads = threads_of(common.threads)?.unwrap_or_default().build_global();
-    threads.map_err(|error| anyhow::anyhow!("a thread cannot start: {error}"))
+/// Runs the stages that are not up to date, and prints the text of the last answer, or else of the last stage.
+fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
+    let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), Planned::new());
+    let answer =
+        calls.iter().rposition(|call| STAGES_WITH_ANSWER.contains(&&*call.name)).unwrap_or(calls.len() - 1);
+    for (place, call) in calls.iter().enumerate() {
+        let start = Instant::now();
+        let done = call.run(common, &mut made).with_context(|| call.name.clone())?;
+        if !common.quiet {
+            let seconds = start.elapsed().as_secs_f64();
+            let took = if done.ran { format!("{seconds:.2} s") } else { "up to date".to_string() };
+            tell(&format!("{:20} {took}", call.name));
+        }
+        warnings.join(&done.warnings);
+        if place == answer {
+            printed = done.summary;
+        }
+    }
+    warn(&warnings);
+    print(&printed, calls[answer].stage.format())
+}
+
+/// Prints the weightiest warnings.
+fn warn(warnings: &Warnings) {
+    let lines = warnings.lines();
+    for (after, line) in (0..lines.len()).rev().zip(&lines).take(SHOWN) {
+        let is_cut = after > 0 && after + SHOWN == lines.len();
+        let more = if is_cut { format!(" ({after} more: rockfrag inspect)") } else { String::new() };
+        tell(&format!("warning: {line}{more}"));
+    }
+}
+
+/// Lists what each stage would do, with its options, and why; and whether any would run.
+fn dry_run(calls: &[Call], common: &Common) -> anyhow::Result<(String, bool)> {
+    let (mut text, mut is_due) = (String::new(), false);
+    let mut planned = Planned::new();
+    for call in calls {
+        let plan = call.plan(&planned)?;
+        planned.extend(plan.keys());
+        let would = match call.freshness(&plan) {
+            Ok(_) if !common.force => "up to date".to_string(),
+            fresh => {
+                is_due |= plan.outputs.iter().any(|path| !is_view(path) || !path.exists());
+                let reason = fresh.err().unwrap_or("--force".to_string());
+                let refused = plan.expect_replaceable(&plan.outputs, common).err();
+                refused.map_or(format!("run: {reason}"), |refused| format!("cannot run: {refused}"))
+            }
+        };
+        writeln!(text, "{}: {}", call.name, shown(&would, LONGEST_TEXT))?;
+        for (name, value) in &call.options {
+            writeln!(text, "    --{name} {}", shown(&text_of(value), LONGEST_TEXT))?;
+        }
+        for read in call.stage.inputs().iter().filter(|read| !read.paths.is_empty()) {
+            let paths: Vec<String> = read.paths.iter().map(|path| path.display().to_string()).collect();
+            writeln!(text, "    --{} {}", read.flag, shown(&paths.join(" "), LONGEST_TEXT))?;
+        }
+    }
+    Ok((text, is_due))
+}
+
+/// Prints to stdout: CSV, which knows no escapes, to the letter. A closed pipe (`| head`) is not an error.
+fn print(text: &str, format: Format) -> anyhow::Result<()> {
+    let text = if format == Format::Csv { text.into() } else { visible(text, &OURS) };
+    let mut stdout = stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        done => Ok(done?),
+    }
+}
+
+/// Prints to stderr, if anyone listens there.
+fn tell(text: &str) {
+    let _ = writeln!(stderr(), "{}", visible(text, &OURS));
 }

@@ -1,15 +1,21 @@
-//! One call of a stage, and what it would make of which files.
+//! One call of a stage. It runs unless its tables are up to date: the key in their footers equals the key of the
+//! call. What is no table is a view, which is written each time.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
+use rockfrag_core::warning::Warnings;
 use serde_json::Value;
 
 use super::Stage;
-use super::context::{Common, Plan};
+use super::context::{Common, Context};
+use super::options::UsageError;
 use super::paths::Read;
+use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
-use crate::table::file::{self, is_table};
+use crate::table::file::tables;
 use crate::table::keys::{files_below, names_below, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 
@@ -24,54 +30,166 @@ pub struct Call {
     pub options: BTreeMap<String, Value>,
 }
 
+/// What a call would make.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    pub made: Provenance,
+    pub outputs: Vec<PathBuf>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct Done {
+    pub summary: String,
+    pub warnings: Warnings,
+    /// Whether the stage ran; otherwise its files were up to date.
+    pub ran: bool,
+}
+
+impl Plan {
+    /// Returns the provenance of one of the outputs.
+    pub fn output(&self, output: usize) -> Provenance {
+        Provenance { output, ..self.made.clone() }
+    }
+
+    /// Returns the keys of the outputs.
+    pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
+        let outputs = self.outputs.iter().enumerate();
+        outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))
+    }
+
+    /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or of
+    /// another program.
+    pub fn expect_replaceable<'a>(
+        &self,
+        outs: impl IntoIterator<Item = &'a PathBuf>,
+        common: &Common,
+    ) -> anyhow::Result<()> {
+        let inputs = self.made.inputs.values().flatten();
+        let read: HashSet<PathBuf> =
+            inputs.filter_map(|file| split_sheet(&file.path).0.canonicalize().ok()).collect();
+        for out in outs {
+            let Ok(real) = out.canonicalize() else { continue };
+            let problem = match () {
+                _ if read.contains(&real) => "is read and cannot be written too",
+                _ if real.is_dir() => "is a folder; expected a file",
+                _ if is_pipe(&real) => "is a pipe or device; expected a file",
+                _ if common.force => continue,
+                _ if real.metadata()?.permissions().readonly() => "is read-only; --force replaces it",
+                _ if self.is_ours(out, common.is_run) => continue,
+                _ => return Err(TableError::not_ours(out).into()),
+            };
+            return Err(UsageError::because(format!("{}: {problem}", out.display())));
+        }
+        Ok(())
+    }
+
+    fn is_ours(&self, path: &Path, is_run: bool) -> bool {
+        let is_ending = |ending: &&str| path.extension() == Some(ending.as_ref());
+        match self.outputs.iter().any(|out| out == path) {
+            _ if ["html", "svg", "png"].iter().any(is_ending) => names_rockfrag(path),
+            _ if !is_view(path) => Provenance::read(path).is_ok_and(|made| made.is_some()),
+            true => is_run,
+            // The numbers of a figure go with it, or with its page.
+            false => [path.with_extension("svg")].iter().chain(&self.outputs).any(|of| names_rockfrag(of)),
+        }
+    }
+}
+
 impl Call {
     /// Plans the call. `planned` has the keys of files not yet written.
     pub fn plan(&self, planned: &Planned) -> Result<Plan, TableError> {
         let made = Provenance::new(&self.name, self.options.clone());
         let mut plan = Plan { made, outputs: self.stage.outputs() };
         for read in self.stage.inputs() {
-            let files = read.files(&plan.outputs, planned)?;
-            let inputs = plan.made.inputs.entry(read.flag.to_string()).or_default();
-            for (path, name) in files.iter().zip(names_below(&files)) {
-                inputs.push(match planned.get(&resolved(path)).cloned() {
+            let files = files(&read, &plan.outputs, planned)?;
+            let inputs = files.iter().zip(names_below(&files)).map(|(path, name)| {
+                match planned.get(&resolved(path)).cloned() {
                     // Another run may have replaced it already: its time says nothing.
-                    Some(key) => InputFile { name, key, path: path.clone(), ..InputFile::default() },
-                    None => read_file(path, name)?,
-                });
+                    Some(key) => Ok(InputFile { name, key, path: path.clone(), ..InputFile::default() }),
+                    None => read_file(path, name),
+                }
+            });
+            if !files.is_empty() {
+                plan.made.inputs.insert(read.flag.to_string(), inputs.collect::<Result<_, _>>()?);
             }
         }
-        plan.made.inputs.retain(|_, files| !files.is_empty());
         Ok(plan)
+    }
+
+    /// Returns what the call prints, if all its tables are up to date, else the reason why not.
+    pub fn freshness(&self, plan: &Plan) -> Result<Done, String> {
+        let mut last = Err("it only prints".to_string());
+        for (place, path) in plan.outputs.iter().enumerate() {
+            let refuse = |why| Err(format!("{} {why}", path.file_name().unwrap_or_default().display()));
+            let planned = plan.output(place);
+            last = match Provenance::read(path) {
+                _ if is_view(path) => return refuse("is written each time"),
+                Ok(Some(made)) if made.key() == planned.key() => Ok(made),
+                Ok(Some(made)) => return made.difference(&planned).map_or(refuse("is another file"), Err),
+                Err(TableError::Missing(_)) => return refuse("is missing"),
+                _ => return refuse("does not say how it was made"),
+            };
+        }
+        let made = last?;
+        match self.stage.printed(&made.summary) {
+            Ok(Some(summary)) => Ok(Done { summary, warnings: made.warnings, ran: false }),
+            _ => Err("what it prints is not in its file".to_string()),
+        }
+    }
+
+    /// Runs the call unless its files are up to date. `made` has the keys of files that the same run made before:
+    /// its inputs must still be these.
+    pub fn run(&self, common: &Common, made: &mut Planned) -> anyhow::Result<Done> {
+        let plan = self.plan(made)?;
+        made.extend(plan.keys());
+        if !common.force
+            && let Ok(done) = self.freshness(&plan)
+        {
+            return Ok(done);
+        }
+        let context = Context::new(common, plan);
+        context.plan.expect_replaceable(&context.plan.outputs, common)?;
+        // What is read while another run replaces it may fail in many ways.
+        let summary = self.stage.run(&context).map_err(|error| match context.expect_unchanged() {
+            Err(changed) => changed.into(),
+            Ok(()) => error,
+        })?;
+        context.persist()?;
+        Ok(Done { summary, warnings: context.warnings(), ran: true })
     }
 }
 
-impl Read {
-    /// Returns the files, without `outputs` and with the `planned` ones that are not there yet.
-    fn files(&self, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<PathBuf>, TableError> {
-        let outputs: Vec<PathBuf> = outputs.iter().map(|path| resolved(path)).collect();
-        let mut files = Vec::new();
-        for path in &self.paths {
-            let folder = path.canonicalize().unwrap_or(resolved(path));
-            let mut below = match path.is_dir() {
-                true if self.whole_folders => files_below(path)?,
-                true => file::tables(path)?,
-                false => Vec::new(),
-            };
-            let is_read =
-                |file: &Path| self.whole_folders || is_table(file) && file.parent() == Some(&folder);
-            let to_come = planned.keys().filter(|file| !file.exists() && **file != folder && is_read(file));
-            // Written as those that are there, they come in the same order.
-            below.extend(to_come.filter_map(|file| Some(path.join(file.strip_prefix(&folder).ok()?))));
+/// Returns the files that are read, also the `planned` ones.
+fn files(read: &Read, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<PathBuf>, TableError> {
+    let outputs: Vec<PathBuf> = outputs.iter().map(|path| resolved(path)).collect();
+    let mut files = Vec::new();
+    for path in &read.paths {
+        let whole = resolved(path);
+        let is_folder_to_come = || planned.keys().any(|file| *file != whole && file.starts_with(&whole));
+        if path.is_dir() {
+            let mut below = if read.whole_folders { files_below(path)? } else { tables(path)? };
             // What the stage itself wrote into the folder is not read.
             below.retain(|file| !outputs.contains(&resolved(file)));
-            below.sort_unstable();
-            let is_there = path.exists() || planned.contains_key(&resolved(path));
-            match path.is_dir() || !below.is_empty() {
-                true => files.append(&mut below),
-                false if self.optional && !is_there => {}
-                false => files.push(path.clone()),
-            }
+            files.append(&mut below);
+        } else if path.exists() || planned.contains_key(&whole) || !(read.optional || is_folder_to_come()) {
+            files.push(path.clone());
         }
-        Ok(files)
     }
+    Ok(files)
+}
+
+/// Whether a file is no table.
+pub fn is_view(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending != "parquet")
+}
+
+/// How pages and figures, and pictures, name us.
+const GENERATORS: [&str; 2] = ["name=\"generator\" content=\"rockfrag ", "Software\0rockfrag "];
+
+/// Whether the beginning of a page or figure says that rockfrag made it.
+fn names_rockfrag(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
+    let head = String::from_utf8_lossy(&head);
+    read.is_ok() && GENERATORS.iter().any(|name| head.contains(name))
 }

@@ -1,4 +1,4 @@
-//! What a call would make, and output, progress and warnings of the running stage.
+//! Output, progress and warnings of the running stage.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -6,14 +6,15 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arrow_schema::SchemaRef;
 use clap::{Args, ValueHint};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressStyle};
 use rayon::ThreadPoolBuilder;
 use rockfrag_core::warning::Warnings;
 use serde::Deserialize;
 
+use super::call::Plan;
 use super::options::{UsageError, number};
 use crate::table::TableError;
-use crate::table::keys::{modified_at, read_file, resolved};
+use crate::table::keys::{modified_at, read_file};
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{PendingFile, TableWriter, persist};
@@ -21,14 +22,14 @@ use crate::table::writer::{PendingFile, TableWriter, persist};
 /// More threads than any machine runs at once take minutes to start.
 const MOST_THREADS: usize = 1024;
 
-/// Returns as many threads as are asked for, by a number or by the environment; none if neither asks.
-pub fn threads_of(asked: Option<usize>) -> anyhow::Result<Option<ThreadPoolBuilder>> {
+/// Begins a pool of as many threads as are asked for, by a number or by the environment, else of all.
+pub fn threads_of(asked: Option<usize>) -> anyhow::Result<ThreadPoolBuilder> {
     let by_environment = std::env::var("RAYON_NUM_THREADS").ok().and_then(|threads| threads.parse().ok());
-    match asked.or(by_environment.filter(|threads| *threads > 0)) {
-        Some(threads) if !(1..=MOST_THREADS).contains(&threads) => Err(UsageError::because(format!(
+    match asked.or(by_environment).unwrap_or_default() {
+        threads @ ..=MOST_THREADS => Ok(ThreadPoolBuilder::new().num_threads(threads)),
+        threads => Err(UsageError::because(format!(
             "threads is {threads} (--threads or RAYON_NUM_THREADS); expected 1 to {MOST_THREADS}"
         ))),
-        asked => Ok(asked.map(|threads| ThreadPoolBuilder::new().num_threads(threads))),
     }
 }
 
@@ -54,40 +55,22 @@ pub struct Common {
     /// Progress bars: auto or never
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = bars)]
     pub progress: String,
+    /// Whether a pipeline file is run, which writes the views again that it names.
+    #[arg(skip)]
+    #[serde(skip)]
+    pub is_run: bool,
+    #[arg(skip)]
+    #[serde(skip)]
+    pub observed: Arc<Observed>,
 }
 
-/// Reads when to draw progress bars: if stderr is a terminal, or never.
-fn bars(text: &str) -> Result<String, String> {
-    match text {
-        "auto" | NEVER => Ok(text.to_string()),
-        _ => Err(format!("expected auto or {NEVER}")),
-    }
-}
-
-const NEVER: &str = "never";
-
-/// What a call would make.
-#[derive(Debug, Clone, Default)]
-pub struct Plan {
-    pub made: Provenance,
-    pub outputs: Vec<PathBuf>,
-}
-
-impl Plan {
-    /// Returns the provenance of one of the outputs.
-    pub fn output(&self, output: usize) -> Provenance {
-        Provenance { output, ..self.made.clone() }
-    }
-
-    /// Returns the keys of the outputs.
-    pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
-        let outputs = self.outputs.iter().enumerate();
-        outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))
-    }
+fn bars(text: &str) -> Result<String, &'static str> {
+    let is_known = ["auto", "never"].contains(&text);
+    is_known.then(|| text.to_string()).ok_or("expected auto or never")
 }
 
 /// What another program sees of the progress of a stage, and how it stops the stage.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct Observed {
     pub done: AtomicUsize,
     pub total: AtomicUsize,
@@ -115,19 +98,9 @@ fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Who calls a stage: a run writes the files without a mark that its pipeline file names again.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Caller {
-    #[default]
-    Command,
-    Run,
-}
-
 #[derive(Default)]
 pub struct Context {
     pub common: Common,
-    pub caller: Caller,
-    pub observed: Arc<Observed>,
     pub plan: Plan,
     warnings: Mutex<Warnings>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
@@ -137,14 +110,8 @@ pub struct Context {
 }
 
 impl Context {
-    pub fn new(common: Common, caller: Caller) -> Context {
-        Context { common, caller, ..Context::default() }
-    }
-
-    /// Returns the context of a planned call.
-    pub fn begin(&self, plan: Plan) -> Context {
-        let (common, observed) = (self.common.clone(), self.observed.clone());
-        Context { common, caller: self.caller, observed, plan, ..Context::default() }
+    pub fn new(common: &Common, plan: Plan) -> Context {
+        Context { common: common.clone(), plan, ..Context::default() }
     }
 
     pub fn warn(&self, warnings: Warnings) {
@@ -157,8 +124,8 @@ impl Context {
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
         let writer = TableWriter::create(path, schema)?;
-        locked(&self.observed.begun).push(writer.partial().to_path_buf());
-        self.observed.expect_running()?;
+        locked(&self.common.observed.begun).push(writer.partial().to_path_buf());
+        self.common.observed.expect_running()?;
         Ok(writer)
     }
 
@@ -167,8 +134,7 @@ impl Context {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
         let (summary, warnings) = (summary.to_string(), self.warnings());
         let made = Provenance { summary, warnings, ..self.plan.output(output) };
-        let written = writer.finish(&made)?;
-        locked(&self.written).push(written);
+        locked(&self.written).push(writer.finish(&made)?);
         Ok(())
     }
 
@@ -183,17 +149,14 @@ impl Context {
         }
     }
 
-    /// Returns the paths of all files that were written.
-    pub fn written(&self) -> Vec<PathBuf> {
-        locked(&self.written).iter().map(|written| written.path.clone()).collect()
-    }
-
-    /// Gives all files that were written their names, unless another program stops the stage or has changed
-    /// an input.
+    /// Gives all files that were written their names, unless another program stops the stage, has changed an
+    /// input or put something in their way.
     pub fn persist(&self) -> anyhow::Result<()> {
-        self.observed.expect_running()?;
+        let written = std::mem::take(&mut *locked(&self.written));
+        self.plan.expect_replaceable(written.iter().map(|file| &file.path), &self.common)?;
+        self.common.observed.expect_running()?;
         self.expect_unchanged()?;
-        persist(std::mem::take(&mut *locked(&self.written)))?;
+        persist(written)?;
         for former in &*locked(&self.former) {
             let _ = std::fs::remove_file(former);
         }
@@ -212,9 +175,8 @@ impl Context {
 
     /// Writes a file that is no table.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
-        self.observed.expect_running()?;
-        let written = PendingFile::new(path, content)?;
-        locked(&self.written).push(written);
+        self.common.observed.expect_running()?;
+        locked(&self.written).push(PendingFile::new(path, content)?);
         Ok(())
     }
 
@@ -226,15 +188,14 @@ impl Context {
 
     /// Begins progress over `total` steps.
     pub fn bar(&self, total: usize) -> Progress {
-        self.observed.total.fetch_add(total, Ordering::Relaxed);
-        let is_wanted = self.common.progress != NEVER && !self.common.quiet;
+        self.common.observed.total.fetch_add(total, Ordering::Relaxed);
+        let is_wanted = self.common.progress != "never" && !self.common.quiet;
         // Without a terminal, indicatif draws nothing.
-        let target = if is_wanted { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = if is_wanted { ProgressBar::new(total as u64) } else { ProgressBar::hidden() };
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
-        let bar = ProgressBar::with_draw_target(Some(total as u64), target)
-            .with_style(style.expect("a template of indicatif"))
-            .with_message(self.plan.made.stage.clone());
-        Progress { bar, observed: self.observed.clone() }
+        let bar = bar.with_style(style.expect("a template of indicatif"));
+        let bar = bar.with_message(self.plan.made.stage.clone());
+        Progress { bar, observed: self.common.observed.clone() }
     }
 }
 

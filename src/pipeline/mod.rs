@@ -1,24 +1,18 @@
 //! The frame of all stages: options, up-to-date check, output, progress.
 //!
 //! ```text
-//! paths     what a stage reads, and the names of what it writes
-//! call      one call of a stage: its options, and the files that it reads
-//! cache     runs a call unless its files are up to date
-//! context   what a call would make, and output, progress and warnings of the running stage
-//! given     what is given to a stage by the command line, a pipeline file or Python, in one form
-//! stream    concurrent reading, work and writing
-//! options   merges what is given; types of options, and mistakes in them
-//! terminal  all that is printed
+//! paths    what a stage reads, and the names of what it writes
+//! options  what is given to a stage, in one form; types of options, and mistakes in them
+//! call     one call of a stage, which runs unless its files are up to date
+//! context  output, progress and warnings of the running stage
+//! stream   work on all threads while others read and write
 //! ```
 
-pub mod cache;
 pub mod call;
 pub mod context;
-pub mod given;
 pub mod options;
 pub mod paths;
 pub mod stream;
-pub mod terminal;
 
 use std::path::PathBuf;
 

@@ -1,15 +1,23 @@
 //! The options of a call: one JSON object of what is given, whoever gives it (the command line, a pipeline file or
-//! Python), in which each value is a text, a list or mapping of texts or, of a switch, true or false. Defaults, the
-//! file and the user are merged, and serde makes the struct of a stage of it.
+//! Python), in which each value is a text, a number, a switch, an object or a list of them. Defaults, the file and
+//! the user are merged, and serde makes the struct of a stage of it.
 
+use std::error::Error;
 use std::ops::RangeInclusive;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use clap::builder::BoolishValueParser;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint};
+use rockfrag_core::object::{Object, Restitution};
+use rockfrag_core::spelling::hint;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
+use super::paths::is_word;
 use crate::number::{self, count, rounded};
+use crate::table::provenance::text_of;
 
 /// What is given to a stage, by option.
 pub type Given = Map<String, Value>;
@@ -21,6 +29,168 @@ pub enum Rule {
     Either(&'static [&'static str], &'static [&'static str]),
     /// Each of the first needs one of the second.
     Needs(&'static [&'static str], &'static [&'static str]),
+}
+
+/// Finds the first of some options that is given.
+fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
+    let is_given = |option: &&str| given.get(*option).is_some_and(|value| *value != Value::Bool(false));
+    options.iter().copied().find(is_given)
+}
+
+impl Rule {
+    /// Says how options break it.
+    pub fn broken(&self, given: &Given) -> Option<String> {
+        match self {
+            Rule::Either(these, those) => {
+                let (one, other) = first_of(these, given).zip(first_of(those, given))?;
+                Some(format!("--{one} and --{other}: expected one of them"))
+            }
+            Rule::Needs(_, those) if first_of(those, given).is_some() => None,
+            Rule::Needs(these, those) => {
+                Some(format!("--{} needs --{}", first_of(these, given)?, those.join(" or --")))
+            }
+        }
+    }
+}
+
+/// Puts the options of the user over those of a file: one of the user drops its alternatives in the file, and
+/// what needs these.
+pub fn merge(file: &Given, user: &Given, rules: &[Rule]) -> Given {
+    let mut kept = file.clone();
+    for rule in rules {
+        let dropped = match rule {
+            Rule::Either(these, those) => {
+                [(these, those), (those, these)].map(|(one, other)| first_of(one, user).map(|_| *other))
+            }
+            Rule::Needs(these, those) => {
+                let is_met = |given| first_of(those, given).is_some();
+                [(is_met(file) && !is_met(&kept) && !is_met(user)).then_some(*these), None]
+            }
+        };
+        kept.retain(|option, _| !dropped.iter().flatten().any(|some| some.contains(&option.as_str())));
+    }
+    kept.extend(user.clone());
+    kept
+}
+
+/// The name of an option.
+pub fn name_of(arg: &Arg) -> &str {
+    arg.get_long().unwrap_or(arg.get_id().as_str())
+}
+
+pub fn is_path(arg: &Arg) -> bool {
+    !matches!(arg.get_value_hint(), ValueHint::Unknown)
+}
+
+/// Brings options of any form into one, with paths where they lead; null and an empty list are not given.
+///
+/// # Errors
+/// If there is no such option, or its value cannot be read.
+pub fn in_one_form(
+    command: &Command,
+    options: Given,
+    located: &dyn Fn(&str) -> PathBuf,
+) -> Result<Given, UsageError> {
+    let mut given = Given::new();
+    for (option, value) in options {
+        let mut args = command.get_arguments();
+        let Some(arg) = args.find(|arg| arg.get_id() == &*option || name_of(arg) == option) else {
+            let known: Vec<&str> = command.get_arguments().map(name_of).collect();
+            let hint = hint(&option, &known);
+            return Err(UsageError::UnknownOption(format!("unknown option '{option}'{hint}")));
+        };
+        if value.is_null() || value.as_array().is_some_and(Vec::is_empty) {
+            continue;
+        }
+        let refuse = |problem: &str| UsageError::Mistake(format!("--{} is {problem}", name_of(arg)));
+        let form = form(arg, &value, located);
+        let form = form.map_err(|why| refuse(&format!("{}; {why}", text_of(&value))))?;
+        if given.insert(name_of(arg).to_string(), form).is_some() {
+            return Err(refuse("given twice; expected one value"));
+        }
+    }
+    Ok(given)
+}
+
+/// Returns the value of an option: a list of what may be given several times, else one.
+fn form(arg: &Arg, value: &Value, located: &dyn Fn(&str) -> PathBuf) -> Result<Value, String> {
+    let items = match (arg.get_action(), value) {
+        (ArgAction::Append, Value::Array(items)) => items,
+        (ArgAction::Append, item) => std::slice::from_ref(item),
+        _ => return one(arg, text_of(value).into(), located),
+    };
+    let parts = items.iter().flat_map(|item| match (item, text_of(item)) {
+        (Value::Object(_), _) => vec![item.clone()],
+        // The name of a file may have a comma.
+        (_, text) if is_path(arg) && (arg.is_positional() || located(&text).exists()) => vec![text.into()],
+        (_, text) if is_path(arg) || arg.get_value_delimiter().is_some() => {
+            text.split(',').map(Value::from).collect()
+        }
+        (_, text) => vec![text.into()],
+    });
+    parts.map(|part| one(arg, part, located)).collect()
+}
+
+fn one(arg: &Arg, value: Value, located: &dyn Fn(&str) -> PathBuf) -> Result<Value, String> {
+    match value {
+        Value::String(text) if text.is_empty() => Err("expected a value".to_string()),
+        Value::String(text) if text == "-" || is_word(name_of(arg), &text) => Ok(text.into()),
+        Value::String(text) if is_path(arg) => Ok(located(&text).to_string_lossy().into()),
+        Value::String(text) => read(arg, text.trim()),
+        Value::Object(mut fields) if name_of(arg) == "structure" => {
+            fields.retain(|_, value| !value.is_null());
+            let texts: Vec<String> = fields.values().map(text_of).collect();
+            let fields = fields.keys().map(String::as_str).zip(texts.iter().map(String::as_str));
+            Object::of_fields(fields).map(|object| json!(object))
+        }
+        _ => Err("expected no mapping".to_string()),
+    }
+}
+
+/// Reads the text of an option by its parser: switches, numbers and objects are typed, all else stays text.
+fn read(arg: &Arg, text: &str) -> Result<Value, String> {
+    let id = arg.get_id().as_str();
+    let mut alone = arg.clone().action(ArgAction::Set).long("option");
+    if let ArgAction::SetTrue = arg.get_action() {
+        alone = alone.value_parser(BoolishValueParser::new());
+    }
+    let line = Command::new("").no_binary_name(true).arg(alone);
+    let read = line
+        .try_get_matches_from([format!("--option={text}")])
+        .map_err(|error| error.source().map_or(error.to_string(), |reason| reason.to_string()))?;
+    fn typed<T: Serialize + Clone + Send + Sync + 'static>(read: &ArgMatches, id: &str) -> Option<Value> {
+        read.try_get_one::<T>(id).ok().flatten().map(|value| json!(value))
+    }
+    let plain = [typed::<bool>, typed::<f64>, typed::<u64>, typed::<usize>, typed::<u32>];
+    let types = [typed::<Steps>, typed::<Restitution>, typed::<Object>];
+    let typed = plain.iter().chain(&types).find_map(|typed| typed(&read, id));
+    Ok(typed.unwrap_or(text.into()))
+}
+
+/// Gathers the options on a command line, as texts.
+pub fn on_line(command: &Command, matches: &ArgMatches) -> Given {
+    let texts = command.get_arguments().filter_map(|arg| {
+        let id = arg.get_id().as_str();
+        let is_given = matches.value_source(id) == Some(ValueSource::CommandLine);
+        let texts = matches.get_raw(id).filter(|_| is_given)?;
+        Some((name_of(arg).to_string(), texts.map(|text| text.to_string_lossy()).collect()))
+    });
+    texts.collect()
+}
+
+/// Returns the defaults of a stage, whose files are in a folder.
+pub fn defaults(command: &Command, folder: &Path) -> Given {
+    let default = |arg: &Arg| {
+        let text = arg.get_default_values().first().map(|text| text.to_string_lossy());
+        let default = match (text, arg.get_action()) {
+            (Some(text), _) => form(arg, &text.into(), &|path| folder.join(path)).ok()?,
+            (None, ArgAction::SetTrue) => Value::Bool(false),
+            (None, ArgAction::Append) => json!([]),
+            _ => return None,
+        };
+        Some((name_of(arg).to_string(), default))
+    };
+    command.get_arguments().filter_map(default).collect()
 }
 
 /// Returns a parser of numbers in a range; `expected` describes them, with unit and range.
@@ -79,47 +249,18 @@ pub fn periods(text: &str) -> Result<Steps, &'static str> {
     steps(0.01..=20.0, "expected periods in s, from 0.01 to 20")(text)
 }
 
-/// Finds the first of some options that is given.
-pub fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
-    options
-        .iter()
-        .copied()
-        .find(|option| given.get(*option).is_some_and(|value| *value != Value::Bool(false)))
-}
-
-/// Puts the options of the user over those of a file: one of the user drops its alternatives in the file, and
-/// what needs these.
-pub fn merge(file: &Given, user: &Given, rules: &[Rule]) -> Given {
-    let mut kept = file.clone();
-    for rule in rules {
-        match rule {
-            Rule::Either(these, those) => {
-                for (given, dropped) in [(these, those), (those, these)] {
-                    if first_of(given, user).is_some() {
-                        kept.retain(|option, _| !dropped.contains(&option.as_str()));
-                    }
-                }
-            }
-            Rule::Needs(these, those) => {
-                let is_met = |given| first_of(those, given).is_some();
-                if is_met(file) && !is_met(&kept) && !is_met(user) {
-                    kept.retain(|option, _| !these.contains(&option.as_str()));
-                }
-            }
-        }
-    }
-    kept.extend(user.clone());
-    kept
-}
-
 /// A mistake in a call, rather than in a file: the command exits with 2.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct UsageError(String);
+pub enum UsageError {
+    #[error("{0}")]
+    Mistake(String),
+    #[error("{0}")]
+    UnknownOption(String),
+}
 
 impl UsageError {
     pub fn because(message: impl Into<String>) -> anyhow::Error {
-        UsageError(message.into()).into()
+        UsageError::Mistake(message.into()).into()
     }
 }
 

@@ -14,14 +14,6 @@ pub fn is_word(option: &str, text: &str) -> bool {
     WORDS.iter().any(|(of, words)| *of == option && words.contains(&text))
 }
 
-/// Returns the paths of a list with commas, of which one may have a comma in its name if it is there.
-pub fn split_list(folder: &Path, text: &str) -> Vec<String> {
-    match folder.join(text).exists() {
-        true => vec![text.to_string()],
-        false => text.split(',').map(str::to_string).collect(),
-    }
-}
-
 /// What a stage reads under a flag.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Read {

@@ -11,7 +11,6 @@ pub mod import_motions;
 pub mod init;
 pub mod inspect;
 pub mod report;
-pub mod run;
 pub mod sample_scenarios;
 pub mod shared;
 pub mod simulate;
@@ -19,27 +18,28 @@ pub mod synthesize_motions;
 pub mod validate;
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Command};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::pipeline::Stage;
+use crate::pipeline::call::Call;
 use crate::pipeline::context::Common;
-use crate::pipeline::given::{defaults, is_path, name_of};
-use crate::pipeline::options::{Given, Rule};
+use crate::pipeline::options::{Given, Rule, defaults, is_path, merge, name_of};
 use crate::pipeline::paths::is_word;
+use crate::pipeline::{Stage, UsageError};
 
 /// A stage: its command, what its options exclude and need, and how serde makes it of what is given.
 pub struct StageKind {
     pub command: Command,
     pub rules: Vec<Rule>,
-    make: fn(&Command, Given) -> serde_json::Result<Made>,
+    make: fn(Given) -> serde_json::Result<Made>,
 }
 
-/// A stage with its options by flag, without files and what is not given.
+/// A stage with its options by flag.
 type Made = (Box<dyn Stage>, BTreeMap<String, Value>);
 
 /// All stages, in the order of a run.
@@ -68,9 +68,9 @@ fn kind<S: Stage + Args + Serialize + DeserializeOwned + 'static>(name: &'static
     StageKind {
         command: command.args_override_self(true).mut_args(|arg| arg.allow_negative_numbers(true)),
         rules: S::rules(),
-        make: |command, given| {
+        make: |given| {
             let stage: S = serde_json::from_value(Value::Object(given))?;
-            let options = options(command, serde_json::to_value(&stage)?);
+            let options = serde_json::from_value(serde_json::to_value(&stage)?)?;
             Ok((Box::new(stage), options))
         },
     }
@@ -81,41 +81,60 @@ impl StageKind {
         self.command.get_name()
     }
 
-    /// Makes a stage of what is given to it, defaults included.
-    pub fn make(&self, given: Given) -> serde_json::Result<Made> {
-        (self.make)(&self.command, given)
+    /// Merges defaults, the section of a file and the options of the user, and makes the call. Default files
+    /// are in `folder`.
+    pub fn call(&self, section: &Given, user: &Given, folder: &Path) -> anyhow::Result<Call> {
+        let given = merge(section, user, &self.rules);
+        if let Some(problem) = self.rules.iter().find_map(|rule| rule.broken(&given)) {
+            return Err(UsageError::because(problem));
+        }
+        let mut required = self.command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
+        if let Some(option) = required.find(|option| !given.contains_key(*option)) {
+            return Err(UsageError::because(format!("{option} is missing")));
+        }
+        let mut all = defaults(&self.command, folder);
+        all.extend(given);
+        let common = serde_json::from_value(Value::Object(all.clone()))?;
+        let (stage, options) = (self.make)(all).map_err(|error| UsageError::because(error.to_string()))?;
+        let is_file = |option: &str, value: &Value| {
+            let is_word = value.as_str().is_some_and(|text| is_word(option, text));
+            !is_word && self.command.get_arguments().any(|arg| name_of(arg) == option && is_path(arg))
+        };
+        let options = options.into_iter().filter_map(|(option, value)| Some((option, stated(value)?)));
+        let options = options.filter(|(option, value)| !is_file(option, value)).collect();
+        let (outputs, endings) = (stage.outputs(), stage.endings());
+        let is_known = |ending: &OsStr| endings.iter().any(|known| ending == *known);
+        let is_other = |out: &&PathBuf| !out.extension().map_or(endings.len() == 1, is_known);
+        if let Some(out) = outputs.last().filter(is_other) {
+            let (out, endings) = (out.display(), endings.join(", ."));
+            let problem = format!("--out is {out}; expected a name that ends in .{endings}");
+            return Err(UsageError::because(problem));
+        }
+        stage.check()?;
+        Ok(Call { name: self.name().to_string(), stage, common, options })
     }
 }
 
 /// The options of a stage that is given none.
 pub fn default_options(stage: &str) -> BTreeMap<String, Value> {
     let kind = all().into_iter().find(|kind| kind.name() == stage);
-    let made = kind.and_then(|kind| kind.make(defaults(&kind.command, Path::new(""))).ok());
-    made.map_or(BTreeMap::new(), |(_, options)| options)
+    // None of the files that import-motions requires.
+    let none = Given::from_iter([("files".to_string(), Value::Array(Vec::new()))]);
+    let call = kind.and_then(|kind| kind.call(&Given::new(), &none, Path::new("")).ok());
+    call.map_or(BTreeMap::new(), |call| call.options)
 }
 
-fn options(command: &Command, mut all: Value) -> BTreeMap<String, Value> {
-    strip(&mut all);
-    let is_file = |option: &str, value: &Value| {
-        let is_word = value.as_str().is_some_and(|text| is_word(option, text));
-        !is_word && command.get_arguments().any(|arg| name_of(arg) == option && is_path(arg))
-    };
-    let options = all.as_object().cloned().unwrap_or_default().into_iter();
-    options.filter(|(option, value)| !is_file(option, value)).collect()
-}
-
-/// Removes what is null or empty.
-fn strip(value: &mut Value) {
-    let is_given = |value: &Value| !value.is_null() && *value != Value::Array(Vec::new());
+/// Leaves out what is null or empty.
+fn stated(value: Value) -> Option<Value> {
     match value {
+        Value::Null => None,
         Value::Array(items) => {
-            items.iter_mut().for_each(strip);
-            items.retain(is_given);
+            let items: Vec<Value> = items.into_iter().filter_map(stated).collect();
+            (!items.is_empty()).then_some(Value::Array(items))
         }
         Value::Object(fields) => {
-            fields.values_mut().for_each(strip);
-            fields.retain(|_, value| is_given(value));
+            Some(fields.into_iter().filter_map(|(name, value)| Some((name, stated(value)?))).collect())
         }
-        _ => {}
+        other => Some(other),
     }
 }
