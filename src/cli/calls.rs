@@ -33,7 +33,7 @@ pub fn of_stage(stage: &StageKind, user: Given) -> anyhow::Result<Call> {
 pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyhow::Result<Vec<Call>> {
     let mut file = PipelineFile::read(pipeline)?;
     file.seed = seed.map(|seed| seed.to_string()).or(file.seed);
-    let out = out.unwrap_or_else(|| file.folder().join(&file.out));
+    let out = out.unwrap_or_else(|| file.path.with_file_name(&file.out));
     let refuse = |problem: String| Err(UsageError::because(format!("{}: {problem}", pipeline.display())));
     let (mut calls, mut written): (Vec<Call>, HashMap<PathBuf, String>) = Default::default();
     for stage in stages::all().iter().filter(|stage| file.sections.contains_key(stage.name())) {
@@ -114,10 +114,6 @@ impl PipelineFile {
         Ok(PipelineFile { path: path.into(), seed, out, sections })
     }
 
-    fn folder(&self) -> &Path {
-        self.path.parent().unwrap_or(Path::new(""))
-    }
-
     /// Returns the options of a stage; a run has its outputs in the folder `out`.
     fn section(&self, command: &Command, out: Option<&Path>) -> anyhow::Result<Given> {
         let (stage, path) = (command.get_name(), self.path.display());
@@ -129,7 +125,7 @@ impl PipelineFile {
         }
         let located = |path: &str| match out.zip(Path::new(path).strip_prefix(&self.out).ok()) {
             Some((out, rest)) => out.iter().chain(rest).collect(),
-            None => self.folder().join(path),
+            None => self.path.with_file_name(path),
         };
         in_one_form(command, section, &located).with_context(|| format!("{path}: {stage}"))
     }

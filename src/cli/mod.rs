@@ -25,6 +25,7 @@ use crate::stages::{self, StageKind, init, inspect};
 use crate::table::frame::Format;
 use crate::table::provenance::text_of;
 
+const NO_THREAD: &str = "a thread cannot start";
 /// Letters of an error, which may name what a file says.
 const LONGEST_ERROR: usize = 2000;
 /// Stages whose text is what people make a folder for.
@@ -153,12 +154,12 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> anyhow::Result<u8> {
         && let Some(stage) = stages::all().into_iter().find(|stage| stage.name() == name)
     {
         let call = calls::of_stage(&stage, on_line(&stage.command, matches))?;
-        set_threads(&call.common)?;
+        threads_of(call.common.threads)?.build_global().context(NO_THREAD)?;
         return run_one(&call).map(|()| 0);
     }
     let text = match Tool::from_arg_matches(&matches)? {
         Tool::Run { pipeline, out, seed, dry_run: is_dry, check, mut common } => {
-            set_threads(&common)?;
+            threads_of(common.threads)?.build_global().context(NO_THREAD)?;
             let calls = calls::of_run(&pipeline, out, seed)?;
             common.is_run = true;
             if !(is_dry || check) {
@@ -180,11 +181,6 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> anyhow::Result<u8> {
         }
     };
     print(&text, Format::Text).map(|()| 0)
-}
-
-fn set_threads(common: &Common) -> anyhow::Result<()> {
-    let threads = threads_of(common.threads)?.build_global();
-    threads.map_err(|error| anyhow::anyhow!("a thread cannot start: {error}"))
 }
 
 fn run_one(call: &Call) -> anyhow::Result<()> {

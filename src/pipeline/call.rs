@@ -59,11 +59,7 @@ impl Plan {
 
     /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or of
     /// another program.
-    pub fn expect_replaceable<'a>(
-        &self,
-        outs: impl IntoIterator<Item = &'a PathBuf>,
-        common: &Common,
-    ) -> anyhow::Result<()> {
+    pub fn expect_replaceable(&self, outs: &[PathBuf], common: &Common) -> anyhow::Result<()> {
         let inputs = self.made.inputs.values().flatten();
         let read: HashSet<PathBuf> =
             inputs.filter_map(|file| split_sheet(&file.path).0.canonicalize().ok()).collect();

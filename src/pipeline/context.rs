@@ -153,7 +153,8 @@ impl Context {
     /// input or put something in their way.
     pub fn persist(&self) -> anyhow::Result<()> {
         let written = std::mem::take(&mut *locked(&self.written));
-        self.plan.expect_replaceable(written.iter().map(|file| &file.path), &self.common)?;
+        let paths: Vec<PathBuf> = written.iter().map(|file| file.path.clone()).collect();
+        self.plan.expect_replaceable(&paths, &self.common)?;
         self.common.observed.expect_running()?;
         self.expect_unchanged()?;
         persist(written)?;
@@ -193,8 +194,7 @@ impl Context {
         // Without a terminal, indicatif draws nothing.
         let bar = if is_wanted { ProgressBar::new(total as u64) } else { ProgressBar::hidden() };
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
-        let bar = bar.with_style(style.expect("a template of indicatif"));
-        let bar = bar.with_message(self.plan.made.stage.clone());
+        let bar = bar.with_style(style.expect("a template")).with_message(self.plan.made.stage.clone());
         Progress { bar, observed: self.common.observed.clone() }
     }
 }
