@@ -1,5 +1,5 @@
-//! Calls of stages, of the options of a user and of pipeline files: sections of options, the folder of outputs
-//! and the seed.
+//! Calls of stages, of the options of a user and of pipeline files: sections of options, the folder of
+//! outputs and the seed.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::stages::{self, StageKind};
 use crate::table::keys::resolved;
 use crate::table::provenance::text_of;
 
-/// Makes the call of a stage from the options of the user, and those of its section where `config` names a file.
+/// Makes the call of a stage from the options of the user, and its section in the file that `config` names.
 pub fn of_stage(stage: &StageKind, user: Given) -> anyhow::Result<Call> {
     let user = in_one_form(&stage.command, user, &|path| path.into())?;
     let section = match user.get("config").and_then(Value::as_str) {

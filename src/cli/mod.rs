@@ -1,5 +1,5 @@
-//! The command line: commands, their runs, and all that is printed. Names and files of others may hold letters that
-//! move, colour or reorder a terminal.
+//! The command line: commands, their runs, and all that is printed. Names and files of others may hold
+//! letters that move, colour or reorder a terminal.
 
 pub mod calls;
 
@@ -193,7 +193,7 @@ fn run_one(call: &Call) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Runs the stages that are not up to date, and prints the text of the last answer, or else of the last stage.
+/// Runs the stages that are not up to date, and prints the text of the last answer, else of the last stage.
 fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
     let (mut printed, mut warnings, mut made) = (String::new(), Warnings::default(), Planned::new());
     let answer =

@@ -1,5 +1,5 @@
-//! One call of a stage. It runs unless its tables are up to date: the key in their footers equals the key of the
-//! call. What is no table is a view, which is written each time.
+//! One call of a stage. It runs unless its tables are up to date: the key in their footers equals the key of
+//! the call. What is no table is a view, which is written each time.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::fs::File;
@@ -57,8 +57,8 @@ impl Plan {
         outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))
     }
 
-    /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or of
-    /// another program.
+    /// Checks that none of these files is read, a folder, a pipe or a device nor, unless forced, read-only or
+    /// of another program.
     pub fn expect_replaceable(&self, outs: &[PathBuf], common: &Common) -> anyhow::Result<()> {
         let inputs = self.made.inputs.values().flatten();
         let read: HashSet<PathBuf> =
@@ -133,8 +133,8 @@ impl Call {
         }
     }
 
-    /// Runs the call unless its files are up to date. `made` has the keys of files that the same run made before:
-    /// its inputs must still be these.
+    /// Runs the call unless its files are up to date. `made` has the keys of files that the same run made
+    /// before: its inputs must still be these.
     pub fn run(&self, common: &Common, made: &mut Planned) -> anyhow::Result<Done> {
         let plan = self.plan(made)?;
         made.extend(plan.keys());

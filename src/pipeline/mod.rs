@@ -22,8 +22,8 @@ pub use self::options::UsageError;
 use self::paths::Read;
 use crate::table::frame::Format;
 
-/// A struct of options, which serde makes of what is given, and a function that runs it. As serde writes them,
-/// without the paths, the options enter the key of what is made.
+/// A struct of options, which serde makes of what is given, and a function that runs it. As serde writes
+/// them, without the paths, the options enter the key of what is made.
 pub trait Stage {
     /// Returns what its options exclude, and need.
     fn rules() -> Vec<Rule>

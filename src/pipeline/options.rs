@@ -1,6 +1,6 @@
-//! The options of a call: one JSON object of what is given, whoever gives it (the command line, a pipeline file or
-//! Python), in which each value is a text, a number, a switch, an object or a list of them. Defaults, the file and
-//! the user are merged, and serde makes the struct of a stage of it.
+//! The options of a call: one JSON object of what is given, whoever gives it (the command line, a pipeline
+//! file or Python), in which each value is a text, a number, a switch, an object or a list of them. Defaults,
+//! the file and the user are merged, and serde makes the struct of a stage of it.
 
 use std::error::Error;
 use std::ops::RangeInclusive;

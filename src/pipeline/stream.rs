@@ -1,4 +1,4 @@
-//! Work on all threads while the former batch is written and the next one is read, in order and in bounded memory.
+//! Work on all threads while the former batch is written and the next one is read, in bounded memory.
 
 use rayon::prelude::*;
 
