@@ -1,13 +1,13 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args;
 use clap::ValueHint::DirPath;
 use rockfrag_core::fragility::{
-    Calibration, CurveFit, DemandFit, DemandModel, Event, Measure, Model, MotionKind,
+    Calibration, CurveFit, DemandFit, DemandModel, Event, Measure, Model, MotionKind, Predictors,
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::object::{Object, RockingObject};
@@ -20,7 +20,7 @@ use crate::number::listed;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
-use crate::stages::shared::fit_tables::{suite_name, verdict};
+use crate::stages::shared::fit_tables::suite_name;
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
@@ -80,16 +80,11 @@ impl ModelArgs {
         }
     }
 
-    /// The files of the fits that the model reads.
-    fn files(&self) -> &'static [&'static str] {
+    pub fn input(&self) -> Read {
         const FILES: [&str; 4] =
             ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
-        if self.model == ModelName::Paper { &FILES } else { &FILES[..2] }
-    }
-
-    pub fn input(&self) -> Read {
-        let files =
-            self.fits.iter().flat_map(|folder| self.files().iter().map(move |name| folder.join(name)));
+        let files = if self.model == ModelName::Paper { &FILES } else { &FILES[..2] };
+        let files = self.fits.iter().flat_map(|folder| files.iter().map(move |name| folder.join(name)));
         // Fits to what stood and what fell have none of demands.
         Read { optional: true, ..Read::new("fits", files) }
     }
@@ -117,35 +112,23 @@ impl ModelArgs {
 impl Models {
     /// Joins an object with the model of each of its directions, and returns the warnings about these models.
     pub fn rocking_object(&self, object: &Object) -> anyhow::Result<(RockingObject, Vec<Warning>)> {
-        let (mut models, mut warnings) = (Vec::new(), Vec::new());
-        for side in object.sides().map_err(|reason| named(object, &reason))? {
-            let (model, about) = self.model(&side.structure)?;
-            warnings.extend(about);
-            models.push(model);
-        }
-        if object.place.floor().is_ok_and(|floor| floor.is_some()) {
+        let sides = object.sides().map_err(|reason| named(object, &reason))?;
+        let models = sides.iter().map(|side| self.model(&side.structure));
+        let (models, warnings): (_, Vec<_>) = models.collect::<anyhow::Result<_>>()?;
+        if let Ok(Some(_)) = object.place.floor() {
             self.expect_ground()?;
         }
-        Ok((RockingObject::new(object, models).map_err(|reason| named(object, &reason))?, warnings))
+        let rocking_object = RockingObject::new(object, models).map_err(|reason| named(object, &reason))?;
+        Ok((rocking_object, warnings.concat()))
     }
 
-    /// The model for a structure: that of the fitted structure of the same p, alpha and eta, or of the one
-    /// named; without one, the surface, with a warning if there are fits.
+    /// The model for a structure, and warnings about it: by its fit or, without one, the surface.
     pub fn model(&self, structure: &Structure) -> anyhow::Result<(Model, Vec<Warning>)> {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
         let Some(overturning) = self.fit(structure)? else {
-            if model == ModelName::Paper {
-                let (folder, name, names) = (self.folder(), &structure.name, self.names());
-                bail!(
-                    "{folder}: no structure like '{name}' (p, alpha and eta within 1 %); expected one of \
-                     {names} by --name"
-                );
-            }
-            let all: Vec<&Calibration> = self.overturning.iter().collect();
             let kind = match suite {
-                Some(kind) => kind,
-                None if all.is_empty() => MotionKind::Recorded,
-                None => self.kind(&all)?,
+                None if !self.overturning.is_empty() => self.of_one_suite(self.overturning.iter())?.kind,
+                asked => asked.unwrap_or_default(),
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
             return Ok((Model::uncalibrated(kind, structure, limit_state), warning.into_iter().collect()));
@@ -165,9 +148,7 @@ impl Models {
                 }
             }
         };
-        let is_other = self.args.name.is_some()
-            && !overturning.is_of_outcomes()
-            && !structure.is_like(&structure_of(overturning));
+        let is_other = !overturning.is_of_outcomes() && !structure.is_like(&structure_of(overturning));
         let warnings =
             [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
@@ -175,84 +156,76 @@ impl Models {
 
     /// All fitted structures, or the one named.
     pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
-        let mut structures: Vec<Structure> = self.overturning.iter().map(structure_of).collect();
-        structures.retain(|structure| self.args.name.as_ref().is_none_or(|name| *name == structure.name));
-        let mut known = HashSet::new();
-        structures.retain(|structure| known.insert(structure.name.clone()));
-        match (&self.args.name, structures.is_empty()) {
-            (_, false) => Ok(structures),
-            (Some(name), true) => Err(self.not_fitted(name)),
-            (None, true) => Err(self.refuse("no fits of overturning; run fit-pro")),
+        let (name, mut known) = (self.args.name.as_ref(), HashSet::new());
+        let mut rows: Vec<&Calibration> = self.overturning.iter().collect();
+        rows.retain(|row| name.is_none_or(|name| *name == row.structure) && known.insert(&row.structure));
+        match (rows.is_empty(), name) {
+            (false, _) => Ok(rows.into_iter().map(structure_of).collect()),
+            (true, Some(name)) => Err(self.not_fitted(name)),
+            (true, None) => Err(UsageError::because(self.problem("no fits of overturning; run fit-pro"))),
         }
     }
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
     pub fn expect_ground(&self) -> anyhow::Result<()> {
         match self.overturning.iter().any(|row| Suite::is_floor(row.suite.as_deref())) {
-            true => Err(self.refuse(
+            true => Err(UsageError::because(self.problem(
                 "fits to motions of a floor; expected fits to motions of the ground, with period and level",
-            )),
+            ))),
             false => Ok(()),
         }
     }
 
-    fn refuse(&self, problem: &str) -> anyhow::Error {
-        UsageError::because(format!("{}: {problem}", self.folder()))
-    }
-
-    fn folder(&self) -> String {
-        self.args.fits.as_ref().map_or(String::new(), |folder| folder.display().to_string())
-    }
-
-    fn names(&self) -> String {
-        let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
-        names.sort_unstable();
-        names.dedup();
-        listed(&names, 8)
+    fn problem(&self, what: &str) -> String {
+        format!("{}: {what}", self.args.fits.as_deref().unwrap_or(Path::new("")).display())
     }
 
     fn not_fitted(&self, name: &str) -> anyhow::Error {
-        self.refuse(&format!("no structure '{name}'; expected one of {}", self.names()))
+        let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        let known = listed(&names, 8);
+        let problem = format!("no structure like '{name}'; expected one of {known} by --name");
+        UsageError::because(self.problem(&problem))
     }
 
-    /// The fit of the structure that is named, or else is like one, to its kind of motion.
+    /// The fit of the structure that is named, or else has the same p, alpha and eta. The paper's model needs
+    /// one.
     fn fit(&self, structure: &Structure) -> anyhow::Result<Option<&Calibration>> {
-        let name = self.args.name.as_ref().or_else(|| {
-            let is_like = |row: &&Calibration| row.is_of_outcomes() || structure.is_like(&structure_of(row));
-            let mut like = self.overturning.iter().filter(is_like);
-            let row = like.clone().find(|row| row.structure == structure.name).or_else(|| like.next());
-            row.map(|row| &row.structure)
-        });
-        let Some(name) = name else { return Ok(None) };
-        let mut rows: Vec<&Calibration> = self.overturning.iter().collect();
-        rows.retain(|row| row.structure == *name);
-        if rows.is_empty() {
-            return Err(self.not_fitted(name));
-        }
-        let kind = self.kind(&rows)?;
-        rows.retain(|row| row.kind == kind);
-        match rows.iter().find(|row| row.suite != rows[0].suite) {
-            None => Ok(Some(rows[0])),
-            Some(other) => Err(self.refuse(&format!(
-                "fits of {} and {}; run fit-pex and fit-pro on the responses of one suite",
-                suite_name(&rows[0].suite),
-                suite_name(&other.suite)
-            ))),
+        let name = self.args.name.as_ref();
+        let is_like = |row: &&Calibration| match name {
+            Some(name) => row.structure == *name,
+            None => row.is_of_outcomes() || structure.is_like(&structure_of(row)),
+        };
+        let like = self.overturning.iter().filter(is_like);
+        match like.min_by_key(|row| row.structure != structure.name) {
+            Some(like) => {
+                let its = self.overturning.iter().filter(|row| row.structure == like.structure);
+                self.of_one_suite(its).map(Some)
+            }
+            None if name.is_some() || self.args.model == ModelName::Paper => {
+                Err(self.not_fitted(name.unwrap_or(&structure.name)))
+            }
+            None => Ok(None),
         }
     }
 
-    /// Returns the requested kind of motion, or the only one of rows.
-    fn kind(&self, rows: &[&Calibration]) -> anyhow::Result<MotionKind> {
-        let mut kinds: Vec<&str> = rows.iter().map(|row| row.kind.into()).collect();
-        kinds.sort_unstable();
-        kinds.dedup();
-        let names = kinds.join(", ");
-        match self.args.suite {
-            Some(kind) if rows.iter().any(|row| row.kind == kind) => Ok(kind),
-            Some(kind) => Err(self.refuse(&format!("no fits of {kind}, only of {names}"))),
-            None if kinds.len() == 1 => Ok(rows[0].kind),
-            None => Err(self.refuse(&format!("fits of {names}; expected --suite with one of them"))),
+    /// The first row of the kind of motion that is asked for; all of this kind must be of one suite.
+    fn of_one_suite<'a>(
+        &self,
+        rows: impl Iterator<Item = &'a Calibration> + Clone,
+    ) -> anyhow::Result<&'a Calibration> {
+        let mut of_kind = rows.clone().filter(|row| self.args.suite.is_none_or(|kind| row.kind == kind));
+        if let Some(first) = of_kind.next()
+            && of_kind.all(|row| row.suite == first.suite)
+        {
+            return Ok(first);
         }
+        let mut suites: Vec<String> = rows.map(|row| suite_name(&row.suite)).collect();
+        suites.sort_unstable();
+        suites.dedup();
+        let problem = format!("fits of {}; expected --suite with one of them", suites.join(", "));
+        Err(UsageError::because(self.problem(&problem)))
     }
 
     /// The row of P_ex beside one of P_ro; outcomes tell nothing of demands.
@@ -261,46 +234,36 @@ impl Models {
         if overturning.is_of_outcomes() {
             return Ok(Calibration::uncalibrated(overturning.kind, structure, Some(limit_state)));
         }
-        let rows = self.exceeding.iter().filter(|row| row.group() == overturning.group());
-        let mut limits = rows.clone().filter_map(|row| Some((row, row.limit_state?)));
-        let (folder, name) = (self.folder(), &overturning.structure);
-        if let Some((row, _)) = limits.find(|(_, other)| (other - limit_state).abs() <= 1e-9 * limit_state) {
-            // Fits to the same responses have the same PGV/PGA, to the last bit.
-            if row.ratio_given_pga != overturning.ratio_given_pga {
-                bail!(
-                    "{folder}: P_ex and P_ro of '{name}' are of different responses; run fit-pex and \
-                     fit-pro on one file"
-                );
+        // Fits to the same responses have the same PGV/PGA, to the last bit.
+        let is_beside = |row: &&Calibration| {
+            row.group() == overturning.group() && row.ratio_given_pga == overturning.ratio_given_pga
+        };
+        let mut fitted = Vec::new();
+        for row in self.exceeding.iter().filter(is_beside) {
+            match row.limit_state {
+                Some(other) if (other - limit_state).abs() <= 1e-9 * limit_state => return Ok(row.clone()),
+                other => fitted.extend(other),
             }
-            return Ok(row.clone());
         }
-        let mut fitted: Vec<f64> = rows.filter_map(|row| row.limit_state).collect();
-        let found = if fitted.is_empty() { "none".to_string() } else { listed(&fitted, 8) };
         fitted.push(limit_state);
-        bail!(
-            "{folder}: P_ex of '{name}' has limit states {found}, not {limit_state}; run fit-pex \
-             --limit-state {}",
+        bail!(self.problem(&format!(
+            "no P_ex of '{}' for this limit state and the responses of P_ro; run fit-pex --limit-state {}",
+            overturning.structure,
             listed(&fitted, usize::MAX).replace(", ", ",")
-        )
+        )))
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
     fn curve(&self, row: &Calibration) -> anyhow::Result<CurveFit> {
-        let curves = self.curves.iter().filter(|fit| fit.event == Event::Overturning);
-        let curves: Vec<&CurveFit> = curves.filter(|fit| fit.group() == row.group()).collect();
-        let over = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)];
-        let fits = over
-            .iter()
-            .filter_map(|over| curves.iter().find(|fit| (&fit.im_x, &fit.im_y) == (&over.0, &over.1)));
-        let fits: Vec<&CurveFit> = fits.copied().collect();
-        if let Some(usable) = fits.iter().find(|fit| fit.status.is_usable()) {
-            return Ok((*usable).clone());
-        }
-        let (folder, structure) = (self.folder(), &row.structure);
-        let status = fits.first().map_or("missing".to_string(), |fit| verdict(fit.status));
-        bail!(
-            "{folder}: the paper's curve of '{structure}' has the status '{status}'; use --model calibrated"
-        )
+        let usable = self.curves.iter().filter(|fit| {
+            fit.event == Event::Overturning && fit.group() == row.group() && fit.status.is_usable()
+        });
+        let of = |predictors| usable.clone().find(|fit| fit.predictors() == predictors).cloned();
+        let hybrid = of(Predictors::two([Measure::Im4, Measure::Im3Inverse]));
+        hybrid.or_else(|| of(Predictors::one(Measure::Im5))).with_context(|| {
+            let problem = format!("no usable curve of '{}'; use --model calibrated", row.structure);
+            self.problem(&problem)
+        })
     }
 }
 
