@@ -26,8 +26,10 @@ pub struct Read {
 }
 
 impl Read {
+    /// Reads what is no word in place of a path.
     pub fn new<P: AsRef<Path>>(flag: &'static str, paths: impl IntoIterator<Item = P>) -> Read {
-        let paths = paths.into_iter().map(|path| path.as_ref().to_path_buf()).collect();
+        let mut paths: Vec<PathBuf> = paths.into_iter().map(|path| path.as_ref().to_path_buf()).collect();
+        paths.retain(|path| !path.to_str().is_some_and(|text| is_word(flag, text)));
         Read { flag, paths, whole_folders: false, optional: false }
     }
 

@@ -108,10 +108,9 @@ impl FloorMotions {
         for motion in motions {
             motion.record()?;
             let moved = floor.motion(&motion.acceleration_m_s2, motion.dt_s, self.damping);
-            let moved: Vec<f32> = moved.iter().map(|&a| a as f32).collect();
-            let written: Vec<f64> = moved.iter().map(|&a| f64::from(a)).collect();
-            measured.push(plan.measure(&written, motion.dt_s));
-            filtered.push(moved);
+            let (written, measures) = plan.measure_written(moved.into_iter(), motion.dt_s);
+            measured.push(measures);
+            filtered.push(written);
             floors.push(FloorRow {
                 suite: motion.suite.unwrap_or("record".to_string()) + Suite::ON_FLOOR,
                 floor_period_s: self.period,

@@ -16,11 +16,11 @@ use crate::inputs::{Grid, Heading};
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
-use crate::pipeline::paths::{Read, is_word, out_of_partition};
+use crate::pipeline::paths::{Read, out_of_partition};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{ParquetTable, Partition};
-use crate::table::{TableError, motions, rows};
+use crate::table::{motions, rows};
 
 /// Scenarios that a thread takes at once.
 const CHUNK: usize = 4;
@@ -97,13 +97,7 @@ struct SyntheticMotion {
 
 impl Stage for SynthesizeMotions {
     fn inputs(&self) -> Vec<Read> {
-        vec![
-            Read::new("in", [&self.input]),
-            Read::new(
-                "site",
-                Some(&self.site).filter(|site| !site.to_str().is_some_and(|text| is_word("site", text))),
-            ),
-        ]
+        vec![Read::new("in", [&self.input]), Read::new("site", [&self.site])]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -120,37 +114,31 @@ impl Stage for SynthesizeMotions {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = ParquetTable::open(&self.input)?.part(self.partition);
-        let (scenarios, suites) = (rows::stream::<Scenario>(&table)?, &self.suite);
+        let suites = &self.suite;
         let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
-        let site = site(&self.site)?;
-        let model = MotionModel {
-            dt_s: self.dt,
-            difference: self.difference,
-            epoch: self.epoch,
-            stochastic: StochasticModel {
-                site,
-                kappa_s: self.kappa,
-                fmax_hz: self.fmax,
-                low_cut_hz: self.low_cut,
-            },
-            seed: self.seed,
-        };
+        let (site, kappa_s) = (site(&self.site)?, self.kappa);
+        let stochastic = StochasticModel { site, kappa_s, fmax_hz: self.fmax, low_cut_hz: self.low_cut };
+        let Self { difference, epoch, seed, .. } = *self;
+        let model = MotionModel { dt_s: self.dt, difference, epoch, stochastic, seed };
         // Of threads that are between two chunks.
         let idle: Mutex<Vec<Synthesizer>> = Mutex::default();
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
         let bar = context.bar(table.rows());
+        let scenarios = rows::stream::<Scenario>(&table)?.flat_map(|read| match read {
+            Ok(some) => together(&some, &model).map(Ok).collect(),
+            Err(error) => vec![Err(error.into())],
+        });
         pipelined(
-            together(scenarios, model.clone()),
+            scenarios,
             |some| {
                 bar.advance(some.len())?;
+                some.iter().try_for_each(|scenario| expect_short(&model, scenario))?;
                 let kept = idle.lock().ok().and_then(|mut idle| idle.pop());
                 let mut synthesizer = kept.unwrap_or_else(|| Synthesizer::new(model.clone(), suites));
                 let motions = some.iter().flat_map(|one| synthesize(one, suites, &plan, &mut synthesizer));
                 let motions: Vec<SyntheticMotion> = motions.collect();
-                if let Ok(mut idle) = idle.lock() {
-                    idle.push(synthesizer);
-                }
+                let _ = idle.lock().map(|mut idle| idle.push(synthesizer));
                 batch(&motions, &periods)
             },
             |batch| Ok(writer.append(&batch)?),
@@ -165,33 +153,19 @@ impl Stage for SynthesizeMotions {
     }
 }
 
-/// Takes scenarios whose motions fit into memory together, some for each thread.
-fn together(
-    scenarios: impl Iterator<Item = Result<Vec<Scenario>, TableError>> + Send,
-    model: MotionModel,
-) -> impl Iterator<Item = anyhow::Result<Vec<Vec<Scenario>>>> + Send {
-    let mut scenarios = scenarios.flat_map(|read| match read {
-        Ok(some) => some.into_iter().map(Ok).collect::<Vec<_>>(),
-        Err(error) => vec![Err(error.into())],
-    });
-    std::iter::from_fn(move || {
-        let (mut some, mut held) = (Vec::new(), 0);
-        while some.len() < AT_ONCE && held < MOST_SAMPLES {
-            let Some(scenario) = scenarios.next() else { break };
-            match scenario.and_then(|scenario| Ok((samples(&model, &scenario)?, scenario))) {
-                Ok((samples, scenario)) => {
-                    held += samples;
-                    some.push(scenario);
-                }
-                Err(error) => return Some(Err(error)),
-            }
-        }
-        (!some.is_empty()).then(|| Ok(some.chunks(CHUNK).map(<[_]>::to_vec).collect()))
-    })
+/// Parts scenarios into those whose motions fit into memory together, some for each thread.
+fn together(some: &[Scenario], model: &MotionModel) -> impl Iterator<Item = Vec<Vec<Scenario>>> {
+    let (mut count, mut held) = (0, 0);
+    let fits_with_next = move |scenario: &Scenario, _: &Scenario| {
+        (count, held) = (count + 1, held + model.sample_count(scenario));
+        let fits = count < AT_ONCE && held < MOST_SAMPLES;
+        (count, held) = if fits { (count, held) } else { (0, 0) };
+        fits
+    };
+    some.chunk_by(fits_with_next).map(|some| some.chunks(CHUNK).map(<[_]>::to_vec).collect())
 }
 
-/// How many samples the motions of a scenario have, which must not be too many.
-fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
+fn expect_short(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<()> {
     let samples = model.sample_count(scenario);
     anyhow::ensure!(
         samples <= LONGEST_MOTION,
@@ -200,7 +174,7 @@ fn samples(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<usize> {
         count(samples),
         count(LONGEST_MOTION)
     );
-    Ok(samples)
+    Ok(())
 }
 
 /// The site amplification of this name, or in this file.
@@ -222,15 +196,14 @@ fn site_factors(path: &Path) -> anyhow::Result<SiteAmplification> {
         Some(unit) => unit.name == "Hz",
         None => name.starts_with("freq") || name == "f",
     };
-    let are_frequencies: Vec<bool> = grid.headings.iter().map(is_frequency).collect();
-    let (frequency, factor) = match are_frequencies[..] {
-        [true, false] => (0, 1),
-        [false, true] => (1, 0),
-        [_, _] if !grid.has_headings => (0, 1),
+    let columns = match grid.headings.iter().map(is_frequency).collect::<Vec<_>>()[..] {
+        [true, false] => [0, 1],
+        [false, true] => [1, 0],
+        [_, _] if !grid.has_headings => [0, 1],
         _ => anyhow::bail!("{}; expected frequency_hz and factor", grid.found()),
     };
-    let pairs = grid.numbers(frequency)?.into_iter().zip(grid.numbers(factor)?);
-    Ok(SiteAmplification::table(pairs.collect())?)
+    let [frequencies, factors] = columns.map(|column| grid.numbers(column));
+    Ok(SiteAmplification::table(frequencies?.into_iter().zip(factors?).collect())?)
 }
 
 /// The motions of a scenario, each measured as it will be read.
@@ -243,16 +216,10 @@ fn synthesize(
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
     let motions = suites.iter().map(|&suite| {
-        let acceleration_m_s2: Vec<f32> = synthetic.samples(suite).iter().map(|&a| a as f32).collect();
-        let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-        SyntheticMotion {
-            motion_id: suite.motion_id(scenario.scenario_id).to_string(),
-            suite,
-            dt_s,
-            scenario: *scenario,
-            measures: plan.measure(&written, dt_s),
-            acceleration_m_s2,
-        }
+        let samples = synthetic.samples(suite).iter().copied();
+        let (acceleration_m_s2, measures) = plan.measure_written(samples, dt_s);
+        let motion_id = suite.motion_id(scenario.scenario_id).to_string();
+        SyntheticMotion { motion_id, suite, dt_s, scenario: *scenario, measures, acceleration_m_s2 }
     });
     motions.collect()
 }

@@ -51,6 +51,18 @@ pub struct MeasurePlan {
 }
 
 impl MeasurePlan {
+    /// Rounds an acceleration (m/s2) to single precision, as tables have it, and measures what is left.
+    pub fn measure_written(
+        &self,
+        acceleration: impl Iterator<Item = f64>,
+        dt_s: f64,
+    ) -> (Vec<f32>, MotionMeasures) {
+        let written: Vec<f32> = acceleration.map(|a| a as f32).collect();
+        let read: Vec<f64> = written.iter().map(|&a| f64::from(a)).collect();
+        let measures = self.measure(&read, dt_s);
+        (written, measures)
+    }
+
     /// Computes the measures of an acceleration (m/s2) at steps of `dt_s`. The squared acceleration is
     /// integrated exactly for lines between samples, everything else by trapezoids.
     pub fn measure(&self, acceleration: &[f64], dt_s: f64) -> MotionMeasures {

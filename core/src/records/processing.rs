@@ -248,10 +248,8 @@ impl Processing {
             [earthquake, station, component].into_iter().flatten().map(String::as_str).collect();
         let mut motions = Vec::new();
         for &scale in &factors {
-            let acceleration_m_s2: Vec<f32> =
-                motion.acceleration_m_s2.iter().map(|&a| (scale * a) as f32).collect();
-            let written: Vec<f64> = acceleration_m_s2.iter().map(|&a| f64::from(a)).collect();
-            let measures = self.plan.measure(&written, dt_s);
+            let scaled = motion.acceleration_m_s2.iter().map(|a| scale * a);
+            let (acceleration_m_s2, measures) = self.plan.measure_written(scaled, dt_s);
             let (pga_g, pgv_m_s) = (measures.pga_m_s2 / G_M_S2, measures.pgv_m_s);
             let is_too_strong = pga_g > STRONGEST_PGA_G || pgv_m_s > STRONGEST_PGV_M_S;
             if scale != 1.0 && is_too_strong && !self.accept_implausible {

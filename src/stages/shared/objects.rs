@@ -1,5 +1,6 @@
 //! The objects of a call: options of one object, NAME=VALUE of several, or a list.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use clap::{Arg, Args, Command, ValueHint, value_parser};
@@ -87,8 +88,7 @@ impl StructureArgs {
     ];
 
     pub fn input(&self) -> Read {
-        let list = self.structures.as_ref().filter(|list| !is_paper(list));
-        Read::new("structures", list)
+        Read::new("structures", &self.structures)
     }
 
     pub fn is_given(&self) -> bool {
@@ -105,7 +105,7 @@ impl StructureArgs {
     /// about them and their list: of a list without its rows that do not rock on the ground.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
         let (objects, mut warnings) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
-        let (mut resolved, mut first) = (Vec::new(), None);
+        let mut resolved = Vec::new();
         for object in &objects {
             let name = &object.name;
             match on_ground(object) {
@@ -116,38 +116,34 @@ impl StructureArgs {
                     }
                     resolved.push(directions);
                 }
-                Err(problem) if self.structures.is_some() && !object.is_implausible() => {
+                Err(_) if self.structures.is_some() && !object.is_implausible() => {
                     warnings.add(Warning::LeftOut, name.clone());
-                    first.get_or_insert(problem);
                 }
                 Err(problem) => return Err(problem),
             }
         }
-        match first.filter(|_| resolved.is_empty()) {
-            Some(problem) => Err(problem),
-            None => Ok((resolved, warnings)),
+        if resolved.is_empty() {
+            on_ground(&objects[0])?;
         }
+        Ok((resolved, warnings))
     }
 
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
     /// nothing of them.
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
-        let (mut all, mut unused): (Vec<Object>, _) = Default::default();
-        match &self.structures {
-            Some(list) if is_paper(list) => {
-                let paper = paper::structures().into_iter();
-                all.extend(
-                    paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))),
-                );
-            }
-            Some(path) => {
+        let (mut all, unused) = match &self.structures {
+            Some(list) if !is_paper(list) => {
                 let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };
-                (all, unused) = objects::read(path, renames, &defaults)?;
+                objects::read(list, renames, &defaults)?
             }
-            None if self.one != Shape::default() => {
-                all.push(Object { name: UNNAMED.to_string(), shape: self.one, ..Object::default() });
-            }
-            None => all.extend(self.structure.iter().cloned()),
+            _ => (self.structure.clone(), Warnings::default()),
+        };
+        if self.structures.as_deref().is_some_and(is_paper) {
+            let paper = paper::structures().into_iter();
+            all.extend(paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))));
+        }
+        if self.one != Shape::default() {
+            all.push(Object { name: UNNAMED.to_string(), shape: self.one, ..Object::default() });
         }
         if all.is_empty() {
             return Err(UsageError::because(
@@ -155,14 +151,12 @@ impl StructureArgs {
                  or --structures FILE",
             ));
         }
-        let all: Vec<Object> = all.into_iter().map(|object| object.at(place)).collect();
-        let mut names: Vec<&str> = all.iter().map(|object| object.name.as_str()).collect();
-        names.sort_unstable();
-        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-            let problem = format!("two structures are called '{}'; expected distinct names", pair[0]);
+        let mut names = HashSet::new();
+        if let Some(Object { name, .. }) = all.iter().find(|object| !names.insert(&object.name)) {
+            let problem = format!("two structures are called '{name}'; expected distinct names");
             return Err(UsageError::because(problem));
         }
-        Ok((all, unused))
+        Ok((all.into_iter().map(|object| object.at(place)).collect(), unused))
     }
 }
 
