@@ -8,7 +8,7 @@ use clap::ValueHint::FilePath;
 use rayon::prelude::*;
 use rockfrag_core::motion::{Design, Scenario, ScenarioGrid};
 use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
-use rockfrag_core::warning::{Warning, Warnings};
+use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::number::counted;
@@ -69,29 +69,22 @@ impl Stage for SampleScenarios {
         let grid = ScenarioGrid { mw, re_km, samples, design, seed };
         let all = grid.cells() * samples;
         let summary = format!("{} in {}\n", counted(all, "scenario"), counted(grid.cells(), "cell"));
-        let mut unusual = Warnings::default();
-        for (name, values, usual) in [("mw", &grid.mw, PAPER_MW), ("re", &grid.re_km, PAPER_RE_KM)] {
-            if let Some(value) = values.iter().find(|value| !usual.contains(*value)) {
-                unusual.add(Warning::UnusualScenario, format!("{name} {value}"));
-            }
-        }
-        context.warn(unusual);
+        let axes = [("mw", &grid.mw, PAPER_MW), ("re", &grid.re_km, PAPER_RE_KM)];
+        let unusual = axes.iter().filter_map(|(name, values, usual)| {
+            let value = values.iter().find(|value| !usual.contains(value))?;
+            Some((Warning::UnusualScenario, format!("{name} {value}")))
+        });
+        context.warn(unusual.collect());
         let mut writer = context.create(&self.out, &rows::schema::<Scenario>())?;
         let bar = context.bar(all);
-        let mut some: Vec<Scenario> = Vec::new();
-        for cell in 0..grid.cells() {
-            let cell = grid.cell(cell);
+        for cell in (0..grid.cells()).map(|cell| grid.cell(cell)) {
             for first in (0..samples).step_by(AT_ONCE) {
-                let last = samples.min(first + AT_ONCE);
-                bar.advance(last - first)?;
-                some.par_extend((first..last).into_par_iter().map(|sample| cell.scenario(sample)));
-                if some.len() >= AT_ONCE {
-                    writer.append(&rows::batch(&some)?)?;
-                    some.clear();
-                }
+                let some = first..samples.min(first + AT_ONCE);
+                bar.advance(some.len())?;
+                let some: Vec<Scenario> = some.into_par_iter().map(|sample| cell.scenario(sample)).collect();
+                writer.append(&rows::batch(&some)?)?;
             }
         }
-        writer.append(&rows::batch(&some)?)?;
         context.finish(writer, &summary)?;
         Ok(summary)
     }

@@ -1,7 +1,6 @@
 //! simulate: every structure through every motion.
 
-use std::borrow::Cow;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
@@ -14,7 +13,6 @@ use serde::{Deserialize, Serialize};
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::number;
-use crate::number::listed;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{MOST_LINES, Rule, first_lines};
@@ -85,22 +83,19 @@ impl Stage for Simulate {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let (objects, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
-        let second = match objects.iter().any(|directions| directions.len() > 1) {
-            true => motions::second_of_pairs(&self.input, self.partition)?,
-            false => HashSet::new(),
-        };
-        if !second.is_empty() {
+        self.expect_traced(&motions)?;
+        let mut plan = SimulationPlan { objects, second: HashSet::new() };
+        if plan.objects.iter().any(|directions| directions.len() > 1) {
+            plan.second = motions::second_of_pairs(&self.input, self.partition)?;
+        }
+        if !plan.second.is_empty() {
             warnings.remove(Warning::OneDirection);
         }
-        let plan = SimulationPlan { objects, second };
         context.warn(warnings);
-        self.expect_traced(&motions)?;
-        let out = out_of_partition(&self.out, self.partition);
+        let [out, trace_file] = [out_of_partition(&self.out, self.partition), part(&self.out, "trace")];
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
-        let mut traces = match self.trace.is_empty() {
-            true => None,
-            false => Some(context.create(&part(&self.out, "trace"), &rows::schema::<TraceRow>())?),
-        };
+        let create_traces = || context.create(&trace_file, &rows::schema::<TraceRow>());
+        let mut traces = (!self.trace.is_empty()).then(create_traces).transpose()?;
         let mut overturning = vec![Overturning::default(); plan.objects.len()];
         process_in_order(
             &context.bar(motions.rows()),
@@ -115,18 +110,15 @@ impl Stage for Simulate {
                     }
                 }
                 context.warn(some.warnings);
-                writer.append(&some.rows)?;
-                if let (Some(traces), Some(rows)) = (&mut traces, &some.traces) {
-                    traces.append(rows)?;
-                }
-                Ok(())
+                traces.iter_mut().try_for_each(|traces| traces.append(&some.traces))?;
+                Ok(writer.append(&some.rows)?)
             },
         )?;
         let assumed = if self.structures.is_given() { "" } else { ASSUMED };
         let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
         match traces {
             Some(traces) => context.finish(traces, &summary)?,
-            None => context.remove_former(&out, part(&out, "trace")),
+            None => context.remove_former(&out, trace_file),
         }
         context.finish(writer, &summary)?;
         Ok(summary)
@@ -143,7 +135,7 @@ struct Overturning {
 /// What came of some motions.
 struct Responded {
     rows: RecordBatch,
-    traces: Option<RecordBatch>,
+    traces: RecordBatch,
     warnings: Warnings,
     /// Indices of structures, and motions that overturn them.
     overturned: Vec<(usize, String)>,
@@ -169,14 +161,12 @@ impl SimulationPlan {
 impl Simulate {
     /// Checks, before anything is simulated, that the motions to trace are there.
     fn expect_traced(&self, motions: &ParquetTable) -> anyhow::Result<()> {
-        let mut unknown: Vec<&String> = self.trace.iter().filter(|traced| *traced != ALL).collect();
-        if unknown.is_empty() {
-            return Ok(());
-        }
-        for batch in motions.batches(|name| name == "motion_id") {
-            let batch = batch?;
-            let ids: HashSet<Cow<str>> = batch.required_texts("motion_id")?.into_iter().collect();
-            unknown.retain(|traced| !ids.contains(traced.as_str()));
+        let mut unknown: BTreeSet<&str> = self.trace.iter().map(String::as_str).collect();
+        unknown.remove(ALL);
+        for batch in motions.batches(|name| name == "motion_id").take_while(|_| !self.trace.is_empty()) {
+            for id in batch?.required_texts("motion_id")? {
+                unknown.remove(&*id);
+            }
         }
         let Some(id) = unknown.first() else { return Ok(()) };
         let file = self.input.display();
@@ -204,14 +194,14 @@ impl Simulate {
                 }
                 rows.push(measures.response_row(motion, structure, response));
                 if is_traced {
-                    traces.extend(trace_rows(motion, record, structure)?);
+                    traces.extend(trace_rows(motion, record, structure));
                 }
             }
             warned.extend(warnings(motion, record));
         }
         Ok(Responded {
             rows: rows::batch(&rows)?,
-            traces: (!traces.is_empty()).then(|| rows::batch(&traces)).transpose()?,
+            traces: rows::batch(&traces)?,
             warnings: warned,
             overturned,
         })
@@ -219,7 +209,7 @@ impl Simulate {
 }
 
 /// The response of a structure over time to a motion, and the motion.
-fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> anyhow::Result<Vec<TraceRow>> {
+fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> Vec<TraceRow> {
     let points = trace(structure, record, TRACE_TAIL_S).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));
     let diagonal_m = structure.block_diagonal_m();
@@ -239,7 +229,7 @@ fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> any
         block_width_m: diagonal_m * structure.alpha_rad.sin(),
         block_height_m: diagonal_m * structure.alpha_rad.cos(),
     });
-    Ok(rows.collect())
+    rows.collect()
 }
 
 /// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
@@ -251,14 +241,14 @@ fn summary(objects: &[Vec<Structure>], overturning: &[Overturning], motions: usi
     let motions = number::counted(motions, "motion");
     let mut lines = String::new();
     for (directions, Overturning { count, named }) in all {
-        let (name, overturn) =
-            (number::name(&directions[0].name), if *count == 1 { "overturns" } else { "overturn" });
-        lines += &format!("{name}: {} of {motions} {overturn} it", number::count(*count));
-        if (1..=NAMED).contains(count) {
-            let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
-            lines += &format!(" ({})", listed(&named, NAMED));
-        }
-        lines.push('\n');
+        let name = number::name(&directions[0].name);
+        let overturn = if *count == 1 { "overturns" } else { "overturn" };
+        let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
+        let named = match count {
+            1..=NAMED => format!(" ({})", named.join(", ")),
+            _ => String::new(),
+        };
+        lines += &format!("{name}: {} of {motions} {overturn} it{named}\n", number::count(*count));
     }
     first_lines(&lines, 0, out)
 }

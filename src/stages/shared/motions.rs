@@ -111,24 +111,19 @@ const PEAK_TOLERANCE: f64 = 0.1;
 
 /// Warnings about a recorded motion of the ground.
 pub fn warnings(motion: &MotionRow, record: &Record) -> Warnings {
-    let mut warnings = Warnings::default();
     let suite = motion.suite.as_deref();
-    let is_synthetic =
-        suite.is_some_and(|suite| suite.parse().is_ok_and(|suite: Suite| suite != Suite::Record));
-    if is_synthetic || Suite::is_floor(suite) {
-        return warnings;
+    let known = suite.and_then(|suite| suite.parse::<Suite>().ok());
+    if known.is_some_and(|suite| suite != Suite::Record) || Suite::is_floor(suite) {
+        return Warnings::default();
     }
     let (samples, dt_s) = (record.acceleration_m_s2(), record.dt_s());
-    if let Some(why) = implausibility(samples, dt_s) {
-        warnings.add(Warning::ImplausibleRecord, format!("{}: {why}", motion.motion_id));
-    }
+    let implausible = implausibility(samples, dt_s)
+        .map(|why| (Warning::ImplausibleRecord, format!("{}: {why}", motion.motion_id)));
     let pgv_m_s = measures::peak(&measures::velocity(samples, dt_s));
     let peaks = [(motion.pga_m_s2, record.peak_m_s2()), (motion.pgv_m_s, pgv_m_s)];
-    if peaks
-        .iter()
-        .any(|(given, peak)| given.is_some_and(|given| (given - peak).abs() > PEAK_TOLERANCE * peak))
-    {
-        warnings.add(Warning::OtherPeak, motion.motion_id.clone());
-    }
-    warnings
+    let is_other = |(given, peak): (Option<f64>, f64)| {
+        given.is_some_and(|given| (given - peak).abs() > PEAK_TOLERANCE * peak)
+    };
+    let other = peaks.into_iter().any(is_other).then(|| (Warning::OtherPeak, motion.motion_id.clone()));
+    implausible.into_iter().chain(other).collect()
 }
