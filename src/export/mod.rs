@@ -32,13 +32,11 @@ pub struct Function {
     pub id: String,
     /// What falls and what predicts it, for a reader.
     pub description: String,
-    /// Intensities, m/s2 or m/s, one or more, rising from uplift: below the first all probabilities are 0.
+    /// Intensities, m/s2 or m/s, rising from uplift, below which all probabilities are 0, to the largest for
+    /// which there are data and that was ever recorded.
     pub levels: Vec<f64>,
     /// Probability of each limit state at the levels.
     pub probabilities: Vec<LimitStates<f64>>,
-    /// The largest intensity for which there are data and that was ever recorded; the first level is that of
-    /// uplift, the least.
-    pub end_of_data: f64,
 }
 
 /// Makes an id for each name, without the signs that have a meaning in these programs: names that are told

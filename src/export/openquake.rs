@@ -4,7 +4,7 @@ use rockfrag_core::fragility::{LimitState, Peak};
 use rockfrag_core::units::{CM_PER_M, G_M_S2};
 use strum::VariantArray;
 
-use super::FragilityModel;
+use super::{FragilityModel, Function};
 use crate::chart::text::escape;
 
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
@@ -19,14 +19,14 @@ pub fn discrete(model: &FragilityModel) -> String {
     let mut description: Vec<String> = meanings.collect();
     let mut tables = String::new();
     for function in &model.functions {
-        let [low, high] = [function.levels[0], function.end_of_data].map(|intensity| intensity / unit);
-        let (id, what) = (&function.id, &function.description);
+        let Function { id, description: what, levels, probabilities } = function;
+        let [low, high] = [levels[0], levels[levels.len() - 1]].map(|intensity| intensity / unit);
         description.push(format!("{id}: {what}, from {imt} {low:.4} (uplift) to {high:.4}"));
-        let levels = numbers(function.levels.iter().map(|level| level / unit));
+        let levels = numbers(levels.iter().map(|level| level / unit));
         tables += &format!("    <fragilityFunction id=\"{id}\" format=\"discrete\">\n");
         tables += &format!("      <imls imt=\"{imt}\" noDamageLimit=\"{low}\">{levels}</imls>\n");
         for state in LimitState::VARIANTS {
-            let poes = numbers(function.probabilities.iter().map(|p| p.get(*state)));
+            let poes = numbers(probabilities.iter().map(|p| p.get(*state)));
             tables += &format!("      <poes ls=\"{state}\">{poes}</poes>\n");
         }
         tables += "    </fragilityFunction>\n";

@@ -37,21 +37,18 @@ pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     writer.write_record(names)?;
     let (name, unit_name, unit) = demand(model.peak);
     for function in &model.functions {
-        let uplift = (function.levels[0] / unit).to_string();
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that
         // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
-        // PGA alone decides on uplift.
-        let tables = match model.peak {
-            Peak::Pga => {
-                row.extend(["deterministic", &uplift, "", ""].map(str::to_string));
-                &LimitState::VARIANTS[1..]
-            }
-            Peak::Pgv => LimitState::VARIANTS,
-        };
-        for state in tables {
-            let table = cumulative_distribution(function, *state, unit);
-            row.extend(["multilinear_CDF", &table, "", ""].map(str::to_string));
+        for state in LimitState::VARIANTS {
+            let (family, theta) = match (model.peak, state) {
+                // PGA alone decides on uplift.
+                (Peak::Pga, LimitState::Rocking) => {
+                    ("deterministic", (function.levels[0] / unit).to_string())
+                }
+                _ => ("multilinear_CDF", cumulative_distribution(function, *state, unit)),
+            };
+            row.extend([family, &theta, "", ""].map(str::to_string));
         }
         writer.write_record(row)?;
     }
@@ -60,8 +57,7 @@ pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
 
 /// Writes the levels, a bar, and the probabilities at them.
 fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) -> String {
-    let below_uplift = (function.levels[0] * (1.0 - GAP), 0.0);
-    let mut points = vec![below_uplift];
+    let mut points = vec![(function.levels[0] * (1.0 - GAP), 0.0)];
     for (&level, probabilities) in function.levels.iter().zip(&function.probabilities) {
         let (last_level, last) = points[points.len() - 1];
         let p = probabilities.get(state);
@@ -76,10 +72,9 @@ fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) ->
     }
     // pelicun knows a whole distribution or none: what is left stands just beyond the last level.
     points.push((end * (1.0 + GAP), 1.0));
-    let join = |part: fn(&(f64, f64)) -> f64, unit: f64| {
-        points.iter().map(|point| (part(point) / unit).to_string()).collect::<Vec<_>>().join(",")
-    };
-    format!("{}|{}", join(|point| point.0, unit), join(|point| point.1, 1.0))
+    let texts = points.iter().map(|(level, p)| ((level / unit).to_string(), p.to_string()));
+    let (levels, probabilities): (Vec<_>, Vec<_>) = texts.unzip();
+    format!("{}|{}", levels.join(","), probabilities.join(","))
 }
 
 /// Describes the rows, for the JSON file beside them.
@@ -97,13 +92,12 @@ pub fn metadata(model: &FragilityModel) -> Value {
         (format!("LS{number}"), json!({ format!("DS{number}"): { "Description": meaning } }))
     });
     let states: Map<String, Value> = states.collect();
-    for Function { id, description, levels, end_of_data, .. } in &model.functions {
-        let [low, high, end] =
-            [levels[0], *end_of_data, levels[levels.len() - 1]].map(|intensity| intensity / unit);
+    for Function { id, description, levels, .. } in &model.functions {
+        let [low, high] = [levels[0], levels[levels.len() - 1]].map(|intensity| intensity / unit);
         all[id] = json!({
             "Description": description,
             "Comments": format!(
-                "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {end:.4} {unit_name}, the last level, are set to it."
+                "Holds from {low:.4} {unit_name} (uplift) to {high:.4} {unit_name}; beyond them the curves are extrapolated. Capacities above {high:.4} {unit_name}, the last level, are set to it."
             ),
             "SuggestedComponentBlockSize": "1 EA",
             "RoundUpToIntegerQuantity": "True",

@@ -95,10 +95,10 @@ impl Stage for Export {
         let bar = context.bar(objects.len());
         let functions = objects.iter().zip(&ids).map(|(object, id)| {
             bar.advance(1)?;
-            let (rocking_object, warnings) = models.rocking_object(object)?;
-            let warnings = warnings.into_iter().chain(rocking_object.structure_warnings());
+            let (rocking, warnings) = models.rocking_object(object)?;
+            let warnings = warnings.into_iter().chain(rocking.structure_warnings());
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            self.function(id, object, &rocking_object)
+            self.function(id, object, &rocking)
         });
         let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
@@ -109,13 +109,14 @@ impl Stage for Export {
             functions,
         };
         let files = self.outputs();
-        match self.to {
-            Program::OpenQuake => context.write_file(&files[0], discrete(&model).as_bytes())?,
+        let contents = match self.to {
+            Program::OpenQuake => vec![discrete(&model)],
             Program::Pelicun => {
-                let json = serde_json::to_string_pretty(&metadata(&model))? + "\n";
-                context.write_file(&files[0], json.as_bytes())?;
-                context.write_file(&files[1], parameters(&model)?.as_bytes())?;
+                vec![serde_json::to_string_pretty(&metadata(&model))? + "\n", parameters(&model)?]
             }
+        };
+        for (file, content) in files.iter().zip(contents) {
+            context.write_file(file, content.as_bytes())?;
         }
         let (file, number, over) = (number::path(&files[files.len() - 1]), model.functions.len(), self.over);
         let most = model.functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
@@ -133,19 +134,12 @@ impl Export {
 
     /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
     /// or nothing was ever recorded, and on either side of a jump.
-    fn function(
-        &self,
-        id: &str,
-        object: &Object,
-        rocking_object: &RockingObject,
-    ) -> anyhow::Result<Function> {
-        let model = &rocking_object.directions[0].model;
+    fn function(&self, id: &str, object: &Object, rocking: &RockingObject) -> anyhow::Result<Function> {
         let general = GenericSites { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
-        let given_peak = general.given_peak(&rocking_object.directions);
-        let reaching = |intensity: f64| {
-            given_peak.limit_states(intensity).map(|p| p.unwrap_or_default().clamp(0.0, 1.0))
+        let given_peak = general.given_peak(&rocking.directions);
+        let is_whole = |intensity: f64| {
+            given_peak.limit_states(intensity).into_array().iter().all(|p| p.is_some_and(|p| p >= 1.0 - NEAR))
         };
-        let is_whole = |intensity: f64| reaching(intensity).into_array().iter().all(|&p| p >= 1.0 - NEAR);
         let uplift = given_peak.uplift().least;
         let end = bisect_first_true(uplift, strongest(self.over).max(2.0 * uplift), is_whole);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
@@ -157,21 +151,23 @@ impl Export {
         let mut most = LimitStates::all(0.0_f64);
         let mut probabilities = Vec::new();
         for &level in &levels {
-            if given_peak.limit_states(level).into_array().contains(&None) {
-                return Err(named(
-                    object,
-                    &"its fits give no probability for some motions: fit more responses",
-                ));
+            let states = given_peak.limit_states(level);
+            if states.into_array().contains(&None) {
+                let problem = "its fits give no probability for some motions: fit more responses";
+                return Err(named(object, &problem));
             }
-            most = most.zip(reaching(level), f64::max);
+            most = most.zip(states, |most, p| p.map_or(most, |p| most.max(p.clamp(0.0, 1.0))));
             probabilities.push(most);
         }
-        let directions = if rocking_object.directions.len() > 1 { " in both directions" } else { "" };
+        let directions = if rocking.directions.len() > 1 { " in both directions" } else { "" };
         Ok(Function {
             id: format!("{id}_{}", self.over),
-            description: format!("{}{directions}, by {}", object.name, model.description()),
+            description: format!(
+                "{}{directions}, by {}",
+                object.name,
+                rocking.directions[0].model.description()
+            ),
             probabilities,
-            end_of_data: end,
             levels,
         })
     }
