@@ -16,7 +16,7 @@ use crate::number::{aligned, counted, fixed};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
-use crate::table::frame::{self, Format};
+use crate::table::frame;
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
 
@@ -69,7 +69,7 @@ impl Stage for ComparePaper {
 impl ComparePaper {
     fn text(&self, verdict: &str, compared: &[Comparison]) -> anyhow::Result<String> {
         let rows = match self.all {
-            true => frame::show(&frame::from_batch(&rows::batch(compared)?)?, Format::Text)?,
+            true => frame::text(&frame::from_batch(&rows::batch(compared)?)?),
             false => planes(compared) + &example(compared),
         };
         Ok(verdict.to_string() + &rows)
@@ -98,21 +98,17 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
 
 /// What structures of the paper's names have other parameters.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let mut differences = Vec::new();
-    for Structure { name, p_rad_s, alpha_rad, eta } in paper::structures() {
-        let Some(fit) = demand.iter().find(|fit| fit.structure == name) else {
-            differences.push(format!("no fits of {name}"));
-            continue;
-        };
-        for (parameter, now, then) in
-            [("p", fit.p_rad_s, p_rad_s), ("alpha", fit.alpha_rad, alpha_rad), ("eta", fit.eta, eta)]
-        {
-            if now != then {
-                differences.push(format!("{name} has {parameter} {now}, not {then}"));
-            }
-        }
-    }
-    differences
+    let differences =
+        paper::structures().into_iter().flat_map(|Structure { name, p_rad_s, alpha_rad, eta }| {
+            let Some(fit) = demand.iter().find(|fit| fit.structure == name) else {
+                return vec![format!("no fits of {name}")];
+            };
+            let parameters =
+                [("p", fit.p_rad_s, p_rad_s), ("alpha", fit.alpha_rad, alpha_rad), ("eta", fit.eta, eta)];
+            let other = parameters.into_iter().filter(|(_, now, then)| now != then);
+            other.map(|(parameter, now, then)| format!("{name} has {parameter} {now}, not {then}")).collect()
+        });
+    differences.collect()
 }
 
 /// Options that do not change what is compared.
@@ -145,35 +141,25 @@ fn other_options(fits: &Path) -> Vec<String> {
     differences
 }
 
-/// A plane of Table II.
-pub struct Plane<'a> {
-    pub of: &'a Comparison,
-    /// Below or above the transition.
-    pub side: &'static str,
-    /// ln a, b1, b2 and R2.
-    pub numbers: [String; 4],
-}
-
-/// The eight planes of Table II.
-pub fn table_two(compared: &[Comparison]) -> impl Iterator<Item = Plane<'_>> {
-    compared.iter().filter(|number| number.quantity.ends_with("_plane")).map(|of| Plane {
-        of,
-        side: if of.quantity == "low_plane" { "below" } else { "above" },
-        numbers: ["ln_a", "b1", "b2", "r2"].map(|name| {
-            let quantity = of.quantity.replace("plane", name);
-            let its = (&quantity, &of.suite, &of.structure);
+/// The eight planes of Table II: suite, structure, side of the transition, ln a, b1, b2 and R2.
+pub fn table_two(compared: &[Comparison]) -> impl Iterator<Item = [String; 7]> {
+    let planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
+    planes.map(|Comparison { quantity, suite, structure, .. }| {
+        let [ln_a, b1, b2, r2] = ["ln_a", "b1", "b2", "r2"].map(|name| {
+            let its = (&quantity.replace("plane", name), suite, structure);
             let number = compared.iter().find(|row| (&row.quantity, &row.suite, &row.structure) == its);
             number.map_or(String::new(), both)
-        }),
+        });
+        let side = if quantity == "low_plane" { "below" } else { "above" };
+        [suite.clone(), structure.clone(), side.to_string(), ln_a, b1, b2, r2]
     })
 }
 
 fn planes(compared: &[Comparison]) -> String {
-    let heading = ["Table II: published / this run (z)", "ln a", "b1", "b2", "R2"];
-    let mut lines = vec![heading.map(str::to_string).to_vec()];
-    for Plane { of, side, numbers } in table_two(compared) {
-        lines.push([&[format!("{}, {}, {side}", of.suite, of.structure)], &numbers[..]].concat());
-    }
+    let heading = ["Table II: published / this run (z)", "ln a", "b1", "b2", "R2"].map(str::to_string);
+    let mut lines = vec![heading.to_vec()];
+    lines
+        .extend(table_two(compared).map(|plane| [vec![plane[..3].join(", ")], plane[3..].to_vec()].concat()));
     aligned(&lines, |_| false)
 }
 

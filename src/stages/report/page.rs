@@ -206,10 +206,9 @@ fn cell(row: &Value, field: &str) -> String {
 /// Table II: published over ours.
 fn published_planes(compared: &[Comparison]) -> Table {
     let mut rows = Vec::new();
-    for plane in table_two(compared) {
-        let [structure, suite] = [&plane.of.structure, &plane.of.suite].map(|name| literal(name));
-        let numbers = plane.numbers.map(minus);
-        rows.push([vec![structure, suite, plane.side.to_string()], numbers.to_vec()].concat());
+    for [suite, structure, side, numbers @ ..] in table_two(compared) {
+        let names = vec![literal(&structure), literal(&suite), side];
+        rows.push([names, numbers.map(minus).to_vec()].concat());
     }
     let heads = ["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}"];
     Table::new(&heads, rows).explained(
