@@ -94,32 +94,32 @@ impl Importer {
     }
 
     pub fn import(&self, work: &Work) -> Vec<Result<Vec<ImportedMotion>, NotImported>> {
-        let file = match work {
-            Work::File(file) => file,
-            Work::Pair(pair) => {
-                let both =
-                    pair.each_ref().map(|(file, index)| self.read(file).into_iter().flatten().nth(*index));
-                // That a file has changed meanwhile is told in the end.
-                let [Some(first), Some(second)] = both else { return Vec::new() };
-                let imported = self.processing.import_pair([first, second]);
-                return vec![imported.map_err(|error| refusal(&pair[0].0.path, &error))];
+        match work {
+            Work::File(file) => {
+                let records = self.read(file);
+                let several = records.len() > 1;
+                let import = |record: NamedRecord| {
+                    let column = record.motion.origin.component.clone().filter(|_| several);
+                    let column = column.map_or(String::new(), |column| format!("column '{column}': "));
+                    let imported = self.processing.import(record);
+                    imported.map_err(|error| refusal(&file.path, &format!("{column}{error}")))
+                };
+                records.into_iter().map(|record| record.and_then(import)).collect()
             }
-        };
-        let records = self.read(file);
-        let several = records.len() > 1;
-        let imported = records.into_iter().map(|record| {
-            let record = record?;
-            let column = record.motion.origin.component.clone().filter(|_| several);
-            let column = column.map_or(String::new(), |column| format!("column '{column}': "));
-            self.processing.import(record).map_err(|error| refusal(&file.path, &format!("{column}{error}")))
-        });
-        imported.collect()
+            Work::Pair(pair) => {
+                let read = |(file, index): &(File, usize)| self.read(file).into_iter().flatten().nth(*index);
+                // That a file has changed meanwhile is told in the end.
+                let [Some(first), Some(second)] = pair.each_ref().map(read) else { return Vec::new() };
+                let imported = self.processing.import_pair([first, second]);
+                vec![imported.map_err(|error| refusal(&pair[0].0.path, &error))]
+            }
+        }
     }
 
     /// Reads the records of a file, or of those in an archive.
     fn read(&self, file: &File) -> Vec<Result<NamedRecord, NotImported>> {
-        let bytes = source::read(&file.path).map_err(|error| error.to_string());
-        match bytes.and_then(|bytes| unpack(bytes).map_err(|error| error.to_string())) {
+        let bytes = source::read(&file.path).map_err(anyhow::Error::from);
+        match bytes.and_then(|bytes| Ok(unpack(bytes)?)) {
             Err(reason) => vec![Err(refusal(&file.path, &reason))],
             Ok(members) => {
                 let files = file.unpacked(&members).into_iter().zip(&members);

@@ -27,6 +27,7 @@ use crate::pipeline::options::{Rule, Steps, number, periods, steps};
 use crate::pipeline::paths::Read;
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
+use crate::table::keys::resolved;
 use crate::table::{motions, rows};
 
 /// Files, or pairs of components, that are processed at once.
@@ -144,8 +145,8 @@ impl Stage for ImportMotions {
         let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
         let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
         if let Some(path) = &self.about {
-            let about = std::path::absolute(&**path)?;
-            importer.files.retain(|file| std::path::absolute(&file.path).is_ok_and(|file| file != about));
+            let about = resolved(path);
+            importer.files.retain(|file| resolved(&file.path) != about);
             if !importer.files.iter().any(|file| importer.about.get(&file.path).is_some()) {
                 let problem = format!("{}: no row is about any of the files", path.display());
                 return Err(UsageError::because(problem));
