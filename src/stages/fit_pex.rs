@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{
-    Calibration, DemandFit, DemandModel, Parameter, Predictors, fit_demand, sd_of_one_plane,
+    Calibration, DemandFit, DemandModel, Predictors, fit_demand, sd_of_one_plane,
 };
 use rockfrag_core::paper;
 use rockfrag_core::statistics::FitStatus;
@@ -108,8 +108,7 @@ impl Stage for FitPex {
         let mut groups = responses::read_with(&self.input, &columns)?;
         let bar = context.bar(groups.len());
         let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
-        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
-        let (mut planes, mut laws) = (Vec::new(), Vec::new());
+        let (mut fits, mut calibrations, mut planes, mut laws) = (vec![], vec![], vec![], vec![]);
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
             let its = fit_demand(cases, transition, self.confidence, &self.pairs, self.all);
@@ -123,9 +122,9 @@ impl Stage for FitPex {
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let calibration = part(&self.out, "calibration");
         let mut summary = calibrations_text(&calibrations, ["rock safely", "exceed"], &calibration);
-        summary += &format!("\n{PLANES}\n{}", text(&PLANE_HEADINGS, planes.into_iter(), 2..7, &self.out));
+        summary += &format!("\n{PLANES}\n{}", text(&PLANE_HEADINGS, planes, 2..7, &self.out));
         if !laws.is_empty() {
-            summary += &format!("\n{LAWS}\n{}", text(&LAW_HEADINGS, laws.into_iter(), 3..7, &self.out));
+            summary += &format!("\n{LAWS}\n{}", text(&LAW_HEADINGS, laws, 3..7, &self.out));
         }
         context.warn(warnings(&calibrations));
         context.write(&calibration, &calibrations, &summary)?;
@@ -166,17 +165,15 @@ impl FitPex {
             DemandModel::Biplanar => fit.range_high.is_some() && !self.pairs.is_empty(),
             _ => self.pairs.contains(&fit.predictors()),
         };
-        let mut shown_fits: Vec<&DemandFit> = fits.iter().filter(is_shown).collect();
-        shown_fits.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-        let lines = shown_fits.into_iter().map(|fit| {
-            let is_biplanar = fit.model == DemandModel::Biplanar;
-            let measure = format!("{}{}", fit.predictors(), if is_biplanar { ", two planes" } else { "" });
-            let parameters = fit.parameters(self.confidence);
-            let zeta = parameters.iter().find(|row| row.parameter == Parameter::Zeta).map(|row| row.value);
-            let numbers = match is_biplanar {
-                true => [fit.r2_overall, None, None],
-                false => [fit.r2, fit.beta, zeta],
+        let mut fits: Vec<&DemandFit> = fits.iter().filter(is_shown).collect();
+        fits.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
+        let lines = fits.into_iter().map(|fit| {
+            let zeta = fit.beta.map(|beta| beta / fit.coefficients[1]);
+            let (planes, numbers) = match fit.model {
+                DemandModel::Biplanar => (", two planes", [fit.r2_overall, None, None]),
+                _ => ("", [fit.r2, fit.beta, zeta]),
             };
+            let measure = format!("{}{planes}", fit.predictors());
             let names = [suite_name(&fit.suite), fit.structure.clone(), measure].into_iter();
             let ends = [score(fit.held_out_log_score), verdict(fit.status)];
             names.chain(numbers.map(shown)).chain(ends).collect()

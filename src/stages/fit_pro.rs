@@ -66,32 +66,28 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let calibration = part(&self.out, "calibration");
-        let (mut fits, mut calibrations, mut texts) = (Vec::new(), Vec::new(), Vec::new());
-        if observed::is_list(&self.input)? {
+        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
+        let summary = if observed::is_list(&self.input)? {
             // What stood and what fell gives no curve.
             let (outcomes, unused) = observed::read(&self.input)?;
             context.warn(unused);
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
-            texts.push(calibrations_text(&calibrations, ["rocked", "fell"], &calibration));
+            calibrations_text(&calibrations, ["rocked", "fell"], &calibration)
         } else {
+            let is_overturning = self.event == Event::Overturning;
             let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
             let groups = responses::read_with(&self.input, &columns)?;
             let bar = context.bar(groups.len());
             for cases in &groups {
                 fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
                 // The surface gives the probability of overturning, not that of rocking.
-                if self.event == Event::Overturning {
-                    calibrations.push(Calibration::fit(cases, None));
-                }
+                calibrations.extend(is_overturning.then(|| Calibration::fit(cases, None)));
                 bar.advance(1)?;
             }
-            if !calibrations.is_empty() {
-                texts.push(calibrations_text(&calibrations, ["rock", "overturn"], &calibration));
-            }
-            texts.push(self.curves_text(&fits));
-        }
+            let calibrated = || calibrations_text(&calibrations, ["rock", "overturn"], &calibration) + "\n";
+            is_overturning.then(calibrated).unwrap_or_default() + &self.curves_text(&fits)
+        };
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let summary = texts.join("\n");
         context.warn(warnings(&calibrations));
         context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
@@ -122,7 +118,7 @@ impl FitPro {
             names.into_iter().chain(numbers).collect()
         });
         let headings = ["suite", "structure", "measure", "median", "dispersion", "log score", "verdict"];
-        let lines = text(&headings, lines, 5..6, &self.out);
+        let lines = text(&headings, lines.collect(), 5..6, &self.out);
         format!(
             "lognormal curves (paper), with {} % limits; log score of held-out cells or earthquakes\n{lines}",
             100.0 * self.confidence

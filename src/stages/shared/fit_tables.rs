@@ -28,18 +28,13 @@ pub fn calibrations_text(rows: &[Calibration], [cases, events]: [&str; 2], out: 
     if rows.iter().all(|row| row.limit_state.is_none()) {
         headings.remove(2);
     }
-    text(&headings, lines, headings.len() - 3..headings.len() - 1, out)
+    text(&headings, lines.collect(), headings.len() - 3..headings.len() - 1, out)
 }
 
 /// The first rows as a table, these columns of numbers flush right; all are in a file.
-pub fn text(
-    headings: &[&str],
-    rows: impl Iterator<Item = Vec<String>>,
-    numbers: Range<usize>,
-    out: &Path,
-) -> String {
+pub fn text(headings: &[&str], rows: Vec<Vec<String>>, numbers: Range<usize>, out: &Path) -> String {
     let headings = headings.iter().map(|heading| heading.to_string()).collect();
-    let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
+    let lines = [vec![headings], rows].concat();
     first_lines(&aligned(&lines, |column| numbers.contains(&column)), 1, out)
 }
 
@@ -64,12 +59,10 @@ pub fn verdict(status: FitStatus) -> String {
 
 /// Warnings about calibrations, each with its structure and suite.
 pub fn warnings(rows: &[Calibration]) -> Warnings {
-    let mut warnings = Warnings::default();
-    for row in rows {
+    let warnings = rows.iter().flat_map(|row| {
         let suite = row.suite.as_ref().map_or(String::new(), |suite| format!(" ({suite})"));
-        for warning in row.warnings() {
-            warnings.add(warning, format!("{}{suite}", row.structure));
-        }
-    }
-    warnings
+        let about = move |warning| (warning, format!("{}{suite}", row.structure));
+        row.warnings().into_iter().map(about)
+    });
+    warnings.collect()
 }
