@@ -46,7 +46,6 @@ pub fn discrete(model: &FragilityModel) -> String {
     )
 }
 
-/// Writes numbers in full, separated by spaces.
 fn numbers(values: impl Iterator<Item = f64>) -> String {
     values.map(|value| value.to_string()).collect::<Vec<_>>().join(" ")
 }

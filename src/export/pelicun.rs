@@ -11,7 +11,6 @@ use super::{FragilityModel, Function, GAP};
 
 const COMMON: [&str; 6] =
     ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"];
-/// Columns of each limit state.
 const STATE: [&str; 4] = ["Family", "Theta_0", "Theta_1", "DamageStateWeights"];
 
 /// Least rise of a probability from one level to the next, else the level is left out: pelicun keeps six
@@ -77,7 +76,6 @@ fn cumulative_distribution(function: &Function, state: LimitState, unit: f64) ->
     format!("{}|{}", levels.join(","), probabilities.join(","))
 }
 
-/// Describes the rows, for the JSON file beside them.
 pub fn metadata(model: &FragilityModel) -> Value {
     let mut all = json!({
         "_GeneralInformation": {

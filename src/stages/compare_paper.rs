@@ -43,9 +43,9 @@ pub struct ComparePaper {
 
 impl Stage for ComparePaper {
     fn inputs(&self) -> Vec<Read> {
-        let fits = [("pex", &self.pex), ("pro", &self.pro)].map(|(flag, file)| Read::new(flag, [&**file]));
-        let beside = UPSTREAM_FILES.map(|name| self.pex.with_file_name(name)).to_vec();
-        fits.into_iter().chain([Read { optional: true, ..Read::new("beside", beside) }]).collect()
+        let beside = Read::new("beside", UPSTREAM_FILES.map(|name| self.pex.with_file_name(name)));
+        let beside = Read { optional: true, ..beside };
+        vec![Read::new("pex", [&self.pex]), Read::new("pro", [&self.pro]), beside]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
@@ -171,7 +171,6 @@ fn both(row: &Comparison) -> String {
     format!("{published} / {ours}{z}")
 }
 
-/// The worked example.
 fn example(compared: &[Comparison]) -> String {
     let rows = compared.iter().filter(|row| row.quantity == "example_p_ro");
     let rows: Vec<String> = rows.map(|row| format!("{} {}", row.structure, both(row))).collect();

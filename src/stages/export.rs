@@ -45,7 +45,6 @@ pub struct Export {
     structures: StructureArgs,
 }
 
-/// A program that reads fragility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "lowercase")]
@@ -125,7 +124,6 @@ impl Stage for Export {
 }
 
 impl Export {
-    /// Reads the objects, each of which must rock, on the ground.
     fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let (objects, unused) = self.structures.objects(&Place::default(), &mut Renames::new(&[]))?;
         objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;

@@ -63,7 +63,6 @@ pub struct FitPex {
     motions: Option<PathBuf>,
 }
 
-/// Where two planes meet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 enum Transition {

@@ -54,7 +54,6 @@ pub struct FloorMotions {
     partition: Option<Partition>,
 }
 
-/// The floor of a motion, as columns.
 #[derive(Serialize, Deserialize)]
 struct FloorRow {
     suite: String,
@@ -77,10 +76,9 @@ impl Stage for FloorMotions {
             let problem = "motions of a floor; expected those of the ground";
             return Err(TableError::table(&self.input, problem).into());
         }
-        let no_rows = RecordBatch::new_empty(table.schema().clone());
-        let none = Batch { path: (*self.input).into(), first_row: 0, rows: no_rows };
-        let none = Sampled { columns: none, motions: Vec::new() };
-        let schema = self.filter(none)?.schema();
+        let rows = RecordBatch::new_empty(table.schema().clone());
+        let columns = Batch { path: (*self.input).into(), first_row: 0, rows };
+        let schema = self.filter(Sampled { columns, motions: Vec::new() })?.schema();
         let mut writer = context.create(&self.outputs()[0], &schema)?;
         process_in_order(
             &context.bar(table.rows()),

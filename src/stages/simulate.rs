@@ -27,7 +27,6 @@ use crate::table::rows;
 const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
-/// The word that traces all motions.
 const ALL: &str = "all";
 /// Motions that are named if they overturn a structure.
 const NAMED: usize = 8;
@@ -132,7 +131,6 @@ struct Overturning {
     named: Vec<String>,
 }
 
-/// What came of some motions.
 struct Responded {
     rows: RecordBatch,
     traces: RecordBatch,

@@ -115,15 +115,15 @@ impl Stage for SynthesizeMotions {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = ParquetTable::open(&self.input)?.part(self.partition);
         let suites = &self.suite;
-        let periods = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
-        let plan = MeasurePlan { housner: self.housner, sa_periods_s: periods.clone() };
+        let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
+        let plan = MeasurePlan { housner: self.housner, sa_periods_s };
         let (site, kappa_s) = (site(&self.site)?, self.kappa);
         let stochastic = StochasticModel { site, kappa_s, fmax_hz: self.fmax, low_cut_hz: self.low_cut };
         let Self { difference, epoch, seed, .. } = *self;
         let model = MotionModel { dt_s: self.dt, difference, epoch, stochastic, seed };
         // Of threads that are between two chunks.
         let idle: Mutex<Vec<Synthesizer>> = Mutex::default();
-        let mut writer = context.create(&self.outputs()[0], &batch(&[], &periods)?.schema())?;
+        let mut writer = context.create(&self.outputs()[0], &batch(&[], &plan)?.schema())?;
         let bar = context.bar(table.rows());
         let scenarios = rows::stream::<Scenario>(&table)?.flat_map(|read| match read {
             Ok(some) => together(&some, &model).map(Ok).collect(),
@@ -139,7 +139,7 @@ impl Stage for SynthesizeMotions {
                 let motions = some.iter().flat_map(|one| synthesize(one, suites, &plan, &mut synthesizer));
                 let motions: Vec<SyntheticMotion> = motions.collect();
                 let _ = idle.lock().map(|mut idle| idle.push(synthesizer));
-                batch(&motions, &periods)
+                batch(&motions, &plan)
             },
             |batch| Ok(writer.append(&batch)?),
         )?;
@@ -177,7 +177,6 @@ fn expect_short(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The site amplification of this name, or in this file.
 fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
     match name.to_str() {
         Some("rock") => Ok(SiteAmplification::rock()),
@@ -224,7 +223,7 @@ fn synthesize(
     motions.collect()
 }
 
-fn batch(some: &[SyntheticMotion], periods_s: &[f64]) -> anyhow::Result<arrow_array::RecordBatch> {
+fn batch(some: &[SyntheticMotion], plan: &MeasurePlan) -> anyhow::Result<arrow_array::RecordBatch> {
     let sampled = some.iter().map(|motion| (&motion.measures, motion.acceleration_m_s2.as_slice()));
-    motions::batch(&[rows::batch(some)?], periods_s, sampled)
+    motions::batch(&[rows::batch(some)?], &plan.sa_periods_s, sampled)
 }

@@ -128,7 +128,6 @@ impl Importer {
         }
     }
 
-    /// Reads the records in the bytes of a file.
     fn read_one(&self, file: &File, bytes: &[u8]) -> Vec<Result<NamedRecord, NotImported>> {
         let File { path, name, below } = file;
         let source_blake3 = blake3::hash(bytes).to_hex().to_string();

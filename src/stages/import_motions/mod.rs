@@ -133,17 +133,15 @@ impl Stage for ImportMotions {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let processing = self.processing();
-        let periods = processing.plan.sa_periods_s.clone();
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
         let about = about.map_err(|error| UsageError::because(error.to_string()))?;
-        let unused = about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone()));
-        context.warn(unused.collect());
+        context.warn(about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone())).collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = context.plan.made.inputs.get("files").into_iter().flatten();
         let files = importer::named(files.map(|file| file.path.clone()).collect());
         let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
-        let mut writer = context.create(&self.out, &batch(&[], &periods)?.schema())?;
+        let mut writer = context.create(&self.out, &batch(&[], &importer.processing.plan)?.schema())?;
         if let Some(path) = &self.about {
             let about = resolved(path);
             importer.files.retain(|file| resolved(&file.path) != about);
@@ -167,7 +165,7 @@ impl Stage for ImportMotions {
                         Err(why) => summary.leave_out(why),
                         Ok(imported) => {
                             context.warn(imported.iter().flat_map(warnings).collect());
-                            writer.append(&batch(&imported, &periods)?)?;
+                            writer.append(&batch(&imported, &importer.processing.plan)?)?;
                             summary.add(imported);
                         }
                     }
@@ -187,9 +185,9 @@ fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> 
     motion.doubts.iter().map(|(warning, why)| (*warning, format!("{}: {why}", motion.motion_id)))
 }
 
-fn batch(some: &[ImportedMotion], periods_s: &[f64]) -> anyhow::Result<RecordBatch> {
+fn batch(some: &[ImportedMotion], plan: &MeasurePlan) -> anyhow::Result<RecordBatch> {
     let sampled = some.iter().map(|motion| (&motion.measures, motion.acceleration_m_s2.as_slice()));
-    motions::batch(&[rows::batch(some)?], periods_s, sampled)
+    motions::batch(&[rows::batch(some)?], &plan.sa_periods_s, sampled)
 }
 
 impl ImportMotions {

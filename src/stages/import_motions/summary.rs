@@ -67,7 +67,6 @@ impl Summary {
         Ok(())
     }
 
-    /// Counts the components that were left out, in words.
     fn left_out(&self) -> String {
         self.left_out.iter().map(|(what, n)| counted(*n, what)).collect::<Vec<_>>().join(" and ")
     }

@@ -52,7 +52,6 @@ pub fn suite_name(suite: &Option<String>) -> String {
     suite.clone().unwrap_or_else(|| "-".to_string())
 }
 
-/// A status in plain words.
 pub fn verdict(status: FitStatus) -> String {
     status.to_string().replace('_', " ")
 }

@@ -25,7 +25,6 @@ use crate::stages::shared::objects::named;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
 
-/// The model that predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -89,7 +88,6 @@ impl ModelArgs {
         Read { optional: true, ..Read::new("fits", files) }
     }
 
-    /// Reads the fits, if there are any.
     pub fn read(&self) -> anyhow::Result<Models> {
         fn read<R: Row>(folder: Option<&PathBuf>, name: &str) -> Result<Vec<R>, TableError> {
             folder.map_or(Ok(Vec::new()), |folder| rows::read(&folder.join(name)))
@@ -267,7 +265,6 @@ impl Models {
     }
 }
 
-/// The structure that a row is about.
 fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
     Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta }
 }

@@ -39,14 +39,12 @@ pub fn with_fields(stage: Command) -> Command {
     }))
 }
 
-/// The word for the paper's structures.
 const PAPER: &str = "paper";
 
 fn is_paper(list: &Path) -> bool {
     list == Path::new(PAPER)
 }
 
-/// The structures of a call.
 #[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Structure")]
@@ -68,7 +66,7 @@ pub struct StructureArgs {
 }
 
 impl StructureArgs {
-    pub const RULES: [Rule; 10] = [
+    pub const RULES: [Rule; 5] = [
         Rule::Either(&Field::OF_SHAPE, &["structure", "structures"]),
         Rule::Either(&["structure"], &["structures"]),
         Rule::Either(
@@ -79,11 +77,6 @@ impl StructureArgs {
             &["beam-mass-ratio"],
             &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"],
         ),
-        Rule::Needs(&["depth", "centre-offset", "height"], &["width"]),
-        Rule::Needs(&["centre-height", "inertia", "width"], &["height"]),
-        Rule::Needs(&["eta"], &["width", "p"]),
-        Rule::Needs(&["p"], &["alpha"]),
-        Rule::Needs(&["alpha"], &["p"]),
         Rule::Needs(&["ground-floor"], &["structures"]),
     ];
 
