@@ -83,11 +83,11 @@ impl Stage for Simulate {
         let (objects, mut warnings) = self.structures.or_paper().resolve()?;
         let motions = motions::open(&self.input, self.partition)?;
         self.expect_traced(&motions)?;
-        let mut plan = SimulationPlan { objects, second: HashSet::new() };
-        if plan.objects.iter().any(|directions| directions.len() > 1) {
-            plan.second = motions::second_of_pairs(&self.input, self.partition)?;
+        let mut second = HashSet::new();
+        if objects.iter().any(|directions| directions.len() > 1) {
+            second = motions::second_of_pairs(&self.input, self.partition)?;
         }
-        if !plan.second.is_empty() {
+        if !second.is_empty() {
             warnings.remove(Warning::OneDirection);
         }
         context.warn(warnings);
@@ -95,11 +95,11 @@ impl Stage for Simulate {
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
         let create_traces = || context.create(&trace_file, &rows::schema::<TraceRow>());
         let mut traces = (!self.trace.is_empty()).then(create_traces).transpose()?;
-        let mut overturning = vec![Overturning::default(); plan.objects.len()];
+        let mut overturning = vec![Overturning::default(); objects.len()];
         process_in_order(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_motion_column, CHUNK),
-            |some| self.respond(some, &plan),
+            |some| self.respond(some, &objects, &second),
             |some| {
                 for (structure, motion) in some.overturned {
                     let Overturning { count, named } = &mut overturning[structure];
@@ -114,7 +114,7 @@ impl Stage for Simulate {
             },
         )?;
         let assumed = if self.structures.is_given() { "" } else { ASSUMED };
-        let summary = assumed.to_string() + &summary(&plan.objects, &overturning, motions.rows(), &self.out);
+        let summary = assumed.to_string() + &summary(&objects, &overturning, motions.rows(), &self.out);
         match traces {
             Some(traces) => context.finish(traces, &summary)?,
             None => context.remove_former(&out, trace_file),
@@ -139,23 +139,6 @@ struct Responded {
     overturned: Vec<(usize, String)>,
 }
 
-/// Which structures each motion shakes.
-struct SimulationPlan {
-    /// The directions of each object, the weaker first.
-    objects: Vec<Vec<Structure>>,
-    /// Motions that are the second of a pair, which shakes the other direction.
-    second: HashSet<String>,
-}
-
-impl SimulationPlan {
-    fn structures(&self, motion: &MotionRow) -> impl Iterator<Item = &Structure> {
-        let is_second = self.second.contains(&motion.motion_id);
-        self.objects
-            .iter()
-            .map(move |directions| &directions[if is_second { directions.len() - 1 } else { 0 }])
-    }
-}
-
 impl Simulate {
     /// Checks, before anything is simulated, that the motions to trace are there.
     fn expect_traced(&self, motions: &ParquetTable) -> anyhow::Result<()> {
@@ -171,13 +154,23 @@ impl Simulate {
         anyhow::bail!("{file}: no motion '{id}' to trace; expected one of its motion_id, or {ALL}")
     }
 
-    /// Runs all structures on some motions, while these are at hand.
-    fn respond(&self, some: Sampled, plan: &SimulationPlan) -> anyhow::Result<Responded> {
+    /// Runs all objects, each by its directions, on some motions: the weaker direction, but the other one on
+    /// the second motion of a pair.
+    fn respond(
+        &self,
+        some: Sampled,
+        objects: &[Vec<Structure>],
+        second: &HashSet<String>,
+    ) -> anyhow::Result<Responded> {
         let motions = some.motions;
+        let structures = |motion: &MotionRow| {
+            let is_second = second.contains(&motion.motion_id);
+            objects.iter().filter_map(move |all| if is_second { all.last() } else { all.first() })
+        };
         let records = motions.iter().map(MotionRow::record).collect::<Result<Vec<_>, _>>()?;
         let pairs = motions.iter().zip(&records);
         let problems = pairs.clone().flat_map(|(motion, &record)| {
-            plan.structures(motion).map(move |structure| Problem { structure, record })
+            structures(motion).map(move |structure| Problem { structure, record })
         });
         let mut responses = simulate_all(&problems.collect::<Vec<_>>()).into_iter();
         let (mut rows, mut overturned) = (Vec::new(), Vec::new());
@@ -185,8 +178,7 @@ impl Simulate {
         for (motion, record) in pairs {
             let measures = Measures::new(motion, record);
             let is_traced = self.trace.iter().any(|traced| *traced == ALL || *traced == motion.motion_id);
-            let responded = plan.structures(motion).zip(&mut responses);
-            for (index, (structure, response)) in responded.enumerate() {
+            for (index, (structure, response)) in structures(motion).zip(&mut responses).enumerate() {
                 if response.outcome == Outcome::Overturned {
                     overturned.push((index, motion.motion_id.clone()));
                 }

@@ -69,13 +69,16 @@ impl Importer {
         if self.processing.direction.is_none() {
             return Ok(self.files.iter().cloned().map(Work::File).collect());
         }
+        // Samples are read again once a pair is found: that takes less memory than keeping all of them.
+        let origin = |NamedRecord { motion, .. }: NamedRecord| (motion.origin, motion.dt_s);
+        let read = |file| self.read(file).into_iter().map(|record| record.map(origin)).collect::<Vec<_>>();
         let mut components = Vec::new();
-        for (file, read) in self.files.par_iter().map(|file| (file, self.read(file))).collect::<Vec<_>>() {
-            let (records, others): (Vec<_>, Vec<_>) = read.into_iter().partition(Result::is_ok);
-            others.into_iter().filter_map(Result::err).for_each(|why| summary.leave_out(why));
-            // Samples are read again once a pair is found: that takes less memory than keeping all of them.
-            for (index, NamedRecord { motion, .. }) in records.into_iter().flatten().enumerate() {
-                components.push((motion.origin, motion.dt_s, (file.clone(), index)));
+        for (file, read) in self.files.iter().zip(self.files.par_iter().map(read).collect::<Vec<_>>()) {
+            for (index, component) in read.into_iter().enumerate() {
+                match component {
+                    Ok((origin, dt_s)) => components.push((origin, dt_s, (file.clone(), index))),
+                    Err(why) => summary.leave_out(why),
+                }
             }
         }
         let horizontal = counted(components.len(), "horizontal component");
@@ -107,7 +110,7 @@ impl Importer {
                 records.into_iter().map(|record| record.and_then(import)).collect()
             }
             Work::Pair(pair) => {
-                let read = |(file, index): &(File, usize)| self.read(file).into_iter().flatten().nth(*index);
+                let read = |(file, index): &(File, usize)| self.read(file).into_iter().nth(*index)?.ok();
                 // That a file has changed meanwhile is told in the end.
                 let [Some(first), Some(second)] = pair.each_ref().map(read) else { return Vec::new() };
                 let imported = self.processing.import_pair([first, second]);

@@ -145,10 +145,9 @@ impl Stage for ImportMotions {
         if let Some(path) = &self.about {
             let about = resolved(path);
             importer.files.retain(|file| resolved(&file.path) != about);
-            if !importer.files.iter().any(|file| importer.about.get(&file.path).is_some()) {
-                let problem = format!("{}: no row is about any of the files", path.display());
-                return Err(UsageError::because(problem));
-            }
+            let mut known = importer.files.iter().filter_map(|file| importer.about.get(&file.path));
+            let problem = format!("{}: no row is about any of the files", path.display());
+            anyhow::ensure!(known.next().is_some(), UsageError::because(problem));
         }
         let mut summary = Summary::default();
         let work = importer.work(context, &mut summary)?;
