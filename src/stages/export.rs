@@ -150,10 +150,8 @@ impl Export {
         let mut probabilities = Vec::new();
         for &level in &levels {
             let states = given_peak.limit_states(level);
-            if states.into_array().contains(&None) {
-                let problem = "its fits give no probability for some motions: fit more responses";
-                return Err(named(object, &problem));
-            }
+            let problem = "its fits give no probability for some motions: fit more responses";
+            anyhow::ensure!(!states.into_array().contains(&None), named(object, &problem));
             most = most.zip(states, |most, p| p.map_or(most, |p| most.max(p.clamp(0.0, 1.0))));
             probabilities.push(most);
         }

@@ -72,10 +72,8 @@ impl Stage for FloorMotions {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let table = open(&self.input, self.partition)?;
-        if table.schema().index_of("floor_level").is_ok() {
-            let problem = "motions of a floor; expected those of the ground";
-            return Err(TableError::table(&self.input, problem).into());
-        }
+        let problem = TableError::table(&self.input, "motions of a floor; expected those of the ground");
+        anyhow::ensure!(table.schema().index_of("floor_level").is_err(), problem);
         let rows = RecordBatch::new_empty(table.schema().clone());
         let columns = Batch { path: (*self.input).into(), first_row: 0, rows };
         let schema = self.filter(Sampled { columns, motions: Vec::new() })?.schema();

@@ -106,10 +106,9 @@ impl Stage for SynthesizeMotions {
 
     fn check(&self) -> anyhow::Result<()> {
         let is_once = |k: usize| self.suite[k] != Suite::Record && !self.suite[..k].contains(&self.suite[k]);
-        match (0..self.suite.len()).all(is_once) {
-            true => Ok(()),
-            false => Err(UsageError::because("suite: expected some of pulse, csgm and hfc, each once")),
-        }
+        let problem = "suite: expected some of pulse, csgm and hfc, each once";
+        anyhow::ensure!((0..self.suite.len()).all(is_once), UsageError::because(problem));
+        Ok(())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -143,11 +142,8 @@ impl Stage for SynthesizeMotions {
             },
             |batch| Ok(writer.append(&batch)?),
         )?;
-        let summary = format!(
-            "{} of {}\n",
-            counted(table.rows() * suites.len(), "motion"),
-            counted(table.rows(), "scenario")
-        );
+        let motions = counted(table.rows() * suites.len(), "motion");
+        let summary = format!("{motions} of {}\n", counted(table.rows(), "scenario"));
         context.finish(writer, &summary)?;
         Ok(summary)
     }

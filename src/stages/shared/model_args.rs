@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use clap::Args;
 use clap::ValueHint::DirPath;
 use rockfrag_core::fragility::{
@@ -73,10 +73,9 @@ impl ModelArgs {
 
     /// Checks that there are fits where these alone predict.
     pub fn check(&self) -> anyhow::Result<()> {
-        match self.model == ModelName::Paper && self.fits.is_none() {
-            true => Err(UsageError::because("model is paper; expected its fits, too: --fits")),
-            false => Ok(()),
-        }
+        let has_fits = self.model != ModelName::Paper || self.fits.is_some();
+        ensure!(has_fits, UsageError::because("model is paper; expected its fits, too: --fits"));
+        Ok(())
     }
 
     pub fn input(&self) -> Read {
@@ -125,7 +124,9 @@ impl Models {
         let ModelArgs { limit_state, suite, model, .. } = self.args;
         let Some(overturning) = self.fit(structure)? else {
             let kind = match suite {
-                None if !self.overturning.is_empty() => self.of_one_suite(self.overturning.iter())?.kind,
+                None if !self.overturning.is_empty() => {
+                    self.of_one_suite(&self.overturning.iter().collect::<Vec<_>>())?.kind
+                }
                 asked => asked.unwrap_or_default(),
             };
             let warning = self.args.fits.as_ref().map(|_| Warning::NotFitted);
@@ -166,12 +167,10 @@ impl Models {
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
     pub fn expect_ground(&self) -> anyhow::Result<()> {
-        match self.overturning.iter().any(|row| Suite::is_floor(row.suite.as_deref())) {
-            true => Err(UsageError::because(self.problem(
-                "fits to motions of a floor; expected fits to motions of the ground, with period and level",
-            ))),
-            false => Ok(()),
-        }
+        let is_of_floor = self.overturning.iter().any(|row| Suite::is_floor(row.suite.as_deref()));
+        let problem = "fits to motions of a floor; expected those of the ground, with period and level";
+        ensure!(!is_of_floor, UsageError::because(self.problem(problem)));
+        Ok(())
     }
 
     fn problem(&self, what: &str) -> String {
@@ -199,7 +198,7 @@ impl Models {
         match like.min_by_key(|row| row.structure != structure.name) {
             Some(like) => {
                 let its = self.overturning.iter().filter(|row| row.structure == like.structure);
-                self.of_one_suite(its).map(Some)
+                self.of_one_suite(&its.collect::<Vec<_>>()).map(Some)
             }
             None if name.is_some() || self.args.model == ModelName::Paper => {
                 Err(self.not_fitted(name.unwrap_or(&structure.name)))
@@ -209,17 +208,14 @@ impl Models {
     }
 
     /// The first row of the kind of motion that is asked for; all of this kind must be of one suite.
-    fn of_one_suite<'a>(
-        &self,
-        rows: impl Iterator<Item = &'a Calibration> + Clone,
-    ) -> anyhow::Result<&'a Calibration> {
-        let mut of_kind = rows.clone().filter(|row| self.args.suite.is_none_or(|kind| row.kind == kind));
+    fn of_one_suite<'a>(&self, rows: &[&'a Calibration]) -> anyhow::Result<&'a Calibration> {
+        let mut of_kind = rows.iter().filter(|row| self.args.suite.is_none_or(|kind| row.kind == kind));
         if let Some(first) = of_kind.next()
             && of_kind.all(|row| row.suite == first.suite)
         {
             return Ok(first);
         }
-        let mut suites: Vec<String> = rows.map(|row| suite_name(&row.suite)).collect();
+        let mut suites: Vec<String> = rows.iter().map(|row| suite_name(&row.suite)).collect();
         suites.sort_unstable();
         suites.dedup();
         let problem = format!("fits of {}; expected --suite with one of them", suites.join(", "));

@@ -65,11 +65,8 @@ impl Measures {
             pga_m_s2: motion.pga_m_s2.unwrap_or(record.peak_m_s2()),
             pgv_m_s: motion.pgv_m_s.unwrap_or_else(|| measures::peak(&measures::velocity(samples, dt_s))),
         };
-        Measures {
-            peaks,
-            tm_s: motion.tm_s.or_else(|| measures::mean_period(samples, dt_s)),
-            tp_s: motion.tp_s,
-        }
+        let tm_s = motion.tm_s.or_else(|| measures::mean_period(samples, dt_s));
+        Measures { peaks, tm_s, tp_s: motion.tp_s }
     }
 
     pub fn scaled(self, factor: f64) -> Measures {

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use anyhow::ensure;
 use clap::{Arg, Args, Command, ValueHint, value_parser};
 use rockfrag_core::object::{Entry, Field, Object, Place, Restitution, Shape, structure_warnings};
 use rockfrag_core::paper;
@@ -138,12 +139,8 @@ impl StructureArgs {
         if self.one != Shape::default() {
             all.push(Object { name: UNNAMED.to_string(), shape: self.one, ..Object::default() });
         }
-        if all.is_empty() {
-            return Err(UsageError::because(
-                "no structure; expected --width and --height of a block, or --p, --alpha and --eta, \
-                 or --structures FILE",
-            ));
-        }
+        let expected = "--width and --height of a block, or --p, --alpha and --eta, or --structures FILE";
+        ensure!(!all.is_empty(), UsageError::because(format!("no structure; expected {expected}")));
         let mut names = HashSet::new();
         if let Some(Object { name, .. }) = all.iter().find(|object| !names.insert(&object.name)) {
             let problem = format!("two structures are called '{name}'; expected distinct names");
@@ -156,10 +153,8 @@ impl StructureArgs {
 /// Finds the structures of the directions of an object, which must stand on the ground.
 pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
     let sides = object.sides().map_err(|reason| named(object, &reason))?;
-    if object.place.floor().is_ok_and(|floor| floor.is_some()) {
-        let problem = "on a floor: leave out level and period; floor-motions makes its motions";
-        return Err(named(object, &problem));
-    }
+    let problem = "on a floor: leave out level and period; floor-motions makes its motions";
+    ensure!(!matches!(object.place.floor(), Ok(Some(_))), named(object, &problem));
     let mut structures: Vec<Structure> = sides.into_iter().map(|side| side.structure).collect();
     structures.iter_mut().skip(1).for_each(|other| other.name += ", other direction");
     Ok(structures)
