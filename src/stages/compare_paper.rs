@@ -120,13 +120,11 @@ const UPSTREAM_FILES: [&str; 3] = ["responses.parquet", "motions.parquet", "scen
 /// What options of the stages before the fits are not the paper's, which are the defaults; as far as the
 /// files of these stages are beside the fits.
 fn other_options(fits: &Path) -> Vec<String> {
-    let (mut differences, mut child) = (Vec::new(), Provenance::read(fits).ok().flatten());
+    let read = |path: &Path| Provenance::read(path).ok().flatten();
+    let (mut differences, mut child) = (Vec::new(), read(fits).unwrap_or_default());
     for file in UPSTREAM_FILES {
-        let made = Provenance::read(&fits.with_file_name(file)).ok().flatten();
-        let (Some(made), Some(reader)) = (made, child) else { break };
-        if reader.input("in") != Some(made.key()) {
-            break;
-        }
+        let made = read(&fits.with_file_name(file)).filter(|made| child.input("in") == Some(made.key()));
+        let Some(made) = made else { break };
         let paper = default_options(&made.stage);
         let flags: BTreeSet<&String> = made.arguments.keys().chain(paper.keys()).collect();
         for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
@@ -136,7 +134,7 @@ fn other_options(fits: &Path) -> Vec<String> {
                 differences.push(format!("{} --{flag} {now}, not {then}", made.stage));
             }
         }
-        child = Some(made);
+        child = made;
     }
     differences
 }

@@ -104,9 +104,7 @@ impl Stage for Simulate {
                 for (structure, motion) in some.overturned {
                     let Overturning { count, named } = &mut overturning[structure];
                     *count += 1;
-                    if *count <= NAMED {
-                        named.push(motion);
-                    }
+                    named.extend((*count <= NAMED).then_some(motion));
                 }
                 context.warn(some.warnings);
                 traces.iter_mut().try_for_each(|traces| traces.append(&some.traces))?;
