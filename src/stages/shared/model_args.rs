@@ -218,7 +218,8 @@ impl Models {
         let mut suites: Vec<String> = rows.iter().map(|row| suite_name(&row.suite)).collect();
         suites.sort_unstable();
         suites.dedup();
-        let problem = format!("fits of {}; expected --suite with one of them", suites.join(", "));
+        let given = self.args.suite.map_or(String::new(), |kind| format!(" (it is {kind})"));
+        let problem = format!("fits of {}; expected --suite with one of them{given}", suites.join(", "));
         Err(UsageError::because(self.problem(&problem)))
     }
 
