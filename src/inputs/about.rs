@@ -47,12 +47,12 @@ impl About {
         let columns = [magnitude, distance, earthquake];
         if files.is_empty() && number.is_none() || columns == [None; 3] {
             let expected = "a column 'file' or 'name', and 'magnitude', 'distance' or 'earthquake'";
-            return Err(InputError::missing(grid.found(), expected));
+            return Err(InputError::unexpected(grid.found(), expected));
         }
         if let Some(heading) = distance.map(|at| &grid.headings[at])
             && heading.unit.is_some_and(|unit| unit.name != "km")
         {
-            return Err(InputError::missing(format!("column '{}'", heading.text), "km"));
+            return Err(InputError::unexpected(format!("column '{}'", heading.text), "km"));
         }
         let mut all = HashMap::new();
         for (row, &line) in grid.lines.iter().enumerate() {
@@ -66,7 +66,7 @@ impl About {
             for name in names.chain(number.map(|at| format!("rsn{}", grid.cell(row, at)))) {
                 if all.insert(name.clone(), known.clone()).is_some_and(|before| before != known) {
                     let found = format!("line {line}: {name} again, with other values");
-                    return Err(InputError::missing(found, "one row of each record"));
+                    return Err(InputError::unexpected(found, "one row of each record"));
                 }
             }
         }

@@ -36,7 +36,9 @@ pub enum InputError {
     #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
     Heading { heading: String, expected: &'static str, found: String },
     #[error("{found}; expected {expected}")]
-    Missing { found: String, expected: &'static str },
+    Unexpected { found: String, expected: &'static str },
+    #[error("line {line}: no {field}; expected {expected}")]
+    Missing { line: usize, field: &'static str, expected: &'static str },
     #[error(
         "column '{heading}': the lowest floor is {lowest}: --ground-floor 1 if the ground floor is called 1, \
          --ground-floor 0 if 1 is the floor above it"
@@ -50,13 +52,43 @@ pub enum InputError {
     Match(#[from] MatchError),
     #[error("{0}")]
     Implausible(String),
+    #[error("'{found}'; expected AT2, COSMOS, ESM, K-NET, KiK-net or CSV: ObsPy converts other formats")]
+    Unrecognised { found: String },
+    #[error("line {line}: {found}; expected acceleration: import that of the same record")]
+    NotAcceleration { line: usize, found: String },
+    #[error("line {line}: {field} '{found}'; expected {expected}")]
+    Value { line: usize, field: &'static str, found: String, expected: &'static str },
+    #[error("line {line}: {field} {found}, but {given} was given; correct the one or leave out the other")]
+    Contradiction { line: usize, field: &'static str, found: String, given: String },
+    #[error("the header announces {announced} samples, {found} follow; get the file again")]
+    Count { announced: u64, found: usize },
+    #[error("PGA {header_m_s2:.5} m/s2 in the header, {found_m_s2:.5} m/s2 in the samples; check the unit")]
+    Peak { header_m_s2: f64, found_m_s2: f64 },
+    #[error(
+        "line {line}: {found} cells among lines of {expected}; expected a short line at the end alone: several \
+         series, or damage?"
+    )]
+    ShortLine { line: usize, found: usize, expected: usize },
+    #[error(
+        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap, or exchanged \
+         headings? Rounded times? Give --dt"
+    )]
+    UnevenTime { line: usize, found_s: f64, expected_s: f64 },
+    #[error("{columns}; expected one of acceleration: choose with --column, or --column all if lines wrap")]
+    Column { columns: String },
     #[error("{path}: {error}")]
     File { path: String, error: Box<InputError> },
 }
 
 impl InputError {
-    pub(super) fn missing(found: impl Into<String>, expected: &'static str) -> InputError {
-        InputError::Missing { found: found.into(), expected }
+    pub(super) fn unexpected(found: impl Into<String>, expected: &'static str) -> InputError {
+        InputError::Unexpected { found: found.into(), expected }
+    }
+
+    /// The error of a line in the header of a record.
+    pub(super) fn value(line: usize, field: &'static str, text: &str, expected: &'static str) -> InputError {
+        let found = text.trim().chars().filter(|c| !c.is_control()).take(60).collect();
+        InputError::Value { line, field, found, expected }
     }
 
     pub(super) fn damaged(error: impl ToString) -> InputError {
@@ -73,5 +105,5 @@ impl InputError {
 pub(super) fn expect_few_cells(cells: usize) -> Result<(), InputError> {
     const MOST: usize = 20_000_000;
     let expected = "20 million at most: does one stand far from the table?";
-    if cells > MOST { Err(InputError::missing(format!("{cells} cells"), expected)) } else { Ok(()) }
+    if cells > MOST { Err(InputError::unexpected(format!("{cells} cells"), expected)) } else { Ok(()) }
 }

@@ -22,11 +22,11 @@ fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
         let found = format!("column '{}', which describes an object", heading.text);
         let expected = "peaks, mw, p_rad_s, alpha_rad and eta: describe one object by options, or list objects \
                         in --structures";
-        return Err(InputError::missing(found, expected));
+        return Err(InputError::unexpected(found, expected));
     }
     if !grid.has_headings || grid.lines.is_empty() {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
-        return Err(InputError::missing(found, "intensities under pga_g and pgv_m_s"));
+        return Err(InputError::unexpected(found, "intensities under pga_g and pgv_m_s"));
     }
     if let Some(column) = grid.headings.iter().position(|heading| heading.name == "component")
         && let Some(row) = (0..grid.lines.len()).find(|row| is_vertical(grid.cell(*row, column)))
@@ -88,9 +88,9 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
     }
     match (found.iter().find(|(name, _)| *name == own), &found[..]) {
         (Some(column), _) | (None, [column]) => Ok(*column),
-        (None, []) => Err(InputError::missing(format!("columns {}", names.join(", ")), expected)),
+        (None, []) => Err(InputError::unexpected(format!("columns {}", names.join(", ")), expected)),
         (None, [(first, _), (second, _), ..]) => {
-            Err(InputError::missing(format!("columns {first} and {second}"), "one of them"))
+            Err(InputError::unexpected(format!("columns {first} and {second}"), "one of them"))
         }
     }
 }

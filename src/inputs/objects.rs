@@ -173,18 +173,18 @@ impl List<'_> {
             let mut unknown = self.headings(ColumnRole::Unused).chain(self.headings(ColumnRole::Unclear));
             return Err(match unknown.find(|text| !text.is_empty()).map(str::to_string) {
                 Some(heading) => InputError::Heading { heading, expected, found },
-                None => InputError::missing(found, expected),
+                None => InputError::unexpected(found, expected),
             });
         }
         if grid.lines.is_empty() {
-            return Err(InputError::missing("no rows", "one per object"));
+            return Err(InputError::unexpected("no rows", "one per object"));
         }
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             let text = heading.text.replace("(-)", "").replace("[-]", "");
             let has_sign = text.contains(['(', '[', '"', '\'', '%']);
             if matches!(column, ColumnRole::Known(_)) && heading.unit.is_none() && has_sign {
                 let found = format!("heading '{}'", heading.text);
-                return Err(InputError::missing(found, "m, cm or mm in brackets, or no unit"));
+                return Err(InputError::unexpected(found, "m, cm or mm in brackets, or no unit"));
             }
             let is_one = !matches!(
                 column,
@@ -193,7 +193,7 @@ impl List<'_> {
             let before = self.columns[..at].iter().position(|before| before == column).filter(|_| is_one);
             if let Some(before) = before {
                 let found = format!("columns '{}' and '{}'", grid.headings[before].text, heading.text);
-                return Err(InputError::missing(found, "one of them"));
+                return Err(InputError::unexpected(found, "one of them"));
             }
             let ColumnRole::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
                 continue;
@@ -201,11 +201,11 @@ impl List<'_> {
             if let Some(unit) = heading.unit {
                 let lengths = (0..grid.lines.len()).filter_map(|row| grid.number(row, at).ok());
                 validate_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
-                    InputError::missing(format!("column '{}'", heading.text), expected)
+                    InputError::unexpected(format!("column '{}'", heading.text), expected)
                 })?;
             } else if let Some(note) = grid.notes.iter().find(|note| names_unit_of_length(note)) {
                 let expected = "the unit in the heading of each column: Width (mm)";
-                return Err(InputError::missing(format!("a unit above the headings: '{note}'"), expected));
+                return Err(InputError::unexpected(format!("a unit above the headings: '{note}'"), expected));
             }
         }
         Ok(())

@@ -81,7 +81,7 @@ fn read(packed: impl Read, left: &mut u64) -> Result<Vec<u8>, InputError> {
     let read = packed.take(*left + 1).read_to_end(&mut bytes);
     let read = read.map_err(InputError::damaged)? as u64;
     *left = left.checked_sub(read).ok_or_else(|| {
-        InputError::missing("it unpacks to more than 200 MB", "less: unpack it, and give the files meant")
+        InputError::unexpected("it unpacks to more than 200 MB", "less: unpack it, and give the files meant")
     })?;
     Ok(bytes)
 }

@@ -1,14 +1,15 @@
 //! Formats of the agencies: reading returns what was written, and damage causes no harm.
 
 use proptest::prelude::*;
-use rockfrag::inputs::records::{ReadOptions, RecordFileError, RecordFormat, is_vertical, read_records};
+use rockfrag::inputs::InputError;
+use rockfrag::inputs::records::{ReadOptions, RecordFormat, is_vertical, read_records};
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 use strum::VariantArray;
 
 use crate::writers::*;
 
-fn read(text: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
+fn read(text: &str) -> Result<Vec<RecordedMotion>, InputError> {
     read_with(text, "")
 }
 
@@ -149,7 +150,7 @@ fn headers_must_agree_with_options() {
         assert!(!is_vertical(&motion.origin), "{format:?}");
         for options in ["dt=0.02", "unit=ft/s2"] {
             let refusal = read_with(&text, options).unwrap_err();
-            assert!(matches!(refusal, RecordFileError::Contradiction { .. }), "{format:?}: {refusal}");
+            assert!(matches!(refusal, InputError::Contradiction { .. }), "{format:?}: {refusal}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Files of records with common mistakes: each is read as intended, or refused for the right reason.
 
-use rockfrag::inputs::records::RecordFileError;
+use rockfrag::inputs::InputError;
 
 use crate::writers::*;
 
@@ -20,7 +20,7 @@ fn csv(heading: &str, unit: f64) -> String {
 }
 
 /// Reads with options such as `unit=g dt=0.01 column=acc`.
-fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), RecordFileError> {
+fn read(text: &str, options: &str) -> Result<(f64, Vec<f64>), InputError> {
     let motion = read_with(text, options)?.remove(0);
     Ok((motion.dt_s, motion.acceleration_m_s2))
 }
@@ -96,9 +96,9 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (csv("Period (s),PSA (g)", G), "", "NotAcceleration { line: 2, found: \"'Period (s)': a spectrum"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
-        (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Input(Cell { line: 32"),
-        (lines("time,acc_g", G, |k, _| format!("{:.2},", time(k))), "", "Input(Cell { line: 2"),
-        (csv("time,acc_g", G).replace('.', ","), "", "Input(Cells"),
+        (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Cell { line: 32"),
+        (lines("time,acc_g", G, |k, _| format!("{:.2},", time(k))), "", "Cell { line: 2"),
+        (csv("time,acc_g", G).replace('.', ","), "", "Cells"),
         (at2(IN_G, "NPTS= 104, DT= .01"), "", "Count { announced: 104, found: 103 }"),
         (nga_at2(&motion(103)).replace("E-", "X-"), "", "Value { line: "),
         (knet(&motion(100)).replace("/8388608", "/0"), "", "Value { line: 8"),
@@ -109,7 +109,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (csv("#SamplingFrequency(Hz)\n#200\ntime,acc_g", G), "", "Contradiction { line: 4, field: \"time"),
         // Not a record.
         ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),
-        ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Input("),
+        ("PK\u{3}\u{4}\u{14}\0\u{6}\0".to_string(), "", "Damaged"),
     ] {
         let found = match read(&text, options) {
             Ok((dt_s, samples)) => format!("{} samples of {dt_s} s", samples.len()),
@@ -119,7 +119,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
     }
     // A record in one row takes no time.
     let row = motion(1600).repeat(25).iter().map(|a| format!("{a:.6}")).collect::<Vec<_>>().join(",");
-    assert!(matches!(read(&row, "unit=g dt=0.01"), Err(RecordFileError::Column { .. })));
+    assert!(matches!(read(&row, "unit=g dt=0.01"), Err(InputError::Column { .. })));
     assert_eq!(read(&row, "unit=g dt=0.01 column=all").unwrap().1.len(), 40_000);
     // Padding of the last line.
     assert_eq!(read(&at2(IN_G, "NPTS= 101, DT= .01"), "").unwrap().1.len(), 101);

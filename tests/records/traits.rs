@@ -1,6 +1,6 @@
 //! Traits of real files: each is read as the agency means it, or refused.
 
-use rockfrag::inputs::records::{RecordFileError, is_vertical};
+use rockfrag::inputs::records::{InputError, is_vertical};
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 
@@ -185,7 +185,7 @@ fn columns_of_directions_are_motions_of_their_own() {
         (table("time,NS (g),EW (m/s2)", G, 2, seconds), ""),
     ] {
         let refusal = read_with(&text, options);
-        assert!(matches!(refusal, Err(RecordFileError::Column { .. })), "{}", &text[..40]);
+        assert!(matches!(refusal, Err(InputError::Column { .. })), "{}", &text[..40]);
     }
 }
 
@@ -211,7 +211,7 @@ fn clocks_are_times_and_no_samples() {
     }
     let gap = |k: usize| format!("00:00:{}", second(k + usize::from(k > 100)));
     let gap = read_with(&table("time,acc (g)", G, 1, gap), "");
-    assert!(matches!(gap, Err(RecordFileError::UnevenTime { line: 103, .. })), "{gap:?}");
+    assert!(matches!(gap, Err(InputError::UnevenTime { line: 103, .. })), "{gap:?}");
 }
 
 #[test]

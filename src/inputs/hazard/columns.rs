@@ -194,7 +194,7 @@ pub fn noted_statistic(grid: &Grid) -> Result<Statistic, InputError> {
         cells.dedup();
         if let [first, second, ..] = cells[..] {
             let found = format!("{} {first} and {second}", grid.headings[column].text);
-            return Err(InputError::missing(found, "one: a file for each"));
+            return Err(InputError::unexpected(found, "one: a file for each"));
         }
         texts.extend(cells.first().map(|cell| cell.to_string()));
     }

@@ -35,7 +35,7 @@ pub fn read(
     let hazard = match (found.joint, paths) {
         (Some(bins), [_]) => Hazard::Joint(bins),
         (Some(_), _) => {
-            return Err(InputError::missing("a hazard of PGA and PGV together among others", "it alone"));
+            return Err(InputError::unexpected("a hazard of PGA and PGV together among others", "it alone"));
         }
         (None, _) => joined(&found.curves, &mut found.warnings)?,
     };
@@ -109,7 +109,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
     let spectral = central(Imt::Spectral).filter(|_| pgv.is_none());
     let (main, mut hazard) = match (pga, pgv, spectral) {
         (Some(pga), None, Some(spectral)) if pga.curve == spectral.curve => {
-            return Err(InputError::missing("SA(1.0 s) as PGA, at all rates", "the curves of both"));
+            return Err(InputError::unexpected("SA(1.0 s) as PGA, at all rates", "the curves of both"));
         }
         (Some(pga), None, Some(spectral)) => {
             let points = spectral.curve.points().iter();
@@ -119,8 +119,8 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
         }
         (Some(pga), ..) => (pga, Hazard::over(Peak::Pga, pga.curve.clone())),
         (None, Some(pgv), _) => (pgv, Hazard::over(Peak::Pgv, pgv.curve.clone())),
-        (.., Some(_)) => return Err(InputError::missing("SA(1.0 s) without PGA", "the curve of PGA too")),
-        _ => return Err(InputError::missing("fractiles alone", "the mean curve too")),
+        (.., Some(_)) => return Err(InputError::unexpected("SA(1.0 s) without PGA", "the curve of PGA too")),
+        _ => return Err(InputError::unexpected("fractiles alone", "the mean curve too")),
     };
     let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
     let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
@@ -168,12 +168,12 @@ impl Found {
         match (are_fields, effective_years) {
             (true, None) => {
                 let expected = "--effective-years: investigation time x stochastic event sets x branches";
-                return Err(InputError::missing("ground-motion fields of OpenQuake", expected));
+                return Err(InputError::unexpected("ground-motion fields of OpenQuake", expected));
             }
             (true, _) => openquake::name_fields(&mut grid),
             (false, Some(_)) => {
                 let expected = "ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV) with it";
-                return Err(InputError::missing("--effective-years", expected));
+                return Err(InputError::unexpected("--effective-years", expected));
             }
             (false, None) if is_exported => return self.add_curve(openquake::probabilities(&grid, path)?),
             (false, None) => {}
@@ -235,7 +235,7 @@ impl Found {
                 format!("two columns of {measure} that contradict, one of them once in {years} years")
             }
         };
-        Err(InputError::missing(found, "one"))
+        Err(InputError::unexpected(found, "one"))
     }
 
     /// Checks that rows and comments are about the site of those before, in this file and in others.
@@ -270,7 +270,7 @@ impl Found {
                 _ => known.eq_ignore_ascii_case(value),
             };
             if !is_same {
-                return Err(InputError::missing(format!("{key} {known} and {value}"), "one site"));
+                return Err(InputError::unexpected(format!("{key} {known} and {value}"), "one site"));
             }
         }
         Ok(())
@@ -287,14 +287,14 @@ fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
     let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
     if is_uniform || others.clone().any(|heading| means(&heading.name, "spectral-period")) {
         let found = "a uniform hazard spectrum: one rate, many periods";
-        return InputError::missing(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
+        return InputError::unexpected(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
     }
     let levels: Vec<f64> = grid.headings.iter().filter_map(|heading| heading.text.parse().ok()).collect();
     if let [first, _, .., last] = levels[..] {
         let found = format!("a column for each level from {first} to {last}");
         let expected = "to know of which measure, and whether rates or probabilities: a row for each level, \
                         under pga_g and annual_rate_of_exceedance";
-        return InputError::missing(found, expected);
+        return InputError::unexpected(found, expected);
     }
     let mut values = curve.iter().filter(|column| column.unit.is_some());
     let expected = if values.clone().any(|column| column.measure == Some(Imt::Other)) {
@@ -310,7 +310,7 @@ fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
     };
     match others.find(is_unknown) {
         Some(heading) => InputError::Heading { heading: heading.text.clone(), expected, found: grid.found() },
-        None => InputError::missing(grid.found(), expected),
+        None => InputError::unexpected(grid.found(), expected),
     }
 }
 
@@ -353,7 +353,7 @@ fn joint(
 ) -> Result<Vec<PairOfPeaks>, InputError> {
     let Some(MotionTable { given, mw, .. }) = motions(grid, warnings)? else {
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
-        return Err(InputError::missing(found, "both, or rates of exceedance"));
+        return Err(InputError::unexpected(found, "both, or rates of exceedance"));
     };
     let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
     for (row, line) in grid.lines.iter().enumerate() {
@@ -364,7 +364,7 @@ fn joint(
         let same = [given[row].pga_m_s2, given[row].pgv_m_s, mw[row].unwrap_or(0.0)].map(f64::to_bits);
         if let Some(first) = lines.insert(same, line).filter(|_| effective_years.is_none()) {
             let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
-            return Err(InputError::missing(found, "one row of each bin"));
+            return Err(InputError::unexpected(found, "one row of each bin"));
         }
         bins.push(PairOfPeaks { peaks: given[row].clamp_to_recorded(), annual_rate, mw: mw[row] });
     }
@@ -372,7 +372,7 @@ fn joint(
         .and_then(|()| validate_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
         .map_err(InputError::Implausible)?;
     match bins.is_empty() {
-        true => Err(InputError::missing("no rows", "motions with PGA and PGV")),
+        true => Err(InputError::unexpected("no rows", "motions with PGA and PGV")),
         false => Ok(bins),
     }
 }

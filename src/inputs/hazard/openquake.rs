@@ -25,21 +25,24 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
         "PGA" => (Imt::Pga, G_M_S2),
         "PGV" => (Imt::Pgv, 1.0 / CM_PER_M),
         "SA(1.0)" => (Imt::Spectral, G_M_S2),
-        name => return Err(InputError::missing(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
+        name => return Err(InputError::unexpected(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
     };
     let unknown =
-        || InputError::missing("no years after investigation_time".to_string(), "the file as exported");
+        || InputError::unexpected("no years after investigation_time".to_string(), "the file as exported");
     let frequency = Frequency::ProbabilityIn(investigation_years(grid).ok_or_else(unknown)?);
     let statistic = statistic(grid)?;
     if grid.lines.len() != 1 {
-        return Err(InputError::missing(format!("curves of {} sites", grid.lines.len()), "the row of one"));
+        return Err(InputError::unexpected(
+            format!("curves of {} sites", grid.lines.len()),
+            "the row of one",
+        ));
     }
     let mut cells = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
         let Some(level) = heading.text.strip_prefix("poe-") else { continue };
         let level: f64 = level
             .parse()
-            .map_err(|_| InputError::missing(format!("heading {}", heading.text), "poe- and a level"))?;
+            .map_err(|_| InputError::unexpected(format!("heading {}", heading.text), "poe- and a level"))?;
         cells.push((level * unit, 0, at));
     }
     Curve::new((measure, statistic), frequency, cells, grid, file)
@@ -57,7 +60,7 @@ fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
         "quantile-0.5" | "quantile-0.50" | "median" => Ok(Statistic::Median),
         _ => {
             let found = format!("a curve of kind '{kind}'");
-            Err(InputError::missing(found, "the mean, and quantiles 0.16 and 0.84 beside it"))
+            Err(InputError::unexpected(found, "the mean, and quantiles 0.16 and 0.84 beside it"))
         }
     }
 }
@@ -70,7 +73,7 @@ pub fn investigation_years(grid: &Grid) -> Option<f64> {
 /// What the header says after a key.
 fn exported<'a>(grid: &'a Grid, key: &str) -> Result<&'a str, InputError> {
     let found = || format!("no {key} in the header of OpenQuake");
-    noted(grid, key).ok_or_else(|| InputError::missing(found(), "the file as it was exported"))
+    noted(grid, key).ok_or_else(|| InputError::unexpected(found(), "the file as it was exported"))
 }
 
 /// What a comment says after a key: of 760 in `vs30=760.0`, `Vs30: 760 m/s` or `# vs30 = '760'`.

@@ -3,12 +3,13 @@
 //! several channels, and velocity and displacement besides acceleration.
 
 use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
+use rockfrag_core::units::Unit;
 
 use super::ReadOptions;
-use super::error::RecordFileError;
 use super::header::{
-    after, first_number, leading_number, numbers, samples, single_spaced, time_step, unit, unit_of,
+    after, first_number, leading_number, numbers, samples, single_spaced, time_step, unit_of,
 };
+use crate::inputs::InputError;
 use crate::inputs::words::is_vertical;
 
 /// Index of the azimuth among the integers.
@@ -29,10 +30,11 @@ pub fn recognises(lines: &[&str]) -> bool {
 }
 
 /// Reads the accelerations of a COSMOS file, in order.
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
     let mut motions = Vec::new();
     let mut channel = Channel::default();
-    let mut refusal = RecordFileError::missing(lines.len(), "acceleration", "'... acceleration pts, ...'");
+    let (line, expected) = (lines.len(), "'... acceleration pts, ...'");
+    let mut refusal = InputError::Missing { line, field: "acceleration", expected };
     let mut at = 0;
     while at < lines.len() {
         let text = lines[at];
@@ -44,10 +46,11 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
             channel.reals = block(lines, &mut at)?;
         } else if announces("acceleration pts") {
             let line = at;
+            let unit = unit_of(after(text, "units=").or(Some("")), options, line)?;
             let values = block(lines, &mut at)?;
-            motions.push(std::mem::take(&mut channel).motion(values, text, line, options)?);
+            motions.push(std::mem::take(&mut channel).motion(values, unit, options, line)?);
         } else if announces("velocity pts") || announces("displacement pts") {
-            refusal = RecordFileError::NotAcceleration { line: at, found: text.trim().to_string() };
+            refusal = InputError::NotAcceleration { line: at, found: text.trim().to_string() };
             block(lines, &mut at).ok();
             channel = Channel::default();
         } else {
@@ -59,9 +62,10 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
 
 /// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
 /// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
-fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, RecordFileError> {
+fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, InputError> {
     let text = lines[*at - 1];
-    let missing = RecordFileError::missing(*at, "format", "a count and 'Format=(8F10.5)'");
+    let expected = "a count and 'Format=(8F10.5)'";
+    let missing = InputError::Missing { line: *at, field: "format", expected };
     let count = leading_number(text).filter(|count| *count >= 0.0);
     let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
     let extent = (count / on_line as f64).ceil() as usize;
@@ -103,16 +107,14 @@ impl Channel<'_> {
     fn motion(
         self,
         values: Vec<f64>,
-        announcement: &str,
-        line: usize,
+        unit: Unit,
         options: &ReadOptions,
-    ) -> Result<RecordedMotion, RecordFileError> {
-        let unit = unit(Some(unit_of(after(announcement, "units=").unwrap_or(""), line)?), options, line)?;
+        line: usize,
+    ) -> Result<RecordedMotion, InputError> {
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
         let dt_s = time_step(step, options, line)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let peak = peak.map(|peak| peak.abs() * unit.si);
         let label = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
         let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
         // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
@@ -132,7 +134,10 @@ impl Channel<'_> {
             ..Origin::default()
         };
         Ok(RecordedMotion {
-            header_pga: peak.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }),
+            header_pga: peak.map(|peak| {
+                let m_s2 = peak.abs() * unit.si;
+                HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }
+            }),
             ..RecordedMotion::new(dt_s, values, unit, origin)
         })
     }

@@ -6,10 +6,9 @@ use rockfrag_core::records::{Origin, RecordedMotion};
 use rockfrag_core::units::{Quantity, Unit};
 
 use super::ReadOptions;
-use super::error::RecordFileError;
 use super::header::{self, azimuth_of, expect_step, first_number, time_step};
 use crate::inputs::words::{is_vertical, joined};
-use crate::inputs::{Grid, Heading};
+use crate::inputs::{Grid, Heading, InputError};
 
 const DAY_S: f64 = 86400.0;
 /// Accepted relative difference of a step of time from the usual one.
@@ -25,16 +24,9 @@ const HORIZONTAL: [&str; 10] =
     ["L", "T", "R", "LONG", "TRAN", "TRANS", "LONGITUDINAL", "TRANSVERSE", "RADIAL", "TANGENTIAL"];
 /// Words of a heading for a motion that stands beside another state of it.
 const PROCESSED: [&str; 5] = ["filtered", "corrected", "uncorrected", "raw", "processed"];
-/// Beginnings of words in the headings of what is no acceleration over time, and what it is.
-const OTHERS: [(&str, &str); 7] = [
-    ("sa", "a spectrum"),
-    ("psa", "a spectrum"),
-    ("psv", "a spectrum"),
-    ("period", "a spectrum"),
-    ("freq", "a spectrum"),
-    ("spectr", "a spectrum"),
-    ("jerk", "jerk"),
-];
+/// What is no acceleration over time, and beginnings of words in its headings.
+const OTHERS: [(&str, &[&str]); 2] =
+    [("a spectrum", &["sa", "psa", "psv", "period", "freq", "spectr"]), ("jerk", &["jerk"])];
 
 /// A table of samples.
 struct Samples<'a> {
@@ -48,7 +40,7 @@ struct Samples<'a> {
 }
 
 /// Reads the motions in a table.
-pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
+pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
     let table = Samples::new(Grid::parse(bytes, None)?, options)?;
     if options.column.as_deref() == Some("all") {
         let step = noted_step(&table.grid.notes);
@@ -84,11 +76,11 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
 }
 
 impl Samples<'_> {
-    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>, RecordFileError> {
+    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>, InputError> {
         let columns = 0..grid.headings.len();
         if grid.lines.is_empty() || !columns.clone().any(|at| grid.number(0, at).is_ok()) {
             let found = grid.notes.first().or(grid.headings.first().map(|heading| &heading.text));
-            return Err(RecordFileError::Unrecognised { found: found.cloned().unwrap_or_default() });
+            return Err(InputError::Unrecognised { found: found.cloned().unwrap_or_default() });
         }
         let (quantities, line) = (quantities(&grid), grid.lines[0]);
         let mut times = columns.filter(|at| quantities[*at] == Some(Quantity::Time));
@@ -97,7 +89,7 @@ impl Samples<'_> {
     }
 
     /// The column that the user names by its number or heading.
-    fn chosen(&self, choice: &str) -> Result<usize, RecordFileError> {
+    fn chosen(&self, choice: &str) -> Result<usize, InputError> {
         let mut headings = self.grid.headings.iter();
         let column = match choice.parse::<usize>() {
             Ok(number) => number.checked_sub(1),
@@ -112,7 +104,7 @@ impl Samples<'_> {
 
     /// Finds the columns of acceleration: those with such a heading, those of directions, or the only one
     /// that may be it.
-    fn accelerations(&self) -> Result<Vec<usize>, RecordFileError> {
+    fn accelerations(&self) -> Result<Vec<usize>, InputError> {
         let headings = &self.grid.headings;
         if let Some((heading, what)) = headings.iter().find_map(|heading| Some((heading, other(heading)?))) {
             return Err(self.not_acceleration(format!("'{}': {what}", heading.text)));
@@ -146,10 +138,10 @@ impl Samples<'_> {
         heading: &Heading,
         samples: Vec<f64>,
         found: Option<f64>,
-    ) -> Result<RecordedMotion, RecordFileError> {
+    ) -> Result<RecordedMotion, InputError> {
         let (options, line) = (self.options, self.line);
         if samples.len() < 2 {
-            return Err(RecordFileError::Count { announced: 2, found: samples.len() });
+            return Err(InputError::Count { announced: 2, found: samples.len() });
         }
         let unit = self.unit(heading)?;
         let dt_s = time_step(found, options, line)?;
@@ -160,7 +152,7 @@ impl Samples<'_> {
     }
 
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
-    fn unit(&self, heading: &Heading) -> Result<Unit, RecordFileError> {
+    fn unit(&self, heading: &Heading) -> Result<Unit, InputError> {
         let (options, line) = (self.options, self.line);
         let notes = self.grid.notes.iter().map(|note| Heading::new(note));
         let mut notes =
@@ -170,17 +162,17 @@ impl Samples<'_> {
         match heading.unit.or_else(noted) {
             None if is_unknown && options.unit.is_none() => {
                 let expected = "one of acceleration, such as cm/s2, without a factor, or --unit";
-                Err(RecordFileError::value(line, "unit", &heading.text, expected))
+                Err(InputError::value(line, "unit", &heading.text, expected))
             }
             Some(unit) if unit.quantity != Quantity::Acceleration => {
-                Err(RecordFileError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
+                Err(InputError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
             }
             found => header::unit(found, options, line),
         }
     }
 
     /// Finds the time step (s) by the column of times, else by a comment, which must agree.
-    fn step(&self) -> Result<Option<f64>, RecordFileError> {
+    fn step(&self) -> Result<Option<f64>, InputError> {
         let noted = noted_step(&self.grid.notes);
         let Some(times) = self.times else { return Ok(noted) };
         let step = self.step_between(times)?;
@@ -189,7 +181,7 @@ impl Samples<'_> {
     }
 
     /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.
-    fn step_between(&self, column: usize) -> Result<f64, RecordFileError> {
+    fn step_between(&self, column: usize) -> Result<f64, InputError> {
         let (grid, given) = (&self.grid, self.options.dt_s);
         let unit = grid.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
         let in_s = unit.map_or(1.0, |unit| unit.si);
@@ -215,7 +207,7 @@ impl Samples<'_> {
         let most = if is_rounded { last_digit } else { 0.0 } + UNEVEN * usual.abs();
         if let Some(at) = steps.iter().position(|step| (step - usual).abs() > most) {
             let line = grid.lines[at + 1];
-            return Err(RecordFileError::UnevenTime { line, found_s: steps[at], expected_s: usual });
+            return Err(InputError::UnevenTime { line, found_s: steps[at], expected_s: usual });
         }
         let mean = (times[times.len() - 1] - times[0]) / steps.len() as f64;
         // Removes digits that the file does not have.
@@ -224,7 +216,7 @@ impl Samples<'_> {
 
     /// Reads the samples of a column; without headings and times, a number of samples and the time step that
     /// is given may stand above them.
-    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>, RecordFileError> {
+    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>, InputError> {
         let mut samples = self.grid.numbers(column)?;
         let decimals = |row: usize| decimals_of(self.grid.cell(row, column));
         let mut above = 0;
@@ -244,38 +236,38 @@ impl Samples<'_> {
     }
 
     /// Reads all cells as one series.
-    fn wrapped(&self) -> Result<Vec<f64>, RecordFileError> {
+    fn wrapped(&self) -> Result<Vec<f64>, InputError> {
         self.expect_one_series(true)?;
         let rows = 0..self.grid.lines.len();
         let cells = rows.flat_map(|row| (0..self.quantities.len()).map(move |column| (row, column)));
         let filled = cells.filter(|(row, column)| !self.grid.cell(*row, *column).is_empty());
-        filled.map(|(row, column)| Ok(self.grid.number(row, column)?)).collect()
+        filled.map(|(row, column)| self.grid.number(row, column)).collect()
     }
 
     /// Refuses samples without times among which another line stands, a line of more cells than the first, and
     /// a short line of wrapped ones before the last: another series may begin there, or the file is damaged.
-    fn expect_one_series(&self, is_wrapped: bool) -> Result<(), RecordFileError> {
+    fn expect_one_series(&self, is_wrapped: bool) -> Result<(), InputError> {
         let (grid, columns) = (&self.grid, self.quantities.len());
         let filled = |row: usize| (0..columns).take_while(|&at| !grid.cell(row, at).is_empty()).count();
         let expected = if is_wrapped || grid.has_headings { columns } else { filled(0) };
         for (row, &line) in grid.lines.iter().enumerate() {
             let (found, next) = (filled(row), grid.lines.get(row + 1));
             if found > expected || is_wrapped && found < expected && next.is_some() {
-                return Err(RecordFileError::ShortLine { line, found, expected });
+                return Err(InputError::ShortLine { line, found, expected });
             }
             if self.times.is_none() && next.is_some_and(|next| *next != line + 1) {
-                return Err(RecordFileError::ShortLine { line: line + 1, found: 0, expected });
+                return Err(InputError::ShortLine { line: line + 1, found: 0, expected });
             }
         }
         Ok(())
     }
 
-    fn not_acceleration(&self, found: String) -> RecordFileError {
-        RecordFileError::NotAcceleration { line: self.line, found }
+    fn not_acceleration(&self, found: String) -> InputError {
+        InputError::NotAcceleration { line: self.line, found }
     }
 
-    fn which_column(&self) -> RecordFileError {
-        RecordFileError::Column { columns: self.grid.found() }
+    fn which_column(&self) -> InputError {
+        InputError::Column { columns: self.grid.found() }
     }
 }
 
@@ -315,9 +307,11 @@ fn quantity(heading: &Heading, are_components: bool) -> Option<Quantity> {
 
 /// What a heading is about that is no acceleration over time.
 fn other(heading: &Heading) -> Option<&'static str> {
-    let is_named = |word: &str, start: &str| word == start || start.len() > 3 && word.starts_with(start);
-    let mut words = heading.name.split('-');
-    words.find_map(|word| OTHERS.iter().find(|(start, _)| is_named(word, start)).map(|(_, what)| *what))
+    let has_word = |start: &str| {
+        let mut words = heading.name.split('-');
+        words.any(|word| word == start || start.len() > 3 && word.starts_with(start))
+    };
+    OTHERS.into_iter().find(|(_, starts)| starts.iter().any(|start| has_word(start))).map(|(what, _)| what)
 }
 
 /// The word of a heading that names a direction: N-S, acc_EW, UD (gal), az, acc 90 deg.

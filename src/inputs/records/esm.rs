@@ -1,14 +1,13 @@
 //! ASCII of the Engineering Strong Motion database (DYNA 1.2): lines of `KEY: value`, then samples.
 
 use rockfrag_core::records::{Origin, RecordedMotion};
-use rockfrag_core::units::Unit;
+use rockfrag_core::units::CM_PER_M;
 
 use super::ReadOptions;
-use super::error::RecordFileError;
 use super::header::{
-    after, azimuth_of, field, header_pga, number_field, numbers, samples, single_spaced, time_step, unit,
-    unit_of,
+    after, azimuth_of, field, header_pga, number_field, numbers, samples, single_spaced, time_step, unit_of,
 };
+use crate::inputs::InputError;
 
 /// Largest number of header lines.
 const HEADER: usize = 200;
@@ -19,26 +18,25 @@ pub fn recognises(lines: &[&str]) -> bool {
 }
 
 /// Reads the motion of an ESM file.
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
     let header = header(lines);
     let end = header.len();
     if let Some((line, kind)) = field(header, "DATA_TYPE:")
         && after(kind, "ACCELERATION").is_none()
     {
-        return Err(RecordFileError::NotAcceleration { line, found: kind.to_string() });
+        return Err(InputError::NotAcceleration { line, found: kind.to_string() });
     }
-    let units = field(header, "UNITS:").map(|(line, text)| unit_of(text, line));
-    let unit = unit(units.transpose()?, options, end)?;
-    let step = number_field(header, "SAMPLING_INTERVAL_S:");
-    let dt_s = time_step(step.map(|(_, dt_s)| dt_s), options, step.map_or(end, |(line, _)| line))?;
+    let (line, unit) = field(header, "UNITS:").unzip();
+    let unit = unit_of(unit, options, line.unwrap_or(end))?;
+    let (line, step) = number_field(header, "SAMPLING_INTERVAL_S:").unzip();
+    let dt_s = time_step(step, options, line.unwrap_or(end))?;
     let expected = "the number of samples, such as 'NDATA: 18904'";
-    let (_, announced) =
-        number_field(header, "NDATA:").ok_or(RecordFileError::missing(end, "NDATA", expected))?;
+    let missing = InputError::Missing { line: end, field: "NDATA", expected };
+    let (_, announced) = number_field(header, "NDATA:").ok_or(missing)?;
     let values = samples(lines, end, announced, numbers)?;
     let stream = field(header, "STREAM:").map_or("", |(_, stream)| stream);
     // The last letter of a channel code is the direction; a digit is not.
     let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
-    let peak = field(header, "PGA_CM/S^2:").zip(Unit::parse("cm/s2"));
     let origin = Origin {
         earthquake: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
         mw: number_field(header, "MAGNITUDE_W:").map(|(_, mw)| mw),
@@ -48,7 +46,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         re_km: None,
     };
     Ok(RecordedMotion {
-        header_pga: peak.and_then(|((_, peak), unit)| header_pga(peak, unit)),
+        header_pga: field(header, "PGA_CM/S^2:").and_then(|(_, peak)| header_pga(peak, 1.0 / CM_PER_M)),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }

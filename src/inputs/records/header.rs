@@ -4,8 +4,7 @@ use rockfrag_core::records::HeaderPga;
 use rockfrag_core::units::{Quantity, Unit};
 
 use super::ReadOptions;
-use super::error::RecordFileError;
-use crate::inputs::plain_number;
+use crate::inputs::{InputError, plain_number};
 
 /// Accepted relative difference of a time step from the option.
 const SAME_STEP: f64 = 0.01;
@@ -13,42 +12,45 @@ const SAME_STEP: f64 = 0.01;
 const LONGEST_STEP_S: f64 = 10.0;
 
 /// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
-pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64, RecordFileError> {
+pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64, InputError> {
     let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
-    let missing = RecordFileError::missing(line, "time step", expected);
+    let missing = InputError::Missing { line, field: "time step", expected };
     let dt_s = found.or(options.dt_s).ok_or(missing)?;
     if !(dt_s > 0.0 && dt_s <= LONGEST_STEP_S) {
         let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
-        return Err(RecordFileError::value(line, "time step", &found, expected));
+        return Err(InputError::value(line, "time step", &found, expected));
     }
     expect_step(options.dt_s, dt_s, line)
 }
 
 /// Checks that a time step (s) is the given one.
-pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, RecordFileError> {
+pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, InputError> {
     let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
     other.map_or(Ok(dt_s), |given| {
         let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
-        Err(RecordFileError::Contradiction { line, field: "time step", found, given })
+        Err(InputError::Contradiction { line, field: "time step", found, given })
     })
 }
 
-/// Reads the unit of acceleration at the start of a text on a line; more text may follow.
-pub fn unit_of(text: &str, line: usize) -> Result<Unit, RecordFileError> {
-    let word = text.trim_start().split(|c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';')).next();
-    let unit = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
-    let expected = "one of acceleration, such as g or cm/s2";
-    unit.ok_or_else(|| RecordFileError::value(line, "unit", text, expected))
+/// Returns the unit of acceleration at the start of a text, after which more may follow, else the given one.
+pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
+    let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';');
+    let word = text.and_then(|text| text.trim_start().split(ends).next());
+    let found = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
+    match text.filter(|_| found.is_none()) {
+        Some(text) => Err(InputError::value(line, "unit", text, "one of acceleration, such as g or cm/s2")),
+        None => unit(found, options, line),
+    }
 }
 
 /// Returns the unit that a file says on a line, else the given one, which must not contradict it.
-pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, RecordFileError> {
+pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
     let expected = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
-    let unit = found.or(options.unit).ok_or(RecordFileError::missing(line, "unit", expected))?;
+    let unit = found.or(options.unit).ok_or(InputError::Missing { line, field: "unit", expected })?;
     let other = options.unit.filter(|given| unit.si != given.si);
     other.map_or(Ok(unit), |given| {
         let (found, given) = (unit.name.to_string(), given.name.to_string());
-        Err(RecordFileError::Contradiction { line, field: "unit", found, given })
+        Err(InputError::Contradiction { line, field: "unit", found, given })
     })
 }
 
@@ -63,14 +65,13 @@ pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
     field(header, key).and_then(|(line, value)| Some((line, leading_number(value)?)))
 }
 
-/// Reads the peak acceleration at the start of a text.
-pub fn header_pga(text: &str, unit: Unit) -> Option<HeaderPga> {
-    let text = text.trim_start();
+/// Reads the peak acceleration at the start of a text, in a unit of so many m/s2.
+pub fn header_pga(text: &str, unit_m_s2: f64) -> Option<HeaderPga> {
     let value = leading_number(text)?.abs();
     let digits = text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(300));
     let rounding = 0.5 * 10f64.powi(-(decimals as i32));
-    (value > 0.0).then_some(HeaderPga { m_s2: value * unit.si, rounding_m_s2: rounding * unit.si })
+    (value > 0.0).then_some(HeaderPga { m_s2: value * unit_m_s2, rounding_m_s2: rounding * unit_m_s2 })
 }
 
 /// Reads the azimuth (degrees clockwise from north) from the name of a component, if it has one.
@@ -133,13 +134,13 @@ pub fn samples<'a, I: Iterator<Item = &'a str>>(
     header: usize,
     announced: f64,
     cells: impl Fn(&'a str) -> I,
-) -> Result<Vec<f64>, RecordFileError> {
+) -> Result<Vec<f64>, InputError> {
     let (mut values, mut on_last_line) = (Vec::new(), 1);
     for (at, line) in lines.iter().enumerate().skip(header) {
         let before = values.len();
         for cell in cells(line) {
             let value = plain_number(cell);
-            values.push(value.ok_or_else(|| RecordFileError::value(at + 1, "sample", cell, "a number"))?);
+            values.push(value.ok_or_else(|| InputError::value(at + 1, "sample", cell, "a number"))?);
         }
         if values.len() > before {
             on_last_line = values.len() - before;
@@ -147,7 +148,7 @@ pub fn samples<'a, I: Iterator<Item = &'a str>>(
     }
     let (announced, found) = (announced as u64, values.len());
     if announced < 2 || (found as u64) < announced || found as u64 - announced >= on_last_line as u64 {
-        return Err(RecordFileError::Count { announced, found });
+        return Err(InputError::Count { announced, found });
     }
     values.truncate(announced as usize);
     Ok(values)

@@ -5,11 +5,11 @@ use rockfrag_core::records::{Origin, RecordedMotion};
 use rockfrag_core::units::Unit;
 
 use super::ReadOptions;
-use super::error::RecordFileError;
 use super::header::{
     after, azimuth_of, field, first_number, header_pga, leading_number, number_field, numbers, samples,
     single_spaced, time_step, unit,
 };
+use crate::inputs::InputError;
 
 /// Largest number of header lines.
 const HEADER: usize = 40;
@@ -20,19 +20,18 @@ pub fn recognises(lines: &[&str]) -> bool {
 }
 
 /// Reads the motion of a K-NET or KiK-net file.
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
-    let missing = RecordFileError::missing;
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
+    let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let memo = lines.iter().take(HEADER).position(|line| line.trim_start().starts_with("Memo"));
     let end = memo.ok_or(missing(HEADER, "Memo.", "it at the end of the header"))?;
     let header = &lines[..end];
-    let hertz = number_field(header, "Sampling Freq(Hz)").map(|(line, hertz)| (line, 1.0 / hertz));
-    let dt_s = time_step(hertz.map(|(_, dt_s)| dt_s), options, hertz.map_or(end, |(line, _)| line))?;
-    let scale = field(header, "Scale Factor");
-    let (line, text) = scale.ok_or(missing(end, "Scale Factor", "'2000(gal)/8388608'"))?;
+    let (line, hertz) = number_field(header, "Sampling Freq(Hz)").unzip();
+    let dt_s = time_step(hertz.map(f64::recip), options, line.unwrap_or(end))?;
+    let (line, text) = field(header, "Scale Factor").unwrap_or((end, ""));
     let counts = after(text, "/").and_then(first_number).filter(|counts| *counts != 0.0);
     let Some((gal, counts)) = leading_number(text).zip(counts) else {
         let expected = "gal over counts, '2000(gal)/8388608'";
-        return Err(RecordFileError::value(line, "Scale Factor", text, expected));
+        return Err(InputError::value(line, "Scale Factor", text, expected));
     };
     let scale = gal / counts;
     let duration = number_field(header, "Duration Time(s)");
@@ -58,7 +57,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
     };
     Ok(RecordedMotion {
         is_in_borehole,
-        header_pga: field(header, "Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit)),
+        header_pga: field(header, "Max. Acc. (gal)").and_then(|(_, peak)| header_pga(peak, unit.si)),
         ..RecordedMotion::new(dt_s, gal, unit, origin)
     })
 }

@@ -7,12 +7,10 @@
 //! knet      K-NET and KiK-net
 //! csv       columns of a table, with or without times
 //! header    fields and blocks of numbers, common to several formats
-//! error     errors of a file
 //! ```
 
 mod cosmos;
 mod csv;
-mod error;
 mod esm;
 mod header;
 mod knet;
@@ -20,14 +18,13 @@ mod peer_at2;
 
 use std::borrow::Cow;
 
-pub use error::RecordFileError;
 use rockfrag_core::motion::measures::peak;
 use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::units::Unit;
 use strum::VariantArray;
 
-use super::{decode, words};
+use super::{InputError, decode, words};
 
 /// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -68,7 +65,7 @@ pub fn is_vertical(origin: &Origin) -> bool {
 const SAME_PEAK: f64 = 0.05;
 
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
-pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, RecordFileError> {
+pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
@@ -97,7 +94,7 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga
             && (found_m_s2 - m_s2).abs() > SAME_PEAK * m_s2 + rounding_m_s2
         {
-            return Err(RecordFileError::Peak { header_m_s2: m_s2, found_m_s2 });
+            return Err(InputError::Peak { header_m_s2: m_s2, found_m_s2 });
         }
     }
     Ok(motions)

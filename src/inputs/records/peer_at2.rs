@@ -2,14 +2,14 @@
 //! TIME HISTORY IN UNITS OF G`) and NGA files (`ACCELERATION TIME SERIES IN UNITS OF G`).
 
 use rockfrag_core::records::{Origin, RecordedMotion};
-use rockfrag_core::units::Unit;
+use rockfrag_core::units::G_M_S2;
 
 use super::ReadOptions;
-use super::error::RecordFileError;
 use super::header::{
     after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, single_spaced, time_step,
-    unit, unit_of,
+    unit_of,
 };
+use crate::inputs::InputError;
 
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
@@ -34,14 +34,14 @@ fn are_counts(line: &str) -> bool {
 }
 
 /// Reads the motion of an AT2 file.
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, RecordFileError> {
-    let missing = RecordFileError::missing;
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
+    let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
     let (header, counts) = (&lines[..at], lines[at]);
     expect_acceleration(header)?;
-    let stated = header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number)));
-    let line = stated.map_or(3, |(_, line)| line);
-    let unit = unit(stated.map(|(text, line)| unit_of(text, line)).transpose()?, options, line)?;
+    let (unit, line) =
+        header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number))).unzip();
+    let unit = unit_of(unit, options, line.unwrap_or(3))?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
     let (first, second) = (unnamed.next(), unnamed.next());
@@ -51,10 +51,9 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
 
     // Event, date, station and component, separated by commas; only the date has none inside.
     let title: Vec<&str> = header.get(1).map_or("", |line| line).split(',').map(str::trim).collect();
-    let (component, before) = match title[..] {
-        [event] => ("", &[event][..]),
-        [ref before @ .., component] => (component, before),
-        [] => ("", &[][..]),
+    let (before, component) = match title.split_last() {
+        Some((component, before)) if !before.is_empty() => (before, *component),
+        _ => (&title[..], ""),
     };
     let date = before
         .iter()
@@ -70,7 +69,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, Re
         ..Origin::default()
     };
     Ok(RecordedMotion {
-        header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), Unit::parse("g")?)),
+        header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), G_M_S2)),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }
@@ -82,10 +81,10 @@ fn named(counts: &str, key: &str) -> Option<f64> {
 }
 
 /// Refuses a header of another quantity. Its first two lines are the database and the record.
-fn expect_acceleration(header: &[&str]) -> Result<(), RecordFileError> {
+fn expect_acceleration(header: &[&str]) -> Result<(), InputError> {
     let mut others = header.iter().zip(1..).skip(2);
     let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
     other.map_or(Ok(()), |(text, line)| {
-        Err(RecordFileError::NotAcceleration { line, found: text.trim().to_string() })
+        Err(InputError::NotAcceleration { line, found: text.trim().to_string() })
     })
 }
