@@ -54,13 +54,12 @@ impl About {
         {
             return Err(InputError::unexpected(format!("column '{}'", heading.text), "km"));
         }
+        let mw = grid.known(magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?;
+        let re_km = grid.known(distance, &DISTANCES_KM, "a distance from 0 to 1000 km")?;
         let mut all = HashMap::new();
-        for (row, &line) in grid.lines.iter().enumerate() {
-            let known = RecordMetadata {
-                mw: grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?,
-                re_km: grid.known(row, distance, &DISTANCES_KM, "a distance from 0 to 1000 km")?,
-                earthquake: earthquake.and_then(|at| grid.value(row, at)).map(str::to_string),
-            };
+        for (row, line) in grid.lines.iter().enumerate() {
+            let earthquake = earthquake.and_then(|at| grid.value(row, at)).map(str::to_string);
+            let known = RecordMetadata { mw: mw[row], re_km: re_km[row], earthquake };
             let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
             for name in names.chain(number.map(|at| format!("rsn{}", grid.cell(row, at)))) {

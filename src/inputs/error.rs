@@ -91,6 +91,14 @@ impl InputError {
         InputError::Value { line, field, found, expected }
     }
 
+    /// The error of a heading that is not understood, if there is one, among those found.
+    pub(super) fn not_understood(heading: Option<&str>, expected: &'static str, found: String) -> InputError {
+        match heading.map(str::to_string) {
+            Some(heading) => InputError::Heading { heading, expected, found },
+            None => InputError::Unexpected { found, expected },
+        }
+    }
+
     pub(super) fn damaged(error: impl ToString) -> InputError {
         InputError::Damaged(error.to_string())
     }

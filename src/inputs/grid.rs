@@ -1,6 +1,6 @@
 //! A table: cells under headings, as people and agencies write it.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -113,6 +113,10 @@ impl Grid {
         Ok(Grid { notes, headings, has_headings: heading.is_some(), lines, rows: kept, notations })
     }
 
+    pub fn rows(&self) -> Range<usize> {
+        0..self.lines.len()
+    }
+
     /// Returns the index of the first column about this; see [`synonyms`].
     pub fn about(&self, meaning: &str) -> Option<usize> {
         synonyms(meaning).find_map(|word| self.headings.iter().position(|heading| heading.name == word))
@@ -155,11 +159,31 @@ impl Grid {
 
     /// Reads the numbers of a column.
     pub fn numbers(&self, column: usize) -> Result<Vec<f64>, InputError> {
-        (0..self.lines.len()).map(|row| self.number(row, column)).collect()
+        self.rows().map(|row| self.number(row, column)).collect()
     }
 
-    /// Reads a number that must lie in a range.
-    pub fn within(
+    /// Reads the intensities of a column, in a unit of this size.
+    pub fn intensities(&self, column: usize, unit: f64) -> Result<Vec<f64>, InputError> {
+        let expected = "an intensity of 0 or more";
+        self.rows().map(|row| Ok(unit * self.within(row, column, &(0.0..=f64::MAX), expected)?)).collect()
+    }
+
+    /// Reads the numbers of a column, if there is one, that must lie in a range where they are known: PEER
+    /// writes -999 for what is not.
+    pub fn known(
+        &self,
+        column: Option<usize>,
+        range: &RangeInclusive<f64>,
+        expected: &str,
+    ) -> Result<Vec<Option<f64>>, InputError> {
+        let numbers = self.rows().map(|row| match column.filter(|at| self.value(row, *at).is_some()) {
+            Some(at) if self.number(row, at)? > UNKNOWN => self.within(row, at, range, expected).map(Some),
+            _ => Ok(None),
+        });
+        numbers.collect()
+    }
+
+    fn within(
         &self,
         row: usize,
         column: usize,
@@ -169,20 +193,6 @@ impl Grid {
         match self.number(row, column)? {
             number if range.contains(&number) => Ok(number),
             _ => Err(self.refusal(row, column, expected)),
-        }
-    }
-
-    /// Reads a number that must lie in a range, if a cell says one; PEER writes -999 for what is not known.
-    pub fn known(
-        &self,
-        row: usize,
-        column: Option<usize>,
-        range: &RangeInclusive<f64>,
-        expected: &str,
-    ) -> Result<Option<f64>, InputError> {
-        match column.filter(|at| self.value(row, *at).is_some()) {
-            Some(at) if self.number(row, at)? > UNKNOWN => self.within(row, at, range, expected).map(Some),
-            _ => Ok(None),
         }
     }
 

@@ -29,14 +29,14 @@ fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
         return Err(InputError::unexpected(found, "intensities under pga_g and pgv_m_s"));
     }
     if let Some(column) = grid.headings.iter().position(|heading| heading.name == "component")
-        && let Some(row) = (0..grid.lines.len()).find(|row| is_vertical(grid.cell(*row, column)))
+        && let Some(row) = grid.rows().find(|row| is_vertical(grid.cell(*row, column)))
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));
     }
     expect_motions_alone(grid)?;
     let mut columns = Vec::new();
     for (at, heading) in grid.headings.iter().enumerate() {
-        let rows = 0..grid.lines.len();
+        let rows = grid.rows();
         let (known, is_peak) = (known(heading)?, peak(heading).is_some());
         let (name, size) = known.unwrap_or((&heading.text, 1.0));
         let numbers = rows.clone().map(|row| match grid.value(row, at) {

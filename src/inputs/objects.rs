@@ -17,6 +17,7 @@ use crate::number::rounded;
 /// What a column is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ColumnRole {
+    Name,
     /// What is known of an object.
     Known(Field),
     /// The number of such objects.
@@ -39,7 +40,7 @@ enum ColumnRole {
 }
 
 /// Floors beyond this number are levels in percent, or something else.
-const HIGHEST: f64 = 50.0;
+const HIGHEST_FLOOR: f64 = 50.0;
 
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
@@ -54,7 +55,6 @@ pub struct ListDefaults {
 struct List<'a> {
     grid: &'a Grid,
     columns: Vec<ColumnRole>,
-    name: Option<usize>,
     ground_floor: u32,
     place: Place,
 }
@@ -99,10 +99,9 @@ fn meaning(heading: &Heading) -> ColumnRole {
         ("building", ColumnRole::Building),
     ];
     let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
-    let is_named = |meaning: &str| name == meaning || is_one_of(name, meaning);
-    let field = Field::VARIANTS.iter().find(|&field| is_named(field.into()));
-    let other = || OTHERS.iter().find(|(meaning, _)| is_named(meaning)).map(|(_, column)| *column);
-    match field.map(|field| ColumnRole::Known(*field)).or_else(other) {
+    let fields = Field::VARIANTS.iter().map(|field| (field.into(), ColumnRole::Known(*field)));
+    let mut known = fields.chain(OTHERS).filter(|(meaning, _)| name == meaning || is_one_of(name, meaning));
+    match known.next().map(|(_, column)| column) {
         _ if quantity == Some(Quantity::Counts) => ColumnRole::Count,
         Some(column) => column,
         None if synonyms("held").any(|start| name.starts_with(start)) => ColumnRole::Held,
@@ -115,13 +114,12 @@ fn meaning(heading: &Heading) -> ColumnRole {
 
 impl List<'_> {
     fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>, InputError> {
-        let columns: Vec<ColumnRole> = grid.headings.iter().map(meaning).collect();
-        let mut list =
-            List { grid, columns, name: grid.about("name"), ground_floor: 0, place: defaults.place };
+        let mut columns: Vec<ColumnRole> = grid.headings.iter().map(meaning).collect();
+        grid.about("name").into_iter().for_each(|at| columns[at] = ColumnRole::Name);
+        let mut list = List { grid, columns, ground_floor: 0, place: defaults.place };
         list.check()?;
-        let rows = 0..grid.lines.len();
         let has_units = list.column(ColumnRole::Unit).is_some_and(|at| {
-            let mut units = rows.clone().filter_map(|row| Unit::parse(grid.cell(row, at)));
+            let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
         let is_of_floors = list.level_is_of_floors();
@@ -138,43 +136,30 @@ impl List<'_> {
             }
         }
         let Some(at) = list.column(ColumnRole::Storey) else { return Ok(list) };
-        let open = rows.filter(|row| list.cell(*row, ColumnRole::Known(Field::Level)).is_none());
+        let open = grid.rows().filter(|row| list.cell(*row, ColumnRole::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
         let heading = grid.headings[at].text.clone();
-        list.ground_floor = defaults
-            .ground_floor
-            .map_or_else(|| floors::ground_floor(&storeys), Ok)
-            .map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
+        let found = defaults.ground_floor.map_or_else(|| floors::ground_floor(&storeys), Ok);
+        list.ground_floor = found.map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
         Ok(list)
     }
 
     /// Whether levels are floors: shares of the height of a building do not exceed 1.
     fn level_is_of_floors(&self) -> bool {
-        let level = self
-            .column(ColumnRole::Known(Field::Level))
-            .filter(|_| self.column(ColumnRole::Storey).is_none());
-        level.is_some_and(|at| {
-            let rows = 0..self.grid.lines.len();
-            let levels: Vec<f64> = rows.filter_map(|row| self.grid.number(row, at).ok()).collect();
-            levels.iter().any(|level| *level > 1.0)
-                && levels.iter().all(|level| level.fract() == 0.0 && *level < HIGHEST)
+        let level = self.column(ColumnRole::Known(Field::Level));
+        level.filter(|_| self.column(ColumnRole::Storey).is_none()).is_some_and(|at| {
+            let levels = || self.grid.rows().filter_map(|row| self.grid.number(row, at).ok());
+            levels().any(|level| level > 1.0)
+                && levels().all(|level| level.fract() == 0.0 && level < HIGHEST_FLOOR)
         })
     }
 
     /// Checks the headings, and the lengths below each.
     fn check(&self) -> Result<(), InputError> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
-        if self
-            .column(ColumnRole::Known(Field::Height))
-            .or(self.column(ColumnRole::Known(Field::P)))
-            .is_none()
-        {
-            let found = grid.found();
+        if [Field::Height, Field::P].iter().all(|field| self.column(ColumnRole::Known(*field)).is_none()) {
             let mut unknown = self.headings(ColumnRole::Unused).chain(self.headings(ColumnRole::Unclear));
-            return Err(match unknown.find(|text| !text.is_empty()).map(str::to_string) {
-                Some(heading) => InputError::Heading { heading, expected, found },
-                None => InputError::unexpected(found, expected),
-            });
+            return Err(InputError::not_understood(unknown.next(), expected, grid.found()));
         }
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
@@ -186,20 +171,16 @@ impl List<'_> {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::unexpected(found, "m, cm or mm in brackets, or no unit"));
             }
-            let is_one = !matches!(
-                column,
-                ColumnRole::Held | ColumnRole::Unclear | ColumnRole::Other | ColumnRole::Unused
-            );
-            let before = self.columns[..at].iter().position(|before| before == column).filter(|_| is_one);
-            if let Some(before) = before {
-                let found = format!("columns '{}' and '{}'", grid.headings[before].text, heading.text);
+            let may_repeat = matches!(column, ColumnRole::Held | ColumnRole::Unclear | ColumnRole::Unused);
+            if let Some(first) = self.column(*column).filter(|first| *first != at && !may_repeat) {
+                let found = format!("columns '{}' and '{}'", grid.headings[first].text, heading.text);
                 return Err(InputError::unexpected(found, "one of them"));
             }
             let ColumnRole::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
                 continue;
             };
             if let Some(unit) = heading.unit {
-                let lengths = (0..grid.lines.len()).filter_map(|row| grid.number(row, at).ok());
+                let lengths = grid.rows().filter_map(|row| grid.number(row, at).ok());
                 validate_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
                     InputError::unexpected(format!("column '{}'", heading.text), expected)
                 })?;
@@ -215,11 +196,10 @@ impl List<'_> {
         self.columns.iter().position(|column| *column == wanted)
     }
 
-    /// The texts of the headings of this kind, but for that of names.
+    /// The texts of the headings of this kind.
     fn headings(&self, wanted: ColumnRole) -> impl Iterator<Item = &str> {
-        let all =
-            (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted && Some(*at) != self.name);
-        all.map(|at| self.grid.headings[at].text.as_str())
+        let all = self.grid.headings.iter().zip(&self.columns).filter(move |(_, column)| **column == wanted);
+        all.map(|(heading, _)| heading.text.as_str()).filter(|text| !text.is_empty())
     }
 
     /// What stands in a column, if it says anything.
@@ -229,12 +209,13 @@ impl List<'_> {
 
     /// The columns that are not used, named once, and the words that are taken as no value.
     fn doubts(&self) -> Warnings {
-        let unused: Vec<&str> = self.headings(ColumnRole::Unused).filter(|text| !text.is_empty()).collect();
-        let mut doubts: Warnings =
-            (!unused.is_empty()).then(|| (Warning::UnusedColumns, unused.join(", "))).into_iter().collect();
-        let rows = 0..self.grid.lines.len();
+        let (grid, unused) = (self.grid, self.headings(ColumnRole::Unused).collect::<Vec<_>>().join(", "));
+        let mut doubts: Warnings = Some((Warning::UnusedColumns, unused))
+            .filter(|(_, unused)| !unused.is_empty())
+            .into_iter()
+            .collect();
         for (at, column) in self.columns.iter().enumerate() {
-            let mut values = rows.clone().filter_map(|row| self.grid.value(row, at));
+            let mut values = grid.rows().filter_map(|row| grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
             let is_open = match column {
                 ColumnRole::Held => values.any(|cell| means(cell, "free")),
@@ -242,9 +223,9 @@ impl List<'_> {
                 ColumnRole::Known(_) => false,
                 _ => continue,
             };
-            for row in rows.clone().filter(|row| self.grid.value(*row, at).is_none()) {
-                if is_open || self.grid.cell(row, at).contains(char::is_alphanumeric) {
-                    let about = format!("{} of {}", self.grid.headings[at].text, self.name_of(row));
+            for row in grid.rows().filter(|row| grid.value(*row, at).is_none()) {
+                if is_open || grid.cell(row, at).contains(char::is_alphanumeric) {
+                    let about = format!("{} of {}", grid.headings[at].text, self.name_of(row));
                     doubts.add(Warning::NotGiven, about);
                 }
             }
@@ -253,14 +234,11 @@ impl List<'_> {
     }
 
     fn objects(&self) -> Vec<Object> {
-        let grid = self.grid;
-        let names: Vec<String> = (0..grid.lines.len()).map(|row| self.name_of(row)).collect();
+        let names: Vec<String> = self.grid.rows().map(|row| self.name_of(row)).collect();
         let mut uses: HashMap<&str, usize> = HashMap::new();
         names.iter().for_each(|name| *uses.entry(name).or_default() += 1);
-        let names_floors =
-            self.place.level.is_none() && (0..grid.lines.len()).any(|row| self.names_floor(row));
-        let mut objects = Vec::new();
-        for (row, name) in names.iter().enumerate() {
+        let names_floors = self.place.level.is_none() && self.grid.rows().any(|row| self.names_floor(row));
+        let objects = names.iter().zip(&self.grid.lines).enumerate().map(|(row, (name, line))| {
             let object = match self.object(row) {
                 Ok(_) if means(name, "total") => Err("a row of totals, not an object".to_string()),
                 Ok(_) if names_floors && !self.names_floor(row) => {
@@ -270,14 +248,14 @@ impl List<'_> {
             };
             let refused = self.held(row).or(object.as_ref().err().cloned().map(ObjectError::Implausible));
             let is_unique = uses[name.as_str()] == 1;
-            let name = if is_unique { name.clone() } else { format!("{name} (line {})", grid.lines[row]) };
-            objects.push(Object { name, refused, ..object.unwrap_or_default() });
-        }
-        objects
+            let name = if is_unique { name.clone() } else { format!("{name} (line {line})") };
+            Object { name, refused, ..object.unwrap_or_default() }
+        });
+        objects.collect()
     }
 
     fn name_of(&self, row: usize) -> String {
-        match self.name.map_or("", |column| self.grid.cell(row, column)) {
+        match self.column(ColumnRole::Name).map_or("", |column| self.grid.cell(row, column)) {
             "" => format!("line {}", self.grid.lines[row]),
             name => name.to_string(),
         }
@@ -301,8 +279,8 @@ impl List<'_> {
                 ColumnRole::Count => ("count", 1.0),
                 ColumnRole::Unclear => {
                     let text = &self.grid.headings[at].text;
-                    let problem = "is not understood: rename it (--columns) or leave it out";
-                    return Err(format!("column '{text}' {problem}"));
+                    let advice = "rename it (--columns) or leave it out";
+                    return Err(format!("column '{text}' is not understood: {advice}"));
                 }
                 _ => continue,
             };
@@ -341,34 +319,28 @@ impl List<'_> {
     /// The place of an object with the floor that its row names.
     fn on_floor(&self, row: usize, place: Place) -> Result<Place, String> {
         let known = Place { period: place.period.or(self.place.period), ..place };
-        let Some(cell) = self.cell(row, ColumnRole::Storey) else { return Ok(place) };
-        if known.level.is_some() && known.period.is_some() {
-            return Ok(place);
-        }
+        let is_known = known.level.is_some() && known.period.is_some();
+        let Some(cell) = self.cell(row, ColumnRole::Storey).filter(|_| !is_known) else { return Ok(place) };
         let expected = "one whole number, such as 3 or 3rd floor, G, B1 or roof";
         let storey = Storey::parse(cell).ok_or_else(|| format!("floor '{cell}'; expected {expected}"))?;
         let above = storey.above(self.ground_floor);
         if above == Some(0) {
             return Ok(Place { level: place.level.or(Some(0.0)), ..place });
         }
-        let all = self.cell(row, ColumnRole::Storeys).ok_or_else(|| {
-            format!(
-                "floor {cell}: expected the storeys of the building (column Storeys), or Level and T1 (s)"
-            )
-        })?;
+        let expected = "the storeys of the building (column Storeys), or Level and T1 (s)";
+        let all = self.cell(row, ColumnRole::Storeys);
+        let all = all.ok_or_else(|| format!("floor {cell}: expected {expected}"))?;
         let storeys = all.parse().ok().filter(|all: &f64| all.fract() == 0.0 && (1.0..200.0).contains(all));
         let storeys = storeys.ok_or_else(|| format!("storeys '{all}'; expected a whole number"))? as u32;
         let above = above.unwrap_or(storeys);
         if above > storeys {
             return Err(format!("floor {cell} of {storeys} storeys: which is right?"));
         }
-        let building = match self.cell(row, ColumnRole::Building) {
-            Some(cell) => Some(Building::parse(cell).ok_or_else(|| {
-                format!("building '{cell}'; expected walls, masonry, concrete frame or steel frame")
-            })?),
-            None => None,
-        };
-        Ok(floors::place(above, storeys, building, known))
+        let expected = "walls, masonry, concrete frame or steel frame";
+        let building = self.cell(row, ColumnRole::Building).map(|cell| {
+            Building::parse(cell).ok_or_else(|| format!("building '{cell}'; expected {expected}"))
+        });
+        Ok(floors::place(above, storeys, building.transpose()?, known))
     }
 
     fn floor_in_words(&self, row: usize) -> Option<String> {
@@ -383,16 +355,17 @@ impl List<'_> {
 
     /// Why the object of a row is not free to rock.
     fn held(&self, row: usize) -> Option<ObjectError> {
-        let held = self.columns.iter().enumerate().filter(|(_, column)| **column == ColumnRole::Held);
-        held.filter_map(|(at, _)| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?)).next()
+        let columns = self.grid.headings.iter().zip(&self.columns).enumerate();
+        let mut held = columns.filter(|(_, (_, column))| **column == ColumnRole::Held);
+        held.find_map(|(at, (heading, _))| held_by(&heading.text, self.grid.value(row, at)?))
     }
 }
 
 /// Whether a column that seems to count objects numbers the rows.
 fn numbers_rows(grid: &Grid, column: usize) -> bool {
-    let numbers: Vec<_> = (0..grid.lines.len()).map(|row| grid.number(row, column).ok()).collect();
-    let is_numbered = numbers.windows(2).all(|pair| pair[1] == pair[0].map(|number| number + 1.0));
-    grid.headings[column].name == "number" && numbers.len() > 1 && numbers[0].is_some() && is_numbered
+    let is_numbered =
+        |numbers: Vec<f64>| numbers.len() > 1 && numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
+    grid.headings[column].name == "number" && grid.numbers(column).is_ok_and(is_numbered)
 }
 
 /// Whether a line above the headings names a unit of lengths other than m.

@@ -190,7 +190,7 @@ fn take_statistic(words: &mut Vec<&str>) -> Statistic {
 pub fn noted_statistic(grid: &Grid) -> Result<Statistic, InputError> {
     let mut texts = grid.notes.clone();
     if let Some(column) = grid.about("statistic") {
-        let mut cells: Vec<&str> = (0..grid.lines.len()).map(|row| grid.cell(row, column)).collect();
+        let mut cells: Vec<&str> = grid.rows().map(|row| grid.cell(row, column)).collect();
         cells.dedup();
         if let [first, second, ..] = cells[..] {
             let found = format!("{} {first} and {second}", grid.headings[column].text);

@@ -32,20 +32,21 @@ pub fn read(
     for path in paths {
         found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
     }
-    let hazard = match (found.joint, paths) {
-        (Some(bins), [_]) => Hazard::Joint(bins),
-        (Some(_), _) => {
+    let hazard = match found.joint {
+        Some(_) if paths.len() > 1 => {
             return Err(InputError::unexpected("a hazard of PGA and PGV together among others", "it alone"));
         }
-        (None, _) => joined(&found.curves, &mut found.warnings)?,
+        Some(bins) => Hazard::Joint(bins),
+        None => joined(&found.curves, &mut found.warnings)?,
     };
     Ok((hazard, found.warnings))
 }
 
-/// A point of a curve, and the cell of its rate, which is unknown of a motion that is certain.
+/// A point of a curve, and the cell of its rate.
 struct CurvePoint {
     /// In m/s2 or m/s.
     value: f64,
+    /// None of a motion that is certain.
     annual_rate: Option<f64>,
     row: usize,
     column: usize,
@@ -60,25 +61,14 @@ struct Curve {
 }
 
 impl Curve {
-    /// Makes a curve, which some place on earth can have, of intensities (m/s2 or m/s) and the rows and
-    /// columns of their frequencies. Tables often begin with motions that are certain to come, and end with
-    /// some that never do: these tell nothing.
+    /// Makes a curve, which some place on earth can have. Tables often begin with motions that are certain to
+    /// come, and end with some that never do: these tell nothing.
     fn new(
         (measure, statistic): (Imt, Statistic),
-        frequency: Frequency,
-        cells: Vec<(f64, usize, usize)>,
+        mut points: Vec<CurvePoint>,
         grid: &Grid,
         file: &Path,
     ) -> Result<Curve, InputError> {
-        let mut points = Vec::new();
-        for (value, row, column) in cells {
-            points.push(CurvePoint {
-                value,
-                annual_rate: frequency.annual_rate(grid, row, column)?,
-                row,
-                column,
-            });
-        }
         points.retain(|point| point.value != 0.0);
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
         for pair in points.windows(2) {
@@ -207,9 +197,9 @@ impl Found {
         for column in columns.iter().filter(|_| !are_fields && !grid.lines.is_empty()) {
             let heading = &grid.headings[column.at];
             let is_about = |meaning: &str| means(&heading.name, meaning);
-            let is_used = column.is_of_curve() || is_about("place") || is_about("spectral-period");
-            let is_used = is_used || is_joint && is_about("magnitude");
-            if !is_used && grid.number(0, column.at).is_ok() {
+            let is_told =
+                is_about("place") || is_about("spectral-period") || is_joint && is_about("magnitude");
+            if !column.is_of_curve() && !is_told && grid.number(0, column.at).is_ok() {
                 self.warnings.add(Warning::UnusedColumns, heading.text.clone());
             }
         }
@@ -249,7 +239,7 @@ impl Found {
             noted.filter_map(|key| Some((key, openquake::noted(grid, key)?))).collect();
         for (at, heading) in grid.headings.iter().enumerate() {
             if means(&heading.name, "place") {
-                told.extend((0..grid.lines.len()).map(|row| (&*heading.name, grid.cell(row, at))));
+                told.extend(grid.rows().map(|row| (&*heading.name, grid.cell(row, at))));
             }
         }
         // A degree of longitude depends on the latitude.
@@ -308,10 +298,7 @@ fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
     let is_unknown = |heading: &&Heading| {
         !(heading.text.is_empty() || means(&heading.name, "place") || means(&heading.name, "magnitude"))
     };
-    match others.find(is_unknown) {
-        Some(heading) => InputError::Heading { heading: heading.text.clone(), expected, found: grid.found() },
-        None => InputError::unexpected(grid.found(), expected),
-    }
+    InputError::not_understood(others.find(is_unknown).map(|heading| &*heading.text), expected, grid.found())
 }
 
 /// The curve of a column of values and one of frequencies, if they belong together.
@@ -336,12 +323,12 @@ fn curve_of(
     if measure == Imt::Other {
         return Ok(None);
     }
-    let mut cells = Vec::new();
-    for row in 0..grid.lines.len() {
-        let value = grid.within(row, values.at, &(0.0..=f64::MAX), "an intensity of 0 or more")?;
-        cells.push((unit * value, row, rates.at));
+    let mut points = Vec::new();
+    for (row, value) in grid.intensities(values.at, unit)?.into_iter().enumerate() {
+        let annual_rate = frequency.annual_rate(grid, row, rates.at)?;
+        points.push(CurvePoint { value, annual_rate, row, column: rates.at });
     }
-    Curve::new((measure, statistic), frequency, cells, grid, file).map(Some)
+    Curve::new((measure, statistic), points, grid, file).map(Some)
 }
 
 /// Motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or equal.

@@ -11,7 +11,7 @@ use crate::inputs::{Grid, InputError};
 
 /// Refuses a row of totals or means.
 pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
-    let mut cells = (0..grid.lines.len()).flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
+    let mut cells = grid.rows().flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
     let total = cells.find(|(row, at)| {
         let cell = grid.cell(*row, *at);
         cell.starts_with(char::is_alphabetic) && means(cell, "total")
@@ -39,13 +39,9 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTabl
     };
     expect_motions_alone(grid)?;
     let magnitude = grid.about("magnitude");
-    let (mut given, mut mw) = (Vec::new(), Vec::new());
-    for row in 0..grid.lines.len() {
-        let [pga, pgv] =
-            [pga, pgv].map(|at| grid.within(row, at, &(0.0..=f64::MAX), "a number of 0 or more"));
-        given.push(Peaks { pga_m_s2: pga_unit * pga?, pgv_m_s: pgv_unit * pgv? });
-        mw.push(grid.known(row, magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?);
-    }
+    let both = grid.intensities(pga, pga_unit)?.into_iter().zip(grid.intensities(pgv, pgv_unit)?);
+    let given: Vec<Peaks> = both.map(|(pga_m_s2, pgv_m_s)| Peaks { pga_m_s2, pgv_m_s }).collect();
+    let mw = grid.known(magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?;
     validate_medians(given.iter().copied()).map_err(InputError::Implausible)?;
     let beyond = given.iter().filter(|peaks| **peaks != peaks.clamp_to_recorded()).count();
     if beyond > 0 {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use rockfrag_core::units::{CM_PER_M, G_M_S2};
 
-use super::Curve;
 use super::columns::{Frequency, Imt, Statistic};
+use super::{Curve, CurvePoint};
 use crate::inputs::{Grid, Heading, InputError};
 
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
@@ -27,8 +27,7 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
         "SA(1.0)" => (Imt::Spectral, G_M_S2),
         name => return Err(InputError::unexpected(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
     };
-    let unknown =
-        || InputError::unexpected("no years after investigation_time".to_string(), "the file as exported");
+    let unknown = || InputError::unexpected("no years after investigation_time", "the file as exported");
     let frequency = Frequency::ProbabilityIn(investigation_years(grid).ok_or_else(unknown)?);
     let statistic = statistic(grid)?;
     if grid.lines.len() != 1 {
@@ -37,15 +36,15 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
             "the row of one",
         ));
     }
-    let mut cells = Vec::new();
-    for (at, heading) in grid.headings.iter().enumerate() {
+    let mut points = Vec::new();
+    for (column, heading) in grid.headings.iter().enumerate() {
         let Some(level) = heading.text.strip_prefix("poe-") else { continue };
-        let level: f64 = level
-            .parse()
-            .map_err(|_| InputError::unexpected(format!("heading {}", heading.text), "poe- and a level"))?;
-        cells.push((level * unit, 0, at));
+        let unknown = |_| InputError::unexpected(format!("heading {}", heading.text), "poe- and a level");
+        let value = unit * level.parse::<f64>().map_err(unknown)?;
+        let annual_rate = frequency.annual_rate(grid, 0, column)?;
+        points.push(CurvePoint { value, annual_rate, row: 0, column });
     }
-    Curve::new((measure, statistic), frequency, cells, grid, file)
+    Curve::new((measure, statistic), points, grid, file)
 }
 
 /// Which of several curves it is. What is not known to be the mean is not taken for it.

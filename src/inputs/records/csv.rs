@@ -186,7 +186,7 @@ impl Samples<'_> {
         let unit = grid.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
         let in_s = unit.map_or(1.0, |unit| unit.si);
         let (mut times, mut decimals) = (Vec::<f64>::new(), 0);
-        for row in 0..grid.lines.len() {
+        for row in grid.rows() {
             let cell = grid.cell(row, column);
             times.push(match clock_s(cell) {
                 // Past midnight.
@@ -238,7 +238,7 @@ impl Samples<'_> {
     /// Reads all cells as one series.
     fn wrapped(&self) -> Result<Vec<f64>, InputError> {
         self.expect_one_series(true)?;
-        let rows = 0..self.grid.lines.len();
+        let rows = self.grid.rows();
         let cells = rows.flat_map(|row| (0..self.quantities.len()).map(move |column| (row, column)));
         let filled = cells.filter(|(row, column)| !self.grid.cell(*row, *column).is_empty());
         filled.map(|(row, column)| self.grid.number(row, column)).collect()
