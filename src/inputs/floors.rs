@@ -85,10 +85,7 @@ pub fn ground_floor(storeys: &[Storey]) -> Result<u32, u32> {
         _ => None,
     });
     let is_told = storeys.iter().any(|storey| matches!(storey, Storey::Ground | Storey::Above(_)));
-    match numbers.min() {
-        Some(lowest) if !is_told => Err(lowest),
-        _ => Ok(0),
-    }
+    numbers.min().filter(|_| !is_told).map_or(Ok(0), Err)
 }
 
 /// How a building resists earthquakes, and its first period by ASCE 7: factor x (height in m)^exponent, s.

@@ -157,7 +157,6 @@ impl Grid {
         }
     }
 
-    /// Reads the numbers of a column.
     pub fn numbers(&self, column: usize) -> Result<Vec<f64>, InputError> {
         self.rows().map(|row| self.number(row, column)).collect()
     }
@@ -221,16 +220,12 @@ impl Grid {
 }
 
 fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>, InputError> {
-    let joined = join_lines(lines, separator);
+    let joined = join_lines(lines, separator)?;
     expect_few_cells(joined.matches(separator).count())?;
     let mut reader = ReaderBuilder::new();
     reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
-    let records = reader.from_reader(joined.as_bytes()).into_records();
-    let records: Vec<StringRecord> = records.map_while(Result::ok).collect();
-    if let Some(line) = records.last().and_then(|last| never_closed(last, &joined)) {
-        return Err(InputError::Quote { line });
-    }
-    let rows = records.into_iter().filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
+    let records = reader.from_reader(joined.as_bytes()).into_records().map_while(Result::ok);
+    let rows = records.filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
         let line = cells.position().map_or(1, |at| at.line() as usize);
         RawRow { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
     });
@@ -255,17 +250,15 @@ fn uncommented(text: &str) -> &str {
 fn separator(lines: &[&str]) -> char {
     let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
     let body: Vec<&str> = body.take(SHOWN).copied().collect();
-    let (mut best, mut most) = (' ', -1.0);
-    for sign in [';', '\t', ','] {
+    let shares = [',', '\t', ';'].map(|sign| {
         let parted = body.iter().filter(|line| is_parted(line, sign)).count();
         let cells: Vec<&str> = body.iter().flat_map(|line| line.split(sign)).collect();
         let numbers = cells.iter().filter(|cell| is_number(cell.trim_matches([' ', '"']))).count();
         let share = (parted * numbers) as f64 / (body.len() * cells.len()) as f64;
-        if 2 * parted >= body.len() && share > most {
-            (best, most) = (sign, share);
-        }
-    }
-    best
+        (sign, Some(share).filter(|_| parted > 0 && 2 * parted >= body.len()))
+    });
+    let shares = shares.into_iter().filter_map(|(sign, share)| Some((sign, share?)));
+    shares.max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(' ', |(sign, _)| sign)
 }
 
 /// Whether a sign separates cells of a line. Among numbers between blanks, a comma is a decimal one.
@@ -277,11 +270,11 @@ fn is_parted(line: &str, sign: char) -> bool {
 }
 
 /// Joins lines for the reader of rows, which counts them.
-fn join_lines(lines: &[&str], separator: char) -> String {
-    let (mut text, mut is_quoted) = (String::new(), false);
-    for line in lines {
-        let start = text.len();
-        if separator == ' ' && !is_quoted {
+fn join_lines(lines: &[&str], separator: char) -> Result<String, InputError> {
+    let (mut text, mut quoted_from) = (String::new(), None);
+    for (line, number) in lines.iter().zip(1..) {
+        let (start, was_quoted) = (text.len(), quoted_from.is_some());
+        if separator == ' ' && !was_quoted {
             // A unit in brackets belongs to its heading, and the sign of a comment to its first word.
             let bare = uncommented(line);
             let words = bare.replace(" (", "(").replace(" [", "[");
@@ -290,17 +283,18 @@ fn join_lines(lines: &[&str], separator: char) -> String {
         } else {
             text += line;
         }
-        let opens = is_quoted_behind(&text[start..], separator, is_quoted);
-        if opens && !is_quoted && is_comment(line) {
+        let is_quoted = is_quoted_behind(&text[start..], separator, was_quoted);
+        if is_quoted && !was_quoted && is_comment(line) {
             text.truncate(start);
             text += &line.replace('"', "");
         } else {
-            is_quoted = opens;
+            quoted_from = is_quoted.then_some(quoted_from.unwrap_or(number));
         }
         // A row with one empty cell keeps the line count.
-        text += if line.is_empty() && !is_quoted { "\"\"\n" } else { "\n" };
+        text += if line.is_empty() && quoted_from.is_none() { "\"\"\n" } else { "\n" };
     }
-    text
+    let never_closed = quoted_from.filter(|line| *line < lines.len());
+    never_closed.map_or(Ok(text), |line| Err(InputError::Quote { line }))
 }
 
 /// Whether a quotation mark is open behind a line: one opens at the beginning of a cell, or again behind one.
@@ -310,13 +304,6 @@ fn is_quoted_behind(line: &str, separator: char, is_quoted: bool) -> bool {
         _ => (is_quoted, sign == separator),
     };
     line.chars().fold((is_quoted, true), next).0
-}
-
-/// The line where a quotation mark opens in the last row and never closes.
-fn never_closed(last: &StringRecord, text: &str) -> Option<usize> {
-    let at = last.position().filter(|_| last.iter().any(|cell| cell.contains('\n')))?;
-    let rest = text.get(at.byte() as usize..)?;
-    (rest.matches('"').count() % 2 == 1).then_some(at.line() as usize)
 }
 
 /// In which columns numbers stand, by the row of the last ones that has the most.
@@ -331,18 +318,17 @@ fn number_columns(rows: &[RawRow]) -> Vec<bool> {
 /// without numbers, all but the first are rows.
 fn heading_row(above: &[RawRow], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
     let width = is_number_column.len();
-    let mut best = None;
-    for (at, row) in above.iter().enumerate() {
-        let (cells, words) = (row.cells.len(), count_words(row, is_number_column));
-        let is_whole = match row.is_comment || separator == Some(' ') {
-            true => cells == width,
-            false => cells >= width.min(2),
-        };
-        let least = best.map_or(1, |(_, most)| most + usize::from(!is_number_column.contains(&true)));
-        if is_whole && words >= least && !is_units(row) {
-            best = Some((at, words));
-        }
-    }
+    let is_whole = |row: &RawRow| match row.is_comment || separator == Some(' ') {
+        true => row.cells.len() == width,
+        false => row.cells.len() >= width.min(2),
+    };
+    let words = above.iter().map(|row| count_words(row, is_number_column)).zip(above).enumerate();
+    let rows = words.filter(|(_, (words, row))| *words > 0 && is_whole(row) && !is_units(row));
+    let words = |(_, (words, _)): &(usize, (usize, &RawRow))| *words;
+    let best = match is_number_column.contains(&true) {
+        true => rows.max_by_key(words),
+        false => rows.rev().max_by_key(words),
+    };
     best.map(|(at, _)| at)
 }
 
@@ -376,16 +362,10 @@ fn is_word(cell: &str) -> bool {
 /// Whether a row has units and nothing else.
 fn is_units(row: &RawRow) -> bool {
     const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
-    let mut units = 0;
-    for cell in &row.cells {
-        let cell = uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase();
-        match Unit::parse(&cell).is_some() || cell == "%" {
-            true => units += 1,
-            false if OTHERS.contains(&cell.as_str()) => {}
-            false => return false,
-        }
-    }
-    units > 0
+    let cells = row.cells.iter();
+    let cells = cells.map(|cell| uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
+    let mut units = cells.filter(|cell| !OTHERS.contains(&cell.as_str())).peekable();
+    units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
 }
 
 /// Whether a row is a line drawn with signs.
@@ -396,15 +376,12 @@ fn is_ruler(cells: &StringRecord) -> bool {
 
 /// Headings with the units in a row below.
 fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>, InputError> {
-    let mut with_units = Vec::new();
-    for (at, heading) in headings.iter().enumerate() {
-        with_units.push(match units.cells.get(at).unwrap_or_default() {
-            "" | "-" => heading.clone(),
-            "a" | "[a]" | "(a)" => heading.with_unit("years").unwrap_or(heading.clone()),
-            unit => heading
-                .with_unit(uncommented(unit))
-                .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() })?,
-        });
-    }
-    Ok(with_units)
+    let with_unit = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
+        "" | "-" => Ok(heading.clone()),
+        "a" | "[a]" | "(a)" => Ok(heading.with_unit("years").unwrap_or(heading.clone())),
+        unit => heading
+            .with_unit(uncommented(unit))
+            .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() }),
+    };
+    headings.iter().enumerate().map(with_unit).collect()
 }

@@ -1,7 +1,12 @@
 //! Numbers of a table: whether points and commas are decimal or stand between thousands, settled once from
 //! all cells of all columns.
 
+use std::borrow::Cow;
+
 use super::heading::Heading;
+
+/// What may be decimal or stand between thousands.
+const SIGNS: [char; 2] = ['.', ','];
 
 /// What a sign between digits is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +20,8 @@ enum Sign {
 /// How the numbers of a column are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DecimalNotation {
-    point: Sign,
-    comma: Sign,
+    /// Of points and of commas.
+    signs: [Sign; 2],
     /// Whether numbers below a percent sign may be percent, or shares that a workbook shows as percent.
     pub may_be_shares: bool,
 }
@@ -56,9 +61,8 @@ pub fn is_missing(cell: &str) -> bool {
 /// Whether a cell is a number in some country.
 pub fn is_number(cell: &str) -> bool {
     use Sign::{Decimal, Thousands};
-    let notations = [(Decimal, Decimal), (Thousands, Decimal), (Decimal, Thousands)];
-    let notation = |(point, comma)| DecimalNotation { point, comma, may_be_shares: false };
-    notations.into_iter().any(|signs| notation(signs).number(cell).is_some())
+    let mut notations = [[Decimal, Decimal], [Thousands, Decimal], [Decimal, Thousands]].into_iter();
+    notations.any(|signs| DecimalNotation { signs, may_be_shares: false }.number(cell).is_some())
 }
 
 /// Splits a percent sign off.
@@ -81,20 +85,20 @@ impl Evidence {
         self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
         let digits = share(cell).0.trim_start_matches(['+', '-']);
         let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
-        match (digits.rfind('.'), digits.rfind(',')) {
-            (None, None) => {
+        match SIGNS.map(|sign| digits.rfind(sign)) {
+            [None, None] => {
                 self.hundreds |= digits.len() == 3;
                 self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
             }
-            (Some(point), Some(comma)) => {
+            [Some(point), Some(comma)] => {
                 let last = usize::from(comma > point);
                 self.signs[last].decimal = true;
                 self.signs[1 - last].thousands = true;
             }
-            (point, _) => {
-                let (at, sign) = if point.is_some() { (0, '.') } else { (1, ',') };
+            [point, _] => {
+                let at = usize::from(point.is_none());
                 let seen = &mut self.signs[at];
-                match digits.split(sign).collect::<Vec<_>>()[..] {
+                match digits.split(SIGNS[at]).collect::<Vec<_>>()[..] {
                     ["0" | "", _] => seen.decimal = true,
                     [whole, rest] if rest.len() == 3 && whole.len() <= 3 => seen.either = true,
                     [_, _] => seen.decimal = true,
@@ -123,17 +127,13 @@ impl Evidence {
 
 /// Settles how each column is written. In a workbook points are decimal.
 pub fn notations(columns: &[Evidence], is_workbook: bool) -> Vec<DecimalNotation> {
-    let in_any = |is_seen: fn(&Seen, &Evidence) -> bool, at: usize| {
-        columns.iter().any(|column| is_seen(&column.signs[at], column))
-    };
     let all = [0, 1].map(|at| Seen {
-        decimal: in_any(|seen, _| seen.decimal, at),
-        thousands: in_any(|seen, _| seen.thousands, at),
-        either: in_any(|seen, column| seen.either && column.hundreds, at),
+        decimal: columns.iter().any(|column| column.signs[at].decimal),
+        thousands: columns.iter().any(|column| column.signs[at].thousands),
+        either: columns.iter().any(|column| column.signs[at].either && column.hundreds),
     });
     let notations = columns.iter().map(|own| DecimalNotation {
-        point: if is_workbook { Sign::Decimal } else { own.sign(0, &all) },
-        comma: own.sign(1, &all),
+        signs: [if is_workbook { Sign::Decimal } else { own.sign(0, &all) }, own.sign(1, &all)],
         may_be_shares: is_workbook && own.has_percent && own.largest > 0.0 && own.largest <= 1.0,
     });
     notations.collect()
@@ -143,28 +143,22 @@ impl DecimalNotation {
     /// Reads a number; 10 % is 0.1.
     pub fn number(self, cell: &str) -> Option<f64> {
         let (text, size) = share(cell);
-        let is_plain = self.point == Sign::Decimal && !text.contains([',', '\'', ' ']);
-        let value = if is_plain {
-            plain_number(text)
-        } else {
-            self.unparted(text).and_then(|text| plain_number(&text))
-        };
-        value.map(|value| size * value)
+        let is_plain = self.signs[0] == Sign::Decimal && !text.contains([',', '\'', ' ']);
+        let unparted = if is_plain { Cow::Borrowed(text) } else { Cow::Owned(self.unparted(text)?) };
+        plain_number(&unparted).map(|value| size * value)
     }
 
     /// Whether a cell is a number but for a sign that may be decimal or not.
     pub fn is_unclear(self, cell: &str) -> bool {
-        let has_open = self.point == Sign::Unclear && cell.contains('.')
-            || self.comma == Sign::Unclear && cell.contains(',');
-        has_open && is_number(cell)
+        let mut signs = SIGNS.into_iter().zip(self.signs);
+        signs.any(|(sign, known)| known == Sign::Unclear && cell.contains(sign)) && is_number(cell)
     }
 
     /// The number with a decimal point, without what stands between its thousands.
     fn unparted(self, text: &str) -> Option<String> {
+        let others = [('\'', Sign::Thousands), (' ', Sign::Thousands)];
         let mut text = text.to_string();
-        for (sign, known) in
-            [('.', self.point), (',', self.comma), ('\'', Sign::Thousands), (' ', Sign::Thousands)]
-        {
+        for (sign, known) in SIGNS.into_iter().zip(self.signs).chain(others) {
             match known {
                 Sign::Thousands => text = without(&text, sign)?,
                 Sign::Unclear if text.contains(sign) => return None,

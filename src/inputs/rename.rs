@@ -52,14 +52,10 @@ impl<'a> Renames<'a> {
     pub fn read(&mut self, path: &Path) -> Result<Grid, InputError> {
         let mut grid = Grid::read(path)?;
         for heading in &mut grid.headings {
-            self.seen.push(heading.text.clone());
-            let Some(rename) = self.all.iter().find(|rename| rename.heading == heading.text) else {
-                continue;
-            };
-            let wanted = Heading::new(&rename.column);
+            let Some(column) = self.renamed(&heading.text) else { continue };
+            let wanted = Heading::new(column);
             if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old != new) {
-                let (heading, unit) = (heading.text.clone(), rename.column.clone());
-                return Err(InputError::Units { heading, unit });
+                return Err(InputError::Units { heading: heading.text.clone(), unit: column.to_string() });
             }
             let unit = wanted.unit.or(heading.unit);
             *heading = Heading { unit, is_percent: heading.is_percent, ..wanted };
@@ -69,9 +65,12 @@ impl<'a> Renames<'a> {
 
     /// The name of a column of a table of others, as it is to be called.
     pub fn name(&mut self, name: &str) -> String {
-        self.seen.push(name.to_string());
-        let renamed = self.all.iter().find(|rename| rename.heading == name);
-        renamed.map_or(name, |rename| &rename.column).to_string()
+        self.renamed(name).unwrap_or(name).to_string()
+    }
+
+    fn renamed(&mut self, heading: &str) -> Option<&'a str> {
+        self.seen.push(heading.to_string());
+        self.all.iter().find(|rename| rename.heading == heading).map(|rename| rename.column.as_str())
     }
 
     /// Refuses a heading that no file has.

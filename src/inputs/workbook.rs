@@ -2,18 +2,12 @@
 
 use std::io::Cursor;
 
-use calamine::{Data, DataType, Reader, SheetVisible, Sheets, Xlsx, XlsxError, open_workbook_auto_from_rs};
+use calamine::open_workbook_auto_from_rs;
+use calamine::{Cell, Data, DataType, Range, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
 
 use super::decode::plain;
 use super::error::{InputError, expect_few_cells};
 use crate::source::guarded;
-
-/// A text, and its row and column from 0.
-struct SheetCell {
-    row: u32,
-    column: u32,
-    text: String,
-}
 
 /// Whether bytes can be a workbook.
 pub fn is_workbook(bytes: &[u8]) -> bool {
@@ -63,15 +57,14 @@ fn expect_few_announced(bytes: &[u8]) -> Result<(), InputError> {
 }
 
 /// The cells of a sheet that have a text.
-fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<SheetCell>, InputError> {
+fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>, InputError> {
     let mut cells = Vec::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
         Sheets::Xlsb(workbook) => {
             let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
             while let Some(cell) = reader.next_cell().map_err(InputError::damaged)? {
-                let ((row, column), value) = (cell.get_position(), cell.get_value().clone().into());
-                cells.push(SheetCell { row, column, text: text(&value, None) });
+                cells.push(Cell::new(cell.get_position(), text(&cell.get_value().clone().into(), None)));
                 expect_few_cells(cells.len())?;
             }
         }
@@ -80,19 +73,19 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
             let formulas = others.worksheet_formula(sheet).map_err(InputError::damaged)?;
             let (top, left) = range.start().unwrap_or_default();
             for (row, column, value) in range.cells() {
-                let (row, column) = (top + row as u32, left + column as u32);
-                cells.push(SheetCell { row, column, text: text(value, formulas.get_value((row, column))) });
+                let place = (top + row as u32, left + column as u32);
+                cells.push(Cell::new(place, text(value, formulas.get_value(place))));
                 expect_few_cells(cells.len())?;
             }
         }
     }
-    cells.retain(|cell| !cell.text.is_empty());
+    cells.retain(|cell| !cell.get_value().is_empty());
     Ok(cells)
 }
 
 /// Reads a sheet twice, for formulas and values: the places of the former hold for values too, of which the
 /// reader skips those that it does not know, such as the error #SPILL!.
-fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<SheetCell>, InputError> {
+fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>, InputError> {
     let mut formulas = Vec::new();
     match workbook.worksheet_cells_reader(sheet) {
         Err(XlsxError::NotAWorksheet(_)) => return Ok(Vec::new()),
@@ -111,26 +104,21 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
             Err(XlsxError::CellError(error)) => Data::String(error),
             Err(error) => return Err(InputError::damaged(error)),
         };
-        let (row, column) = formula.get_position();
-        Ok(SheetCell { row, column, text: text(&value, Some(formula.get_value())) })
+        Ok(Cell::new(formula.get_position(), text(&value, Some(formula.get_value()))))
     });
     cells.collect()
 }
 
 /// The rows between the first and the last cells, with the number of the first.
-fn in_rows(cells: Vec<SheetCell>) -> Result<(usize, Vec<Vec<String>>), InputError> {
-    let of = |place: fn(&SheetCell) -> u32| {
-        let places = || cells.iter().map(place);
-        let first = places().min().unwrap_or_default() as usize;
-        (first, places().max().unwrap_or_default() as usize + 1 - first)
-    };
-    let ((top, height), (left, width)) = (of(|cell| cell.row), of(|cell| cell.column));
-    expect_few_cells(height.saturating_mul(width))?;
-    let mut rows = vec![vec![String::new(); width]; height];
-    for SheetCell { row, column, text } in cells {
-        rows[row as usize - top][column as usize - left] = text;
-    }
-    Ok((top + 1, rows))
+fn in_rows(mut cells: Vec<Cell<String>>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+    cells.sort_by_key(Cell::get_position);
+    let columns = || cells.iter().map(|cell| cell.get_position().1 as usize);
+    let width = columns().max().unwrap_or_default() + 1 - columns().min().unwrap_or_default();
+    let [first, last] =
+        [cells.first(), cells.last()].map(|cell| cell.map_or(0, |cell| cell.get_position().0));
+    expect_few_cells((last as usize + 1 - first as usize).saturating_mul(width))?;
+    let rows = Range::from_sparse(cells);
+    Ok((first as usize + 1, rows.rows().map(<[String]>::to_vec).collect()))
 }
 
 /// The text of a cell; that of its formula where no program has computed the value.

@@ -11,21 +11,25 @@ use crate::inputs::{Grid, Heading, InputError};
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
 pub fn name_fields(grid: &mut Grid) {
     for heading in &mut grid.headings {
-        match heading.text.as_str() {
-            "gmv_PGA" => *heading = Heading::new("PGA (g)"),
-            "gmv_PGV" => *heading = Heading::new("PGV (cm/s)"),
-            _ => {}
-        }
+        *heading = match heading.text.as_str() {
+            "gmv_PGA" => Heading::new("PGA (g)"),
+            "gmv_PGV" => Heading::new("PGV (cm/s)"),
+            _ => continue,
+        };
     }
 }
 
 /// Reads a curve: the probability of exceedance of each level, in g or cm/s.
 pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
-    let (measure, unit) = match exported(grid, "imt")? {
-        "PGA" => (Imt::Pga, G_M_S2),
-        "PGV" => (Imt::Pgv, 1.0 / CM_PER_M),
-        "SA(1.0)" => (Imt::Spectral, G_M_S2),
-        name => return Err(InputError::unexpected(format!("a curve of {name}"), "PGA, PGV or SA(1.0)")),
+    let (measure, unit) = match noted(grid, "imt") {
+        Some("PGA") => (Imt::Pga, G_M_S2),
+        Some("PGV") => (Imt::Pgv, 1.0 / CM_PER_M),
+        Some("SA(1.0)") => (Imt::Spectral, G_M_S2),
+        other => {
+            let found =
+                format!("a curve of {}", other.unwrap_or("a measure (imt) that its header does not name"));
+            return Err(InputError::unexpected(found, "PGA, PGV or SA(1.0)"));
+        }
     };
     let unknown = || InputError::unexpected("no years after investigation_time", "the file as exported");
     let frequency = Frequency::ProbabilityIn(investigation_years(grid).ok_or_else(unknown)?);
@@ -67,12 +71,6 @@ fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
 /// The years that probabilities are for, by the header.
 pub fn investigation_years(grid: &Grid) -> Option<f64> {
     noted(grid, "investigation_time")?.parse().ok()
-}
-
-/// What the header says after a key.
-fn exported<'a>(grid: &'a Grid, key: &str) -> Result<&'a str, InputError> {
-    let found = || format!("no {key} in the header of OpenQuake");
-    noted(grid, key).ok_or_else(|| InputError::unexpected(found(), "the file as it was exported"))
 }
 
 /// What a comment says after a key: of 760 in `vs30=760.0`, `Vs30: 760 m/s` or `# vs30 = '760'`.
