@@ -12,7 +12,6 @@ use crate::source;
 /// The line above the table of records in PEER's search results, which have others.
 const PEER: &str = "Summary of Metadata of Selected Records";
 
-/// What a table says about records.
 #[derive(Debug, Default)]
 pub struct About {
     /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
@@ -21,9 +20,7 @@ pub struct About {
     pub unused: Vec<String>,
 }
 
-/// What is known of a record.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(missing_docs, reason = "the names say it")]
 pub struct RecordMetadata {
     pub mw: Option<f64>,
     pub re_km: Option<f64>,
@@ -74,7 +71,6 @@ impl About {
         Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
     }
 
-    /// What the table says of a file.
     pub fn get(&self, file: &Path) -> Option<&RecordMetadata> {
         let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
         // RSN6_IMPVALL.I_I-ELC180.AT2

@@ -4,7 +4,6 @@ use rockfrag_core::hazard::{HazardError, MatchError};
 
 /// What is wrong with a file. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the message says it")]
 pub enum InputError {
     #[error("{1}")]
     Unreadable(std::io::ErrorKind, String),
@@ -103,7 +102,6 @@ impl InputError {
         InputError::Damaged(error.to_string())
     }
 
-    /// The error with the name of its file.
     pub fn in_file(self, path: &Path) -> InputError {
         InputError::File { path: path.display().to_string(), error: Box::new(self) }
     }

@@ -4,13 +4,11 @@ use rockfrag_core::object::Place;
 
 use super::words::{is_one_of, joined, means};
 
-/// Height of a storey, m.
 const STOREY_M: f64 = 3.5;
 
 /// Standard deviation of ln(period) of a building of a known type.
 const SD_OF_TYPE: f64 = 0.25;
 
-/// A floor of a building.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Storey {
     /// The ground floor by its name, or a basement, which moves with the ground.

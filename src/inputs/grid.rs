@@ -132,7 +132,6 @@ impl Grid {
         Some(self.cell(row, column)).filter(|cell| cell.starts_with('#') || !is_missing(cell))
     }
 
-    /// Whether the numbers of a cell are percent.
     pub fn is_percent(&self, row: usize, column: usize) -> bool {
         self.headings[column].is_percent || self.cell(row, column).ends_with('%')
     }
@@ -241,7 +240,6 @@ fn is_comment(line: &str) -> bool {
     ["#", "%", "//"].iter().any(|sign| line.starts_with(sign))
 }
 
-/// Removes the sign of a comment.
 fn uncommented(text: &str) -> &str {
     if is_comment(text) { text.trim_start_matches(['#', '%', '/', ' ']) } else { text }
 }

@@ -9,7 +9,6 @@ const LONGEST: usize = 100;
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
-    /// Text in the file.
     pub text: String,
     /// Letters and digits in lower case, joined by hyphens: `pga` of `PGA [g]` and of `pga_g`.
     pub name: String,

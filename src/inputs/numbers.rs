@@ -8,7 +8,6 @@ use super::heading::Heading;
 /// What may be decimal or stand between thousands.
 const SIGNS: [char; 2] = ['.', ','];
 
-/// What a sign between digits is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Sign {
     Decimal,
@@ -17,7 +16,6 @@ enum Sign {
     Unclear,
 }
 
-/// How the numbers of a column are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DecimalNotation {
     /// Of points and of commas.
@@ -49,11 +47,9 @@ pub struct Evidence {
     largest: f64,
 }
 
-/// Cells without a value.
 const MISSING: [&str; 12] =
     ["", "-", "--", "\u{2013}", "na", "n/a", "n.a.", "#n/a", "nan", "null", "none", "missing"];
 
-/// Whether a cell says that it has no value.
 pub fn is_missing(cell: &str) -> bool {
     MISSING.contains(&cell.trim().to_lowercase().as_str())
 }
@@ -65,7 +61,6 @@ pub fn is_number(cell: &str) -> bool {
     notations.any(|signs| DecimalNotation { signs, may_be_shares: false }.number(cell).is_some())
 }
 
-/// Splits a percent sign off.
 fn share(cell: &str) -> (&str, f64) {
     cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01))
 }
@@ -76,7 +71,6 @@ impl Evidence {
         Evidence { has_percent, ..Evidence::default() }
     }
 
-    /// Adds what a cell shows.
     pub fn add(&mut self, cell: &str) {
         if !cell.contains(|sign: char| sign.is_ascii_digit()) || !is_number(cell) {
             return;

@@ -14,13 +14,10 @@ use super::words::{is_one_of, joined, means, synonyms};
 use super::{Grid, Heading, InputError, Renames};
 use crate::number::rounded;
 
-/// What a column is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ColumnRole {
     Name,
-    /// What is known of an object.
     Known(Field),
-    /// The number of such objects.
     Count,
     /// The unit of lengths.
     Unit,
@@ -30,7 +27,6 @@ enum ColumnRole {
     Storey,
     /// The number of storeys of its building.
     Storeys,
-    /// The type of its building.
     Building,
     /// A property of the object that is not understood.
     Unclear,
@@ -45,13 +41,11 @@ const HIGHEST_FLOOR: f64 = 50.0;
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListDefaults {
-    /// The number of the ground floor, if it is given.
     pub ground_floor: Option<u32>,
     /// Where objects stand that do not say so themselves.
     pub place: Place,
 }
 
-/// A list: its columns by what they say.
 struct List<'a> {
     grid: &'a Grid,
     columns: Vec<ColumnRole>,
@@ -196,7 +190,6 @@ impl List<'_> {
         self.columns.iter().position(|column| *column == wanted)
     }
 
-    /// The texts of the headings of this kind.
     fn headings(&self, wanted: ColumnRole) -> impl Iterator<Item = &str> {
         let all = self.grid.headings.iter().zip(&self.columns).filter(move |(_, column)| **column == wanted);
         all.map(|(heading, _)| heading.text.as_str()).filter(|text| !text.is_empty())
@@ -266,7 +259,6 @@ impl List<'_> {
         self.cell(row, ColumnRole::Storey).or(self.cell(row, ColumnRole::Known(Field::Level))).is_some()
     }
 
-    /// The object of a row, or what is wrong with it.
     fn object(&self, row: usize) -> Result<Object, String> {
         let mut object = Object::default();
         for (at, column) in self.columns.iter().enumerate() {

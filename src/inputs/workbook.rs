@@ -9,7 +9,6 @@ use super::decode::plain;
 use super::error::{InputError, expect_few_cells};
 use crate::source::guarded;
 
-/// Whether bytes can be a workbook.
 pub fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
 }

@@ -52,7 +52,6 @@ struct CurvePoint {
     column: usize,
 }
 
-/// A curve, and the file that it is from.
 struct Curve {
     measure: Imt,
     statistic: Statistic,

@@ -19,7 +19,6 @@ pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
     total.map_or(Ok(()), |(row, at)| Err(grid.refusal(row, at, "motions alone")))
 }
 
-/// The motions in the rows of a table.
 pub struct MotionTable {
     /// Peaks as they are given, perhaps beyond any record.
     pub given: Vec<Peaks>,

@@ -24,12 +24,10 @@ const PEAK: usize = 63;
 const PEAK_ROUNDING: f64 = 1e-4;
 const MS_PER_S: f64 = 1000.0;
 
-/// Returns whether the first line names the format.
 pub fn recognises(lines: &[&str]) -> bool {
     lines.first().is_some_and(|line| after(line, "(format v").is_some())
 }
 
-/// Reads the accelerations of a COSMOS file, in order.
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
     let mut motions = Vec::new();
     let mut channel = Channel::default();
@@ -95,7 +93,6 @@ fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The header of one channel.
 #[derive(Default)]
 struct Channel<'a> {
     header: Vec<&'a str>,

@@ -28,7 +28,6 @@ const PROCESSED: [&str; 5] = ["filtered", "corrected", "uncorrected", "raw", "pr
 const OTHERS: [(&str, &[&str]); 2] =
     [("a spectrum", &["sa", "psa", "psv", "period", "freq", "spectr"]), ("jerk", &["jerk"])];
 
-/// A table of samples.
 struct Samples<'a> {
     grid: Grid,
     quantities: Vec<Option<Quantity>>,
@@ -39,7 +38,6 @@ struct Samples<'a> {
     options: &'a ReadOptions,
 }
 
-/// Reads the motions in a table.
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
     let table = Samples::new(Grid::parse(bytes, None)?, options)?;
     if options.column.as_deref() == Some("all") {

@@ -12,12 +12,10 @@ use crate::inputs::InputError;
 /// Largest number of header lines.
 const HEADER: usize = 200;
 
-/// Returns whether the header has the key of the sampling interval.
 pub fn recognises(lines: &[&str]) -> bool {
     field(header(lines), "SAMPLING_INTERVAL_S:").is_some()
 }
 
-/// Reads the motion of an ESM file.
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
     let header = header(lines);
     let end = header.len();
@@ -57,7 +55,6 @@ fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
     &lines[..end]
 }
 
-/// Joins the values of keys.
 fn joined(header: &[&str], keys: [&str; 3]) -> Option<String> {
     let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(field(header, key)?.1)).collect();
     single_spaced(&parts.join(" "))

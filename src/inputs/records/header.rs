@@ -23,7 +23,6 @@ pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Resu
     expect_step(options.dt_s, dt_s, line)
 }
 
-/// Checks that a time step (s) is the given one.
 pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, InputError> {
     let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
     other.map_or(Ok(dt_s), |given| {
@@ -60,7 +59,6 @@ pub fn field<'a>(header: &[&'a str], key: &str) -> Option<(usize, &'a str)> {
     (1..).zip(values).find(|(_, value)| !value.is_empty())
 }
 
-/// Finds the number of a key, with the number of its line.
 pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
     field(header, key).and_then(|(line, value)| Some((line, leading_number(value)?)))
 }
@@ -106,7 +104,6 @@ pub fn leading_number(text: &str) -> Option<f64> {
     (1..=end).rev().find_map(|end| plain_number(&text[..end]))
 }
 
-/// Reads the first number in a text.
 pub fn first_number(text: &str) -> Option<f64> {
     let starts = text.match_indices(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
     starts.map(|(at, _)| &text[at..]).find_map(leading_number)

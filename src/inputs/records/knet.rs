@@ -14,12 +14,10 @@ use crate::inputs::InputError;
 /// Largest number of header lines.
 const HEADER: usize = 40;
 
-/// Returns whether the first line has the first key.
 pub fn recognises(lines: &[&str]) -> bool {
     lines.first().is_some_and(|line| line.trim_start().starts_with("Origin Time"))
 }
 
-/// Reads the motion of a K-NET or KiK-net file.
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let memo = lines.iter().take(HEADER).position(|line| line.trim_start().starts_with("Memo"));

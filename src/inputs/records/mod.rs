@@ -29,7 +29,6 @@ use super::{InputError, decode, words};
 /// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
-#[expect(missing_docs, reason = "the words say it")]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<RecordFormat>)]
 pub enum RecordFormat {
@@ -42,20 +41,16 @@ pub enum RecordFormat {
     Csv,
 }
 
-/// Options for reading files.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
     /// None: detected from the content.
     pub format: Option<RecordFormat>,
-    /// Time between samples, s.
     pub dt_s: Option<f64>,
-    /// Unit of the samples.
     pub unit: Option<Unit>,
     /// Column of the acceleration in a CSV file: number from 1, heading, or `all` for a series over lines.
     pub column: Option<String>,
 }
 
-/// Whether a component is vertical.
 pub fn is_vertical(origin: &Origin) -> bool {
     origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
 }

@@ -14,7 +14,6 @@ use crate::inputs::InputError;
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
-/// Returns whether the header has a line with the number of samples.
 pub fn recognises(lines: &[&str]) -> bool {
     line_of_counts(lines).is_some()
 }
@@ -33,7 +32,6 @@ fn are_counts(line: &str) -> bool {
     matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
 }
 
-/// Reads the motion of an AT2 file.
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
