@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use rockfrag_core::plausibility::{DISTANCES_KM, MAGNITUDES};
-
 use super::words::means;
 use super::{Grid, Heading, InputError, decode};
 use crate::source;
@@ -51,8 +49,8 @@ impl About {
         {
             return Err(InputError::unexpected(format!("column '{}'", heading.text), "km"));
         }
-        let mw = grid.known(magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?;
-        let re_km = grid.known(distance, &DISTANCES_KM, "a distance from 0 to 1000 km")?;
+        let mw = grid.known(magnitude, "mw")?;
+        let re_km = grid.known(distance, "re_km")?;
         let mut all = HashMap::new();
         for (row, line) in grid.lines.iter().enumerate() {
             let earthquake = earthquake.and_then(|at| grid.value(row, at)).map(str::to_string);
@@ -66,8 +64,8 @@ impl About {
                 }
             }
         }
-        let unused = (0..grid.headings.len())
-            .filter(|at| !files.contains(at) && number != Some(*at) && !columns.contains(&Some(*at)));
+        let used: Vec<usize> = columns.into_iter().chain([number]).flatten().chain(files).collect();
+        let unused = (0..grid.headings.len()).filter(|at| !used.contains(at));
         Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
     }
 

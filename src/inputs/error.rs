@@ -2,6 +2,10 @@ use std::path::Path;
 
 use rockfrag_core::hazard::{HazardError, MatchError};
 
+pub(super) const THOUSANDS: &str = "decimal, or between thousands? Write 1029 or 1.0290";
+pub(super) const PERCENT: &str = "percent, or a share that the workbook shows as percent? Save the sheet as \
+                                  CSV, or write 0.1 for 10 % under a heading without %";
+
 /// What is wrong with a file. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum InputError {
@@ -21,15 +25,8 @@ pub enum InputError {
     Cells { line: usize, found: usize, expected: usize },
     #[error("line {line}, column '{heading}': '{found}'; expected {expected}")]
     Cell { line: usize, heading: String, found: String, expected: String },
-    #[error(
-        "line {line}, column '{heading}': '{found}': decimal, or between thousands? Write 1029 or 1.0290"
-    )]
-    Thousands { line: usize, heading: String, found: String },
-    #[error(
-        "line {line}, column '{heading}': '{found}': percent, or a share that the workbook shows as percent? \
-         Save the sheet as CSV, or write 0.1 for 10 % under a heading without %"
-    )]
-    Percent { line: usize, heading: String, found: String },
+    #[error("line {line}, column '{heading}': '{found}': {question}")]
+    Unclear { line: usize, heading: String, found: String, question: &'static str },
     #[error("'{heading}' and '{unit}' have different units")]
     Units { heading: String, unit: String },
     #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
@@ -63,14 +60,11 @@ pub enum InputError {
     Count { announced: u64, found: usize },
     #[error("PGA {header_m_s2:.5} m/s2 in the header, {found_m_s2:.5} m/s2 in the samples; check the unit")]
     Peak { header_m_s2: f64, found_m_s2: f64 },
-    #[error(
-        "line {line}: {found} cells among lines of {expected}; expected a short line at the end alone: several \
-         series, or damage?"
-    )]
+    #[error("line {line}: {found} cells among lines of {expected}: several series, or damage?")]
     ShortLine { line: usize, found: usize, expected: usize },
     #[error(
-        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s; expected even times: a gap, or exchanged \
-         headings? Rounded times? Give --dt"
+        "line {line}: a step of {found_s:.6} s among {expected_s:.6} s: a gap, or exchanged headings? Rounded \
+         times? Give --dt"
     )]
     UnevenTime { line: usize, found_s: f64, expected_s: f64 },
     #[error("{columns}; expected one of acceleration: choose with --column, or --column all if lines wrap")]

@@ -1,13 +1,14 @@
 //! A table: cells under headings, as people and agencies write it.
 
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
+use rockfrag_core::plausibility::range_of_column;
 use rockfrag_core::units::Unit;
 
 use super::decode::decode;
-use super::error::{InputError, expect_few_cells};
+use super::error::{InputError, PERCENT, THOUSANDS, expect_few_cells};
 use super::heading::Heading;
 use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
 use super::unpack::unpack_one;
@@ -141,19 +142,14 @@ impl Grid {
         let (cell, notation) = (self.cell(row, column), self.notations[column]);
         let has_sign = cell.ends_with('%');
         let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
-        let place = || (self.lines[row], self.name_of(column), cell.to_string());
-        match notation.number(cell) {
-            Some(_) if notation.may_be_shares && !has_sign => {
-                let (line, heading, found) = place();
-                Err(InputError::Percent { line, heading, found })
-            }
-            Some(number) => Ok(size * number),
-            None if notation.is_unclear(cell) => {
-                let (line, heading, found) = place();
-                Err(InputError::Thousands { line, heading, found })
-            }
-            None => Err(self.refusal(row, column, "a number")),
-        }
+        let question = match notation.number(cell) {
+            Some(_) if notation.may_be_shares && !has_sign => PERCENT,
+            Some(number) => return Ok(size * number),
+            None if notation.is_unclear(cell) => THOUSANDS,
+            None => return Err(self.refusal(row, column, "a number")),
+        };
+        let (line, heading, found) = (self.lines[row], self.name_of(column), cell.to_string());
+        Err(InputError::Unclear { line, heading, found, question })
     }
 
     pub fn numbers(&self, column: usize) -> Result<Vec<f64>, InputError> {
@@ -162,36 +158,26 @@ impl Grid {
 
     /// Reads the intensities of a column, in a unit of this size.
     pub fn intensities(&self, column: usize, unit: f64) -> Result<Vec<f64>, InputError> {
-        let expected = "an intensity of 0 or more";
-        self.rows().map(|row| Ok(unit * self.within(row, column, &(0.0..=f64::MAX), expected)?)).collect()
+        let numbers = self.numbers(column)?;
+        match numbers.iter().position(|number| *number < 0.0) {
+            Some(row) => Err(self.refusal(row, column, "an intensity of 0 or more")),
+            None => Ok(numbers.into_iter().map(|number| unit * number).collect()),
+        }
     }
 
-    /// Reads the numbers of a column, if there is one, that must lie in a range where they are known: PEER
-    /// writes -999 for what is not.
-    pub fn known(
-        &self,
-        column: Option<usize>,
-        range: &RangeInclusive<f64>,
-        expected: &str,
-    ) -> Result<Vec<Option<f64>>, InputError> {
+    /// Reads the numbers of a column, if there is one, of what a column of this name has in tables; those that
+    /// are known: PEER writes -999 for what is not.
+    pub fn known(&self, column: Option<usize>, name: &str) -> Result<Vec<Option<f64>>, InputError> {
+        let (range, expected) = range_of_column(name);
         let numbers = self.rows().map(|row| match column.filter(|at| self.value(row, *at).is_some()) {
-            Some(at) if self.number(row, at)? > UNKNOWN => self.within(row, at, range, expected).map(Some),
-            _ => Ok(None),
+            None => Ok(None),
+            Some(at) => match self.number(row, at)? {
+                ..=UNKNOWN => Ok(None),
+                number if range.contains(&number) => Ok(Some(number)),
+                _ => Err(self.refusal(row, at, expected)),
+            },
         });
         numbers.collect()
-    }
-
-    fn within(
-        &self,
-        row: usize,
-        column: usize,
-        range: &RangeInclusive<f64>,
-        expected: &str,
-    ) -> Result<f64, InputError> {
-        match self.number(row, column)? {
-            number if range.contains(&number) => Ok(number),
-            _ => Err(self.refusal(row, column, expected)),
-        }
     }
 
     /// Makes the error of a cell with an unexpected value.

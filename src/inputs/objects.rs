@@ -202,11 +202,11 @@ impl List<'_> {
 
     /// The columns that are not used, named once, and the words that are taken as no value.
     fn doubts(&self) -> Warnings {
-        let (grid, unused) = (self.grid, self.headings(ColumnRole::Unused).collect::<Vec<_>>().join(", "));
-        let mut doubts: Warnings = Some((Warning::UnusedColumns, unused))
-            .filter(|(_, unused)| !unused.is_empty())
-            .into_iter()
-            .collect();
+        let (grid, mut doubts) = (self.grid, Warnings::default());
+        let unused: Vec<&str> = self.headings(ColumnRole::Unused).collect();
+        if !unused.is_empty() {
+            doubts.add(Warning::UnusedColumns, unused.join(", "));
+        }
         for (at, column) in self.columns.iter().enumerate() {
             let mut values = grid.rows().filter_map(|row| grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
@@ -271,8 +271,9 @@ impl List<'_> {
                 ColumnRole::Count => ("count", 1.0),
                 ColumnRole::Unclear => {
                     let text = &self.grid.headings[at].text;
-                    let advice = "rename it (--columns) or leave it out";
-                    return Err(format!("column '{text}' is not understood: {advice}"));
+                    return Err(format!(
+                        "column '{text}' is not understood: rename it (--columns) or leave it out"
+                    ));
                 }
                 _ => continue,
             };
@@ -300,11 +301,7 @@ impl List<'_> {
         match heading.unit.or(own) {
             None => Ok(1.0),
             Some(unit) if Some(unit.quantity) == quantity => Ok(unit.si),
-            Some(unit) => {
-                let is_length = quantity == Some(Quantity::Length);
-                let expected = if is_length { "m, cm or mm" } else { "another unit, or none" };
-                Err(format!("{field} is in {}; expected {expected}", unit.name))
-            }
+            Some(unit) => Err(format!("{field} is in {}; expected another unit, or none", unit.name)),
         }
     }
 

@@ -233,7 +233,6 @@ impl Frequency {
     /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
     pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<Option<f64>, InputError> {
         let number = grid.number(row, column)?;
-        let is_share = (0.0..1.0).contains(&number);
         let (rate, expected) = match self {
             Frequency::Rate | Frequency::Occurrence if grid.is_percent(row, column) => {
                 (None, "a rate a year, such as 0.002; percent are probabilities")
@@ -243,10 +242,10 @@ impl Frequency {
             }
             Frequency::ReturnPeriod => ((number > 0.0).then_some(1.0 / number), "years above 0"),
             Frequency::ProbabilityIn(_) if number == 1.0 => return Ok(None),
-            Frequency::ProbabilityIn(years) => (
-                is_share.then(|| -(-number).ln_1p() / years),
-                "a probability from 0 to 1, or with a percent sign",
-            ),
+            Frequency::ProbabilityIn(years) => {
+                let rate = (0.0..1.0).contains(&number).then(|| -(-number).ln_1p() / years);
+                (rate, "a probability from 0 to 1, or with a percent sign")
+            }
         };
         rate.map(Some).ok_or_else(|| grid.refusal(row, column, expected))
     }

@@ -125,8 +125,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputErro
         hazard.is_median = used.iter().any(|curve| curve.statistic == Statistic::Median);
         hazard.fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
         if let (Some(pga), Some(pgv)) = (pga, pgv) {
-            let by_curves = PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?;
-            hazard.pgv_pga = Some(by_curves);
+            hazard.pgv_pga = Some(PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?);
         }
     }
     Ok(hazard)
@@ -178,20 +177,19 @@ impl Found {
         let occurrence = columns.iter().find(|column| column.frequency == Some(Frequency::Occurrence));
         let occurrence = occurrence.map(|column| column.at);
         let is_joint = are_fields || occurrence.is_some();
-        let before = self.curves.len();
         if is_joint {
             self.joint = Some(joint(&grid, occurrence, effective_years, &mut self.warnings)?);
         } else {
+            let before = self.curves.len();
             for values in columns.iter().filter(|column| column.unit.is_some()) {
                 for rates in columns.iter().filter(|column| column.frequency.is_some()) {
-                    if let Some(curve) = curve_of(&grid, values, rates, path)? {
-                        self.add_curve(curve)?;
-                    }
+                    let curve = curve_of(&grid, values, rates, path)?;
+                    curve.map_or(Ok(()), |curve| self.add_curve(curve))?;
                 }
             }
-        }
-        if !is_joint && before == self.curves.len() {
-            return Err(not_understood(&grid, &columns));
+            if before == self.curves.len() {
+                return Err(not_understood(&grid, &columns));
+            }
         }
         for column in columns.iter().filter(|_| !are_fields && !grid.lines.is_empty()) {
             let heading = &grid.headings[column.at];
@@ -341,6 +339,9 @@ fn joint(
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
         return Err(InputError::unexpected(found, "both, or rates of exceedance"));
     };
+    if given.is_empty() {
+        return Err(InputError::unexpected("no rows", "motions with PGA and PGV"));
+    }
     let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
     for (row, line) in grid.lines.iter().enumerate() {
         let annual_rate = match (occurrence, effective_years) {
@@ -357,8 +358,5 @@ fn joint(
     validate_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
         .and_then(|()| validate_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
         .map_err(InputError::Implausible)?;
-    match bins.is_empty() {
-        true => Err(InputError::unexpected("no rows", "motions with PGA and PGV")),
-        false => Ok(bins),
-    }
+    Ok(bins)
 }

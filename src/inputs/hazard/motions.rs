@@ -2,7 +2,6 @@
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::motion::{Peaks, validate_medians};
-use rockfrag_core::plausibility::MAGNITUDES;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::columns::peak;
@@ -40,7 +39,7 @@ pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTabl
     let magnitude = grid.about("magnitude");
     let both = grid.intensities(pga, pga_unit)?.into_iter().zip(grid.intensities(pgv, pgv_unit)?);
     let given: Vec<Peaks> = both.map(|(pga_m_s2, pgv_m_s)| Peaks { pga_m_s2, pgv_m_s }).collect();
-    let mw = grid.known(magnitude, &MAGNITUDES, "a magnitude from 1 to 9.9")?;
+    let mw = grid.known(magnitude, "mw")?;
     validate_medians(given.iter().copied()).map_err(InputError::Implausible)?;
     let beyond = given.iter().filter(|peaks| **peaks != peaks.clamp_to_recorded()).count();
     if beyond > 0 {
