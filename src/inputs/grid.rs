@@ -57,8 +57,7 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid, InputError> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            let (first, cells) = workbook::cells(&bytes, sheet)?;
-            return Grid::new(rows_of_sheet(first, cells), None);
+            return Grid::new(rows_of_sheet(&workbook::cells(&bytes, sheet)?), None);
         }
         let text = decode(&bytes)?;
         expect_few_cells(text.matches(['\n', '\t', ',', ';']).count())?;
@@ -217,9 +216,10 @@ fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>, InputErr
     Ok(rows.collect())
 }
 
-fn rows_of_sheet(first: usize, cells: Vec<Vec<String>>) -> Vec<RawRow> {
-    let rows = (first..).zip(cells).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
-    rows.map(|(line, cells)| RawRow { line, is_comment: false, cells: StringRecord::from(cells) }).collect()
+fn rows_of_sheet(sheet: &calamine::Range<String>) -> Vec<RawRow> {
+    let first = sheet.start().map_or(1, |(row, _)| row as usize + 1);
+    let rows = (first..).zip(sheet.rows()).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+    rows.map(|(line, cells)| RawRow { line, is_comment: false, cells: cells.iter().collect() }).collect()
 }
 
 fn is_comment(line: &str) -> bool {

@@ -80,12 +80,11 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING renames one"),
         Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING renames one"),
     };
-    let mut found = Vec::new();
-    for name in names {
-        if let Some((_, unit)) = peak(&Heading::new(name)).filter(|(peak, _)| *peak == wanted) {
-            found.push((*name, unit));
-        }
-    }
+    let found = names.iter().filter_map(|name| {
+        let (peak, unit) = peak(&Heading::new(name))?;
+        (peak == wanted).then_some((*name, unit))
+    });
+    let found: Vec<(&str, f64)> = found.collect();
     match (found.iter().find(|(name, _)| *name == own), &found[..]) {
         (Some(column), _) | (None, [column]) => Ok(*column),
         (None, []) => Err(InputError::unexpected(format!("columns {}", names.join(", ")), expected)),

@@ -24,8 +24,7 @@ pub struct DecimalNotation {
     pub may_be_shares: bool,
 }
 
-/// Where a sign stands: where it is decimal, between thousands, or where it may be either: with one to three
-/// digits before it and three behind.
+/// What cells show of a sign: that it is decimal, between thousands, or that it may be either.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     decimal: bool,
@@ -54,11 +53,16 @@ pub fn is_missing(cell: &str) -> bool {
     MISSING.contains(&cell.trim().to_lowercase().as_str())
 }
 
+/// The number in a cell if points are decimal, and if commas are.
+fn by_country(cell: &str) -> [Option<f64>; 2] {
+    use Sign::{Decimal, Thousands};
+    [[Decimal, Thousands], [Thousands, Decimal]]
+        .map(|signs| DecimalNotation { signs, may_be_shares: false }.number(cell))
+}
+
 /// Whether a cell is a number in some country.
 pub fn is_number(cell: &str) -> bool {
-    use Sign::{Decimal, Thousands};
-    let mut notations = [[Decimal, Decimal], [Thousands, Decimal], [Decimal, Thousands]].into_iter();
-    notations.any(|signs| DecimalNotation { signs, may_be_shares: false }.number(cell).is_some())
+    by_country(cell).iter().any(Option::is_some)
 }
 
 fn share(cell: &str) -> (&str, f64) {
@@ -72,32 +76,30 @@ impl Evidence {
     }
 
     pub fn add(&mut self, cell: &str) {
-        if !cell.contains(|sign: char| sign.is_ascii_digit()) || !is_number(cell) {
+        let by_country = by_country(cell);
+        if by_country == [None; 2] {
             return;
         }
         self.has_percent |= cell.ends_with('%');
         self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
-        let digits = share(cell).0.trim_start_matches(['+', '-']);
-        let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
-        match SIGNS.map(|sign| digits.rfind(sign)) {
-            [None, None] => {
+        let [has_point, has_comma] = SIGNS.map(|sign| cell.contains(sign));
+        let [point, comma] = &mut self.signs;
+        match by_country {
+            [Some(_), None] => {
+                point.decimal |= has_point;
+                comma.thousands |= has_comma;
+            }
+            [None, _] => {
+                comma.decimal |= has_comma;
+                point.thousands |= has_point;
+            }
+            _ if has_point => point.either = true,
+            _ if has_comma => comma.either = true,
+            _ => {
+                let digits = share(cell).0.trim_start_matches(['+', '-']);
+                let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
                 self.hundreds |= digits.len() == 3;
                 self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
-            }
-            [Some(point), Some(comma)] => {
-                let last = usize::from(comma > point);
-                self.signs[last].decimal = true;
-                self.signs[1 - last].thousands = true;
-            }
-            [point, _] => {
-                let at = usize::from(point.is_none());
-                let seen = &mut self.signs[at];
-                match digits.split(SIGNS[at]).collect::<Vec<_>>()[..] {
-                    ["0" | "", _] => seen.decimal = true,
-                    [whole, rest] if rest.len() == 3 && whole.len() <= 3 => seen.either = true,
-                    [_, _] => seen.decimal = true,
-                    _ => seen.thousands = true,
-                }
             }
         }
     }
@@ -137,9 +139,18 @@ impl DecimalNotation {
     /// Reads a number; 10 % is 0.1.
     pub fn number(self, cell: &str) -> Option<f64> {
         let (text, size) = share(cell);
-        let is_plain = self.signs[0] == Sign::Decimal && !text.contains([',', '\'', ' ']);
-        let unparted = if is_plain { Cow::Borrowed(text) } else { Cow::Owned(self.unparted(text)?) };
-        plain_number(&unparted).map(|value| size * value)
+        let mut text = Cow::Borrowed(text);
+        let others = [('\'', Sign::Thousands), (' ', Sign::Thousands)];
+        for (sign, known) in SIGNS.into_iter().zip(self.signs).chain(others) {
+            match known {
+                _ if !text.contains(sign) => {}
+                Sign::Thousands => text = without(&text, sign)?.into(),
+                Sign::Decimal if sign == ',' => text = text.replacen(sign, ".", 1).into(),
+                Sign::Decimal => {}
+                Sign::Unclear => return None,
+            }
+        }
+        plain_number(&text).map(|value| size * value)
     }
 
     /// Whether a cell is a number but for a sign that may be decimal or not.
@@ -147,33 +158,17 @@ impl DecimalNotation {
         let mut signs = SIGNS.into_iter().zip(self.signs);
         signs.any(|(sign, known)| known == Sign::Unclear && cell.contains(sign)) && is_number(cell)
     }
-
-    /// The number with a decimal point, without what stands between its thousands.
-    fn unparted(self, text: &str) -> Option<String> {
-        let others = [('\'', Sign::Thousands), (' ', Sign::Thousands)];
-        let mut text = text.to_string();
-        for (sign, known) in SIGNS.into_iter().zip(self.signs).chain(others) {
-            match known {
-                Sign::Thousands => text = without(&text, sign)?,
-                Sign::Unclear if text.contains(sign) => return None,
-                Sign::Unclear | Sign::Decimal => {}
-            }
-        }
-        Some(text.replacen(',', ".", 1))
-    }
 }
 
 /// Removes a sign between thousands; none where it stands elsewhere.
 fn without(text: &str, sign: char) -> Option<String> {
-    if !text.contains(sign) {
-        return Some(text.to_string());
-    }
     let (start, digits) = text.split_at(text.len() - text.trim_start_matches(['+', '-']).len());
     let end = digits.find(|c: char| !c.is_ascii_digit() && c != sign).unwrap_or(digits.len());
     let (whole, rest) = digits.split_at(end);
     let (first, others) = whole.split_once(sign)?;
-    let are_groups = (1..=3).contains(&first.len()) && others.split(sign).all(|group| group.len() == 3);
-    (are_groups && !rest.contains(sign)).then(|| format!("{start}{}{rest}", whole.replace(sign, "")))
+    let are_groups = matches!(first.len(), 1..=3) && others.split(sign).all(|group| group.len() == 3);
+    let is_parted = are_groups && !first.starts_with('0') && !rest.contains(sign);
+    is_parted.then(|| format!("{start}{}{rest}", whole.replace(sign, "")))
 }
 
 /// Reads a number with a decimal point; Fortran's exponents begin with D.

@@ -13,15 +13,14 @@ pub fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
 }
 
-/// Reads the cells of the sheet with this name, or of the only visible one that has any, with the number of
-/// the first row.
-pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+/// Reads the cells of the sheet with this name, or of the only visible one that has any.
+pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
     let damaged = || Err(InputError::damaged("its cells cannot be read"));
     expect_few_announced(bytes)?;
     guarded(|| read(bytes, name)).unwrap_or_else(damaged)
 }
 
-fn read(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
     let mut filled = Vec::new();
@@ -36,8 +35,8 @@ fn read(bytes: &[u8], name: Option<&str>) -> Result<(usize, Vec<Vec<String>>), I
         }
     }
     match &mut filled[..] {
-        [(_, cells)] => in_rows(std::mem::take(cells)),
-        [] if name.is_none() => Ok((1, Vec::new())),
+        [(_, cells)] => in_range(std::mem::take(cells)),
+        [] if name.is_none() => Ok(Range::empty()),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
         _ => Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
     }
@@ -108,16 +107,14 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
     cells.collect()
 }
 
-/// The rows between the first and the last cells, with the number of the first.
-fn in_rows(mut cells: Vec<Cell<String>>) -> Result<(usize, Vec<Vec<String>>), InputError> {
+fn in_range(mut cells: Vec<Cell<String>>) -> Result<Range<String>, InputError> {
     cells.sort_by_key(Cell::get_position);
     let columns = || cells.iter().map(|cell| cell.get_position().1 as usize);
     let width = columns().max().unwrap_or_default() + 1 - columns().min().unwrap_or_default();
     let [first, last] =
         [cells.first(), cells.last()].map(|cell| cell.map_or(0, |cell| cell.get_position().0));
     expect_few_cells((last as usize + 1 - first as usize).saturating_mul(width))?;
-    let rows = Range::from_sparse(cells);
-    Ok((first as usize + 1, rows.rows().map(<[String]>::to_vec).collect()))
+    Ok(Range::from_sparse(cells))
 }
 
 /// The text of a cell; that of its formula where no program has computed the value.

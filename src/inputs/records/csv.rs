@@ -107,15 +107,18 @@ impl Samples<'_> {
         if let Some((heading, what)) = headings.iter().find_map(|heading| Some((heading, other(heading)?))) {
             return Err(self.not_acceleration(format!("'{}': {what}", heading.text)));
         }
-        let named = self.columns(|at| self.quantities[at] == Some(Quantity::Acceleration));
-        let unknown = self.columns(|at| self.quantities[at].is_none() && !self.grid.cell(0, at).is_empty());
+        let quantity = |at: &usize| self.quantities[*at];
+        let (columns, has_cell) = (0..self.quantities.len(), |at: &usize| !self.grid.cell(0, *at).is_empty());
+        let named: Vec<usize> =
+            columns.clone().filter(|at| quantity(at) == Some(Quantity::Acceleration)).collect();
+        let unknown: Vec<usize> = columns.filter(|at| quantity(at).is_none() && has_cell(at)).collect();
         let mut words = named.iter().flat_map(|at| headings[*at].name.split('-'));
         if named.len() > 1 && words.any(|word| PROCESSED.contains(&word)) {
             // The same motion before and after.
             return Err(self.which_column());
         }
-        let mut directions = unknown.clone();
-        directions.retain(|at| direction(&headings[*at]).is_some());
+        let is_direction = |at: &usize| direction(&headings[*at]).is_some();
+        let directions: Vec<usize> = unknown.iter().copied().filter(is_direction).collect();
         match (named.is_empty(), directions.len(), unknown.len()) {
             (false, ..) => Ok(named),
             (.., 1) => Ok(unknown),
@@ -124,10 +127,6 @@ impl Samples<'_> {
             (_, 2.., _) => Ok(directions),
             _ => Err(self.which_column()),
         }
-    }
-
-    fn columns(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<usize> {
-        (0..self.quantities.len()).filter(|at| is_wanted(*at)).collect()
     }
 
     /// The motion of samples under a heading, with the time step (s) found in the file.
@@ -162,9 +161,6 @@ impl Samples<'_> {
                 let expected = "one of acceleration, such as cm/s2, without a factor, or --unit";
                 Err(InputError::value(line, "unit", &heading.text, expected))
             }
-            Some(unit) if unit.quantity != Quantity::Acceleration => {
-                Err(InputError::value(line, "unit", unit.name, "one of acceleration, such as m/s2"))
-            }
             found => header::unit(found, options, line),
         }
     }
@@ -173,9 +169,7 @@ impl Samples<'_> {
     fn step(&self) -> Result<Option<f64>, InputError> {
         let noted = noted_step(&self.grid.notes);
         let Some(times) = self.times else { return Ok(noted) };
-        let step = self.step_between(times)?;
-        expect_step(noted, step, self.line)?;
-        Ok(Some(step))
+        expect_step(noted, self.step_between(times)?, self.line).map(Some)
     }
 
     /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.

@@ -8,6 +8,8 @@ use crate::inputs::{InputError, plain_number};
 
 /// Accepted relative difference of a time step from the option.
 const SAME_STEP: f64 = 0.01;
+/// What is expected of a unit.
+const ACCELERATION: &str = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
 /// The longest time step of a record, s.
 const LONGEST_STEP_S: f64 = 10.0;
 
@@ -31,21 +33,23 @@ pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, In
     })
 }
 
-/// Returns the unit of acceleration at the start of a text, after which more may follow, else the given one.
+/// Returns the unit at the start of a text, after which more may follow, else the given one; see [`unit`].
 pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
     let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';');
-    let word = text.and_then(|text| text.trim_start().split(ends).next());
-    let found = word.and_then(Unit::parse).filter(|unit| unit.quantity == Quantity::Acceleration);
-    match text.filter(|_| found.is_none()) {
-        Some(text) => Err(InputError::value(line, "unit", text, "one of acceleration, such as g or cm/s2")),
-        None => unit(found, options, line),
-    }
+    let found = text.map(|text| {
+        let unit = text.trim_start().split(ends).next().and_then(Unit::parse);
+        unit.ok_or_else(|| InputError::value(line, "unit", text, ACCELERATION))
+    });
+    unit(found.transpose()?, options, line)
 }
 
-/// Returns the unit that a file says on a line, else the given one, which must not contradict it.
+/// Returns the unit of acceleration that a file says on a line, else the given one, which must not contradict.
 pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
-    let expected = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
-    let unit = found.or(options.unit).ok_or(InputError::Missing { line, field: "unit", expected })?;
+    let missing = InputError::Missing { line, field: "unit", expected: ACCELERATION };
+    let unit = found.or(options.unit).ok_or(missing)?;
+    if unit.quantity != Quantity::Acceleration {
+        return Err(InputError::value(line, "unit", unit.name, ACCELERATION));
+    }
     let other = options.unit.filter(|given| unit.si != given.si);
     other.map_or(Ok(unit), |given| {
         let (found, given) = (unit.name.to_string(), given.name.to_string());
