@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use rockfrag_core::records::Origin;
+
 use super::words::means;
 use super::{Grid, Heading, InputError, decode};
 use crate::source;
@@ -13,16 +15,9 @@ const PEER: &str = "Summary of Metadata of Selected Records";
 #[derive(Debug, Default)]
 pub struct About {
     /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
-    known: HashMap<String, RecordMetadata>,
+    known: HashMap<String, Origin>,
     /// Headings of other columns.
     pub unused: Vec<String>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordMetadata {
-    pub mw: Option<f64>,
-    pub re_km: Option<f64>,
-    pub earthquake: Option<String>,
 }
 
 impl About {
@@ -54,7 +49,7 @@ impl About {
         let mut all = HashMap::new();
         for (row, line) in grid.lines.iter().enumerate() {
             let earthquake = earthquake.and_then(|at| grid.value(row, at)).map(str::to_string);
-            let known = RecordMetadata { mw: mw[row], re_km: re_km[row], earthquake };
+            let known = Origin { mw: mw[row], re_km: re_km[row], earthquake, ..Origin::default() };
             let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
             for name in names.chain(number.map(|at| format!("rsn{}", grid.cell(row, at)))) {
@@ -69,7 +64,7 @@ impl About {
         Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
     }
 
-    pub fn get(&self, file: &Path) -> Option<&RecordMetadata> {
+    pub fn get(&self, file: &Path) -> Option<&Origin> {
         let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
         // RSN6_IMPVALL.I_I-ELC180.AT2
         let number = stem.as_deref().and_then(|stem| stem.split('_').next());

@@ -34,7 +34,7 @@ mod unpack;
 pub mod words;
 mod workbook;
 
-pub use about::{About, RecordMetadata};
+pub use about::About;
 pub use decode::decode;
 pub use error::InputError;
 pub use grid::Grid;

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use calamine::open_workbook_auto_from_rs;
-use calamine::{Cell, Data, DataType, Range, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
+use calamine::{Cell, Data, DataType, Range, Reader, Sheet, SheetVisible, Sheets, Xlsx, XlsxError};
 
 use super::decode::plain;
 use super::error::{InputError, expect_few_cells};
@@ -24,12 +24,9 @@ fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
     let mut filled = Vec::new();
-    for sheet in &all {
-        let is_meant = match name {
-            Some(name) => sheet.name == name,
-            None => sheet.visible == SheetVisible::Visible,
-        };
-        let cells = if is_meant { filled_cells(&mut workbook, &sheet.name)? } else { continue };
+    let is_visible = |sheet: &Sheet| sheet.visible == SheetVisible::Visible;
+    for sheet in all.iter().filter(|sheet| name.map_or(is_visible(sheet), |name| sheet.name == name)) {
+        let cells = filled_cells(&mut workbook, &sheet.name)?;
         if !cells.is_empty() {
             filled.push((sheet.name.clone(), cells));
         }

@@ -2,7 +2,6 @@
 //! periods, or what OpenQuake exports: curves, and ground-motion fields.
 
 mod columns;
-mod motions;
 mod openquake;
 
 use std::collections::BTreeMap;
@@ -16,7 +15,7 @@ use rockfrag_core::warning::{Warning, Warnings};
 
 pub use self::columns::peak;
 use self::columns::{Frequency, HazardColumn, Imt, Statistic, noted_statistic};
-pub use self::motions::{MotionTable, expect_motions_alone, motions};
+use super::intensities::{MotionTable, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Renames};
 use crate::number::period;
@@ -231,14 +230,12 @@ impl Found {
         /// North and east.
         const NEAR_KM: f64 = 1.0;
         const KM_PER_DEGREE: f64 = 111.2;
-        let noted = ["lat", "lon", "latitude", "longitude", "vs30"].into_iter();
-        let mut told: Vec<(&str, &str)> =
-            noted.filter_map(|key| Some((key, openquake::noted(grid, key)?))).collect();
-        for (at, heading) in grid.headings.iter().enumerate() {
-            if means(&heading.name, "place") {
-                told.extend(grid.rows().map(|row| (&*heading.name, grid.cell(row, at))));
-            }
-        }
+        let keys = ["lat", "lon", "latitude", "longitude", "vs30"].into_iter();
+        let noted = keys.filter_map(|key| Some((key, openquake::noted(grid, key)?)));
+        let places = grid.headings.iter().enumerate().filter(|(_, heading)| means(&heading.name, "place"));
+        let in_rows =
+            places.flat_map(|(at, heading)| grid.rows().map(move |row| (&*heading.name, grid.cell(row, at))));
+        let mut told: Vec<(&str, &str)> = noted.chain(in_rows).collect();
         // A degree of longitude depends on the latitude.
         told.sort_by_key(|(key, _)| !key.starts_with("lat"));
         for (key, value) in told {

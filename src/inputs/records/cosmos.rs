@@ -2,6 +2,8 @@
 //! comments, each block after a line with its length and Fortran format, then the samples. A file may have
 //! several channels, and velocity and displacement besides acceleration.
 
+use std::ops::RangeInclusive;
+
 use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
 use rockfrag_core::units::Unit;
 
@@ -12,14 +14,12 @@ use super::header::{
 use crate::inputs::InputError;
 use crate::inputs::words::is_vertical;
 
-/// Index of the azimuth among the integers.
+/// Places of the azimuth among the integers, and of the time step (ms) and the peak among the reals.
 const AZIMUTH: usize = 53;
-/// Codes in its place of a component that points up or down, or is vertical.
-const VERTICAL: std::ops::RangeInclusive<f64> = 400.0..=402.0;
-/// Index of the time step (ms) among the reals.
 const TIME_STEP_MS: usize = 61;
-/// Index of the peak, in the unit of the samples, among the reals.
 const PEAK: usize = 63;
+/// Codes in place of an azimuth of a component that points up or down, or is vertical.
+const VERTICAL: RangeInclusive<f64> = 400.0..=402.0;
 /// Relative rounding of the peak.
 const PEAK_ROUNDING: f64 = 1e-4;
 const MS_PER_S: f64 = 1000.0;
@@ -83,14 +83,10 @@ fn layout(text: &str) -> Option<(usize, usize)> {
     (on_line > 0 && width > 0).then_some((on_line, width))
 }
 
-/// Splits a line into fields of one width; the last may be shorter.
+/// Splits a line into fields of one width; the last may be shorter. A letter beyond ASCII is in no number.
 fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
-    let line = line.trim_end();
-    let starts = (0..line.len()).step_by(width);
-    starts.map(move |start| {
-        let end = start.saturating_add(width).min(line.len());
-        line.get(start..end).unwrap_or(line).trim()
-    })
+    let fields = line.trim_end().as_bytes().chunks(width);
+    fields.map(move |field| std::str::from_utf8(field).unwrap_or(line).trim())
 }
 
 #[derive(Default)]

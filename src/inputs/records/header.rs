@@ -70,7 +70,8 @@ pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
 /// Reads the peak acceleration at the start of a text, in a unit of so many m/s2.
 pub fn header_pga(text: &str, unit_m_s2: f64) -> Option<HeaderPga> {
     let value = leading_number(text)?.abs();
-    let digits = text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
+    let digits =
+        text.trim_start().split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
     let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(300));
     let rounding = 0.5 * 10f64.powi(-(decimals as i32));
     (value > 0.0).then_some(HeaderPga { m_s2: value * unit_m_s2, rounding_m_s2: rounding * unit_m_s2 })

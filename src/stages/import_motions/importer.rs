@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use rayon::prelude::*;
 use rockfrag_core::motion::LONGEST_MOTION;
+use rockfrag_core::records::Origin;
 use rockfrag_core::records::processing::{ImportedMotion, NamedRecord, Processing};
 use rockfrag_core::records::rotation::pairs;
 use rockfrag_core::rocking::Record;
@@ -15,7 +16,7 @@ use rockfrag_core::warning::Warning;
 use super::summary::{NotImported, Summary};
 use crate::inputs::records::{self, ReadOptions, read_records};
 use crate::inputs::words::is_vertical;
-use crate::inputs::{About, Member, RecordMetadata, unpack};
+use crate::inputs::{About, Member, unpack};
 use crate::number::counted;
 use crate::pipeline::context::Context;
 use crate::source;
@@ -141,7 +142,7 @@ impl Importer {
         let several = motions.len() > 1;
         let records = (1..).zip(motions).map(|(number, mut motion)| {
             let origin = &mut motion.origin;
-            if let Some(RecordMetadata { mw, re_km, earthquake }) = self.about.get(path).cloned() {
+            if let Some(Origin { mw, re_km, earthquake, .. }) = self.about.get(path).cloned() {
                 origin.mw = mw.or(origin.mw);
                 origin.re_km = re_km.or(origin.re_km);
                 origin.earthquake = earthquake.or(origin.earthquake.take());

@@ -8,7 +8,7 @@ use rockfrag_core::fragility::ObservedOutcome;
 use rockfrag_core::object::structure_warnings;
 use rockfrag_core::warning::{Warning, Warnings};
 
-use crate::inputs::hazard::motions;
+use crate::inputs::intensities::motions;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
