@@ -35,10 +35,7 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, InputError> {
     if web_page.is_some_and(|start| start.starts_with("<!doctype") || start.starts_with("<html")) {
         return Err(InputError::NoTable { found: "a web page" });
     }
-    let text = match text.contains('\r') {
-        true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),
-        false => text,
-    };
+    let text = if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text };
     Ok(if text.is_ascii() { text } else { Cow::Owned(text.chars().map(plain).collect()) })
 }
 
@@ -74,8 +71,6 @@ fn encoding(bytes: &[u8]) -> &'static Encoding {
     }
     // Japanese text has kana, which in Windows-1252 would be rare signs.
     let japanese = SHIFT_JIS.decode_without_bom_handling_and_without_replacement(bytes);
-    match japanese.is_some_and(|text| text.contains(|sign| matches!(sign, '\u{3041}'..='\u{30fe}'))) {
-        true => SHIFT_JIS,
-        false => WINDOWS_1252,
-    }
+    let is_kana = |sign| matches!(sign, '\u{3041}'..='\u{30fe}');
+    if japanese.is_some_and(|text| text.contains(is_kana)) { SHIFT_JIS } else { WINDOWS_1252 }
 }

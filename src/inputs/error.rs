@@ -40,8 +40,8 @@ pub enum InputError {
          --ground-floor 0 if 1 is the floor above it"
     )]
     GroundFloor { heading: String, lowest: u32 },
-    #[error("{found} in any file; found {seen}")]
-    Renamed { found: String, seen: String },
+    #[error("no heading '{heading}' in any file; found {seen}")]
+    Renamed { heading: String, seen: String },
     #[error(transparent)]
     Curve(#[from] HazardError),
     #[error(transparent)]

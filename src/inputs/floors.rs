@@ -5,7 +5,6 @@ use rockfrag_core::object::Place;
 use super::words::{is_one_of, joined, means};
 
 const STOREY_M: f64 = 3.5;
-
 /// Standard deviation of ln(period) of a building of a known type.
 const SD_OF_TYPE: f64 = 0.25;
 

@@ -19,7 +19,6 @@ use crate::source;
 
 /// Rows at the end of a table that show how it is written.
 const SHOWN: usize = 400;
-
 /// Numbers below this stand for what is not known.
 const UNKNOWN: f64 = -99.0;
 

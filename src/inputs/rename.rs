@@ -75,12 +75,9 @@ impl<'a> Renames<'a> {
 
     /// Refuses a heading that no file has.
     pub fn expect_used(self) -> Result<(), InputError> {
-        match self.all.iter().find(|rename| !self.seen.contains(&rename.heading)) {
-            Some(rename) => {
-                let found = format!("no heading '{}'", rename.heading);
-                Err(InputError::Renamed { found, seen: self.seen.join(", ") })
-            }
-            None => Ok(()),
-        }
+        let mut unused = self.all.iter().filter(|rename| !self.seen.contains(&rename.heading));
+        unused.next().map_or(Ok(()), |Rename { heading, .. }| {
+            Err(InputError::Renamed { heading: heading.clone(), seen: self.seen.join(", ") })
+        })
     }
 }

@@ -9,7 +9,6 @@ use super::error::InputError;
 
 /// The most bytes that a file may unpack to, with all that is in it.
 const LARGEST: u64 = 200 << 20;
-
 /// Fewer bytes than an entry of a list takes in a workbook.
 const LEAST_ENTRY: usize = 8;
 

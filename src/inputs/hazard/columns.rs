@@ -24,15 +24,16 @@ pub enum Imt {
     Other,
 }
 
-/// Which of several curves of a measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
-#[strum(serialize_all = "snake_case")]
+/// Which of several curves of a measure, with the words of OpenQuake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumString)]
 pub enum Statistic {
+    #[strum(to_string = "mean", serialize = "hcurve-mean")]
     Mean,
+    #[strum(to_string = "median", serialize = "quantile-0.5", serialize = "quantile-0.50")]
     Median,
-    #[strum(serialize = "16 %")]
+    #[strum(to_string = "16 %", serialize = "quantile-0.16")]
     Low,
-    #[strum(serialize = "84 %")]
+    #[strum(to_string = "84 %", serialize = "quantile-0.84")]
     High,
 }
 

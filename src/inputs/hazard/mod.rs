@@ -166,15 +166,13 @@ impl Found {
             (false, None) => {}
         }
         let years = openquake::investigation_years(&grid);
-        let columns =
-            grid.headings.iter().enumerate().map(|(at, heading)| HazardColumn::new(at, heading, years));
+        let columns = (0..).zip(&grid.headings).map(|(at, heading)| HazardColumn::new(at, heading, years));
         let mut columns: Vec<HazardColumn> = columns.collect();
         if columns.iter().all(|column| column.statistic == Statistic::Mean) {
             let statistic = noted_statistic(&grid)?;
             columns.iter_mut().for_each(|column| column.statistic = statistic);
         }
-        let occurrence = columns.iter().find(|column| column.frequency == Some(Frequency::Occurrence));
-        let occurrence = occurrence.map(|column| column.at);
+        let occurrence = columns.iter().position(|column| column.frequency == Some(Frequency::Occurrence));
         let is_joint = are_fields || occurrence.is_some();
         if is_joint {
             self.joint = Some(joint(&grid, occurrence, effective_years, &mut self.warnings)?);
@@ -264,9 +262,8 @@ impl Found {
 /// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
 /// not understood first.
 fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
-    let (curve, others): (Vec<&HazardColumn>, Vec<&HazardColumn>) =
-        columns.iter().partition(|column| column.is_of_curve());
-    let mut others = others.iter().map(|column| &grid.headings[column.at]);
+    let others = columns.iter().filter(|column| !column.is_of_curve());
+    let mut others = others.map(|column| &grid.headings[column.at]);
     // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
     let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
     if is_uniform || others.clone().any(|heading| means(&heading.name, "spectral-period")) {
@@ -280,7 +277,7 @@ fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
                         under pga_g and annual_rate_of_exceedance";
         return InputError::unexpected(found, expected);
     }
-    let mut values = curve.iter().filter(|column| column.unit.is_some());
+    let mut values = columns.iter().filter(|column| column.unit.is_some());
     let expected = if values.clone().any(|column| column.measure == Some(Imt::Other)) {
         "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
     } else if values.next().is_none() {

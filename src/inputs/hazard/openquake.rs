@@ -26,8 +26,7 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
         Some("PGV") => (Imt::Pgv, 1.0 / CM_PER_M),
         Some("SA(1.0)") => (Imt::Spectral, G_M_S2),
         other => {
-            let found =
-                format!("a curve of {}", other.unwrap_or("a measure (imt) that its header does not name"));
+            let found = format!("a curve of {}", other.unwrap_or("no imt in the header"));
             return Err(InputError::unexpected(found, "PGA, PGV or SA(1.0)"));
         }
     };
@@ -35,10 +34,8 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
     let frequency = Frequency::ProbabilityIn(investigation_years(grid).ok_or_else(unknown)?);
     let statistic = statistic(grid)?;
     if grid.lines.len() != 1 {
-        return Err(InputError::unexpected(
-            format!("curves of {} sites", grid.lines.len()),
-            "the row of one",
-        ));
+        let found = format!("curves of {} sites", grid.lines.len());
+        return Err(InputError::unexpected(found, "the row of one"));
     }
     let mut points = Vec::new();
     for (column, heading) in grid.headings.iter().enumerate() {
@@ -56,16 +53,8 @@ fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
     // Before version 3, the kind was the first word of the header.
     let header = grid.notes.first().map_or("", |note| note.trim_start_matches(['#', ' ']));
     let kind = noted(grid, "kind").or(header.split([',', ' ']).next()).unwrap_or_default().to_lowercase();
-    match kind.as_str() {
-        "mean" | "hcurve-mean" => Ok(Statistic::Mean),
-        "quantile-0.16" => Ok(Statistic::Low),
-        "quantile-0.84" => Ok(Statistic::High),
-        "quantile-0.5" | "quantile-0.50" | "median" => Ok(Statistic::Median),
-        _ => {
-            let found = format!("a curve of kind '{kind}'");
-            Err(InputError::unexpected(found, "the mean, and quantiles 0.16 and 0.84 beside it"))
-        }
-    }
+    let expected = "the mean, and quantiles 0.16 and 0.84 beside it";
+    kind.parse().map_err(|_| InputError::unexpected(format!("a curve of kind '{kind}'"), expected))
 }
 
 /// The years that probabilities are for, by the header.

@@ -65,12 +65,10 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>,
 /// direction, or peaks that differ as only those in wrong units do.
 fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> bool {
     let [pga, other_pga] = [motion, other].map(|motion| peak(&motion.acceleration_m_s2));
-    let are_far = (pga / other_pga).ln().abs() > FAR_PEAKS.ln();
+    let are_far = motion.unit != other.unit && (pga / other_pga).ln().abs() > FAR_PEAKS.ln();
     (pga - other_pga).abs() < SAME_PEAK * pga
         || motion.origin.azimuth_deg.is_some() && motion.origin.azimuth_deg == other.origin.azimuth_deg
-        || motion.unit != other.unit
-            && are_far
-            && ![motion, other].iter().any(|of| super::is_vertical(&of.origin))
+        || are_far && ![motion, other].iter().any(|of| super::is_vertical(&of.origin))
 }
 
 impl Samples<'_> {

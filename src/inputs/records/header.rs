@@ -116,16 +116,10 @@ pub fn first_number(text: &str) -> Option<f64> {
 
 /// Splits a line into numbers: at blanks, and before a sign that Fortran left no room to separate.
 pub fn numbers(line: &str) -> impl Iterator<Item = &str> {
-    let mut rest = line.trim_start();
-    std::iter::from_fn(move || {
-        let end = rest.char_indices().find(|&(at, c)| {
-            let is_sign = matches!(c, '+' | '-') && at > 0;
-            c.is_whitespace() || is_sign && !rest[..at].ends_with(['e', 'E', 'd', 'D'])
-        });
-        let end = end.map_or(rest.len(), |(at, _)| at);
-        let (number, later) = rest.split_at(end);
-        rest = later.trim_start();
-        (!number.is_empty()).then_some(number)
+    line.split_whitespace().flat_map(|word| {
+        let signs = word.match_indices(['+', '-']).map(|(at, _)| at).filter(|at| *at > 0);
+        let ends = signs.filter(|at| !word[..*at].ends_with(['e', 'E', 'd', 'D'])).chain([word.len()]);
+        ends.scan(0, |start, end| Some(&word[std::mem::replace(start, end)..end]))
     })
 }
 

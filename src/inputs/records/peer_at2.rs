@@ -53,9 +53,8 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, In
         Some((component, before)) if !before.is_empty() => (before, *component),
         _ => (&title[..], ""),
     };
-    let date = before
-        .iter()
-        .position(|part| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic()));
+    let is_date = |part: &&str| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic());
+    let date = before.iter().position(is_date);
     let event_parts = date.map_or(1, |date| date + 1).min(before.len());
     let (event, station) = before.split_at(event_parts);
     let pga = header.iter().find_map(|line| after(line, "PGA"));
