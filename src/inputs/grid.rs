@@ -59,7 +59,6 @@ impl Grid {
             return Grid::new(rows_of_sheet(&workbook::cells(&bytes, sheet)?), None);
         }
         let text = decode(&bytes)?;
-        expect_few_cells(text.matches(['\n', '\t', ',', ';']).count())?;
         let lines: Vec<&str> =
             text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a', '\0'])).collect();
         let separator = separator(&lines);
@@ -204,7 +203,7 @@ impl Grid {
 
 fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>, InputError> {
     let joined = join_lines(lines, separator)?;
-    expect_few_cells(joined.matches(separator).count())?;
+    expect_few_cells(joined.matches([separator, '\n']).count())?;
     let mut reader = ReaderBuilder::new();
     reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
     let records = reader.from_reader(joined.as_bytes()).into_records().map_while(Result::ok);

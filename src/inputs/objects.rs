@@ -170,15 +170,13 @@ impl List<'_> {
                 let found = format!("columns '{}' and '{}'", grid.headings[first].text, heading.text);
                 return Err(InputError::unexpected(found, "one of them"));
             }
-            let ColumnRole::Known(field @ (Field::Width | Field::Depth | Field::Height)) = column else {
-                continue;
-            };
-            if let Some(unit) = heading.unit {
+            let is_side = matches!(column, ColumnRole::Known(Field::Width | Field::Depth | Field::Height));
+            if let Some(unit) = heading.unit.filter(|_| is_side) {
                 let lengths = grid.rows().filter_map(|row| grid.number(row, at).ok());
-                validate_lengths(*field == Field::Height, unit, lengths).map_err(|expected| {
-                    InputError::unexpected(format!("column '{}'", heading.text), expected)
-                })?;
-            } else if let Some(note) = grid.notes.iter().find(|note| names_unit_of_length(note)) {
+                validate_lengths(*column == ColumnRole::Known(Field::Height), unit, lengths).map_err(
+                    |expected| InputError::unexpected(format!("column '{}'", heading.text), expected),
+                )?;
+            } else if let Some(note) = grid.notes.iter().find(|note| is_side && names_unit_of_length(note)) {
                 let expected = "the unit in the heading of each column: Width (mm)";
                 return Err(InputError::unexpected(format!("a unit above the headings: '{note}'"), expected));
             }
@@ -284,8 +282,7 @@ impl List<'_> {
                 Err(error) => return Err(error.to_string()),
             }
         }
-        object.place = self.on_floor(row, object.place)?;
-        object.floor = self.floor_in_words(row);
+        self.put_on_floor(row, &mut object)?;
         Ok(object)
     }
 
@@ -294,30 +291,38 @@ impl List<'_> {
     fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
         let (heading, quantity) = (&self.grid.headings[at], field.entry().quantity);
         let cell = self.cell(row, ColumnRole::Unit).filter(|_| quantity == Some(Quantity::Length));
-        let own = cell.and_then(Unit::parse);
-        if let Some(cell) = cell.filter(|_| own.is_none() || heading.unit.is_some() && heading.unit != own) {
-            return Err(format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text));
-        }
-        match heading.unit.or(own) {
+        let own = cell.map(|cell| {
+            let own = Unit::parse(cell).filter(|own| heading.unit.is_none_or(|unit| unit == *own));
+            own.ok_or_else(|| format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text))
+        });
+        match heading.unit.or(own.transpose()?) {
             None => Ok(1.0),
             Some(unit) if Some(unit.quantity) == quantity => Ok(unit.si),
             Some(unit) => Err(format!("{field} is in {}; expected another unit, or none", unit.name)),
         }
     }
 
-    /// The place of an object with the floor that its row names.
-    fn on_floor(&self, row: usize, place: Place) -> Result<Place, String> {
-        let known = Place { period: place.period.or(self.place.period), ..place };
-        let is_known = known.level.is_some() && known.period.is_some();
-        let Some(cell) = self.cell(row, ColumnRole::Storey).filter(|_| !is_known) else { return Ok(place) };
+    /// Puts an object on the floor that its row names.
+    fn put_on_floor(&self, row: usize, object: &mut Object) -> Result<(), String> {
+        let Some(cell) = self.cell(row, ColumnRole::Storey) else { return Ok(()) };
+        let (storey, all) = (Storey::parse(cell), self.cell(row, ColumnRole::Storeys));
+        if let Some(Storey::Number(number) | Storey::Above(number)) = storey {
+            let of_all = all.map_or(String::new(), |all| format!(" of {all}"));
+            object.floor = Some(format!("floor {number}{of_all}"));
+        }
+        let place = &mut object.place;
+        let known = Place { period: place.period.or(self.place.period), ..*place };
+        if known.level.is_some() && known.period.is_some() {
+            return Ok(());
+        }
         let expected = "one whole number, such as 3 or 3rd floor, G, B1 or roof";
-        let storey = Storey::parse(cell).ok_or_else(|| format!("floor '{cell}'; expected {expected}"))?;
+        let storey = storey.ok_or_else(|| format!("floor '{cell}'; expected {expected}"))?;
         let above = storey.above(self.ground_floor);
         if above == Some(0) {
-            return Ok(Place { level: place.level.or(Some(0.0)), ..place });
+            place.level.get_or_insert(0.0);
+            return Ok(());
         }
         let expected = "the storeys of the building (column Storeys), or Level and T1 (s)";
-        let all = self.cell(row, ColumnRole::Storeys);
         let all = all.ok_or_else(|| format!("floor {cell}: expected {expected}"))?;
         let storeys = all.parse().ok().filter(|all: &f64| all.fract() == 0.0 && (1.0..200.0).contains(all));
         let storeys = storeys.ok_or_else(|| format!("storeys '{all}'; expected a whole number"))? as u32;
@@ -329,17 +334,8 @@ impl List<'_> {
         let building = self.cell(row, ColumnRole::Building).map(|cell| {
             Building::parse(cell).ok_or_else(|| format!("building '{cell}'; expected {expected}"))
         });
-        Ok(floors::place(above, storeys, building.transpose()?, known))
-    }
-
-    fn floor_in_words(&self, row: usize) -> Option<String> {
-        match Storey::parse(self.cell(row, ColumnRole::Storey)?)? {
-            Storey::Number(number) | Storey::Above(number) => {
-                let all = self.cell(row, ColumnRole::Storeys).map(|all| format!(" of {all}"));
-                Some(format!("floor {number}{}", all.unwrap_or_default()))
-            }
-            _ => None,
-        }
+        *place = floors::place(above, storeys, building.transpose()?, known);
+        Ok(())
     }
 
     /// Why the object of a row is not free to rock.
