@@ -6,7 +6,7 @@ use std::path::Path;
 use rockfrag_core::records::Origin;
 
 use super::words::means;
-use super::{Grid, Heading, InputError, decode};
+use super::{Grid, Heading, InputError, Result, decode};
 use crate::source;
 
 /// The line above the table of records in PEER's search results, which have others.
@@ -23,11 +23,11 @@ pub struct About {
 impl About {
     /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or
     /// PEER's search results or flatfile.
-    pub fn read(path: &Path) -> Result<About, InputError> {
+    pub fn read(path: &Path) -> Result<About> {
         grid(path).and_then(|grid| About::from_grid(&grid)).map_err(|error| error.in_file(path))
     }
 
-    fn from_grid(grid: &Grid) -> Result<About, InputError> {
+    fn from_grid(grid: &Grid) -> Result<About> {
         let [magnitude, distance, earthquake, number] =
             ["magnitude", "distance", "earthquake", "record-number"].map(|meaning| grid.about(meaning));
         let files = grid.headings.iter().enumerate().filter(|(_, Heading { name, .. })| {
@@ -74,7 +74,7 @@ impl About {
 }
 
 /// The table, of which other tables in a file of PEER are no part.
-fn grid(path: &Path) -> Result<Grid, InputError> {
+fn grid(path: &Path) -> Result<Grid> {
     let text = source::read(path).ok().and_then(|bytes| Some(decode(&bytes).ok()?.into_owned()));
     let Some((before, after)) = text.as_deref().and_then(|text| text.split_once(PEER)) else {
         return Grid::read(path);

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use encoding_rs::{Encoding, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-use super::error::InputError;
+use super::error::{InputError, Result};
 
 /// Beginnings of files that are no tables.
 const OTHERS: [(&[u8], &str); 8] = [
@@ -19,7 +19,7 @@ const OTHERS: [(&[u8], &str); 8] = [
 ];
 
 /// Decodes a text: its lines end in `\n`; typographic blanks, minus signs and wide letters become ASCII.
-pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, InputError> {
+pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
     if let Some((_, found)) = OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(InputError::NoTable { found });
     }

@@ -6,6 +6,8 @@ pub(super) const THOUSANDS: &str = "decimal, or between thousands? Write 1029 or
 pub(super) const PERCENT: &str = "percent, or a share that the workbook shows as percent? Save the sheet as \
                                   CSV, or write 0.1 for 10 % under a heading without %";
 
+pub type Result<T, E = InputError> = std::result::Result<T, E>;
+
 /// What is wrong with a file. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum InputError {
@@ -102,7 +104,7 @@ impl InputError {
 }
 
 /// Checks that a table is not too large, as one with a stray cell far away is.
-pub(super) fn expect_few_cells(cells: usize) -> Result<(), InputError> {
+pub(super) fn expect_few_cells(cells: usize) -> Result<()> {
     const MOST: usize = 20_000_000;
     let expected = "20 million at most: does one stand far from the table?";
     if cells > MOST { Err(InputError::unexpected(format!("{cells} cells"), expected)) } else { Ok(()) }

@@ -8,7 +8,7 @@ use rockfrag_core::plausibility::range_of_column;
 use rockfrag_core::units::Unit;
 
 use super::decode::decode;
-use super::error::{InputError, PERCENT, THOUSANDS, expect_few_cells};
+use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
 use super::heading::Heading;
 use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
 use super::unpack::unpack_one;
@@ -45,7 +45,7 @@ struct RawRow {
 
 impl Grid {
     /// Reads the table in a file, or in a sheet of a workbook: `list.xlsx#Sheet2`.
-    pub fn read(path: &Path) -> Result<Grid, InputError> {
+    pub fn read(path: &Path) -> Result<Grid> {
         let (file, sheet) = source::split_sheet(path);
         let bytes =
             source::read(&file).map_err(|error| InputError::Unreadable(error.kind(), error.to_string()))?;
@@ -53,7 +53,7 @@ impl Grid {
     }
 
     /// Reads a table, packed or not: text, or a sheet of a workbook.
-    pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid, InputError> {
+    pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
             return Grid::new(rows_of_sheet(&workbook::cells(&bytes, sheet)?), None);
@@ -66,7 +66,7 @@ impl Grid {
     }
 
     /// Parts headings, units and comments from rows. No `separator` stands between cells of a workbook.
-    fn new(rows: Vec<RawRow>, separator: Option<char>) -> Result<Grid, InputError> {
+    fn new(rows: Vec<RawRow>, separator: Option<char>) -> Result<Grid> {
         let is_number_column = number_columns(&rows);
         let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
         let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
@@ -135,7 +135,7 @@ impl Grid {
     }
 
     /// Reads the number in a cell; 10 % is 0.1, also where the heading has the sign.
-    pub fn number(&self, row: usize, column: usize) -> Result<f64, InputError> {
+    pub fn number(&self, row: usize, column: usize) -> Result<f64> {
         let (cell, notation) = (self.cell(row, column), self.notations[column]);
         let has_sign = cell.ends_with('%');
         let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
@@ -149,12 +149,12 @@ impl Grid {
         Err(InputError::Unclear { line, heading, found, question })
     }
 
-    pub fn numbers(&self, column: usize) -> Result<Vec<f64>, InputError> {
+    pub fn numbers(&self, column: usize) -> Result<Vec<f64>> {
         self.rows().map(|row| self.number(row, column)).collect()
     }
 
     /// Reads the intensities of a column, in a unit of this size.
-    pub fn intensities(&self, column: usize, unit: f64) -> Result<Vec<f64>, InputError> {
+    pub fn intensities(&self, column: usize, unit: f64) -> Result<Vec<f64>> {
         let numbers = self.numbers(column)?;
         match numbers.iter().position(|number| *number < 0.0) {
             Some(row) => Err(self.refusal(row, column, "an intensity of 0 or more")),
@@ -164,7 +164,7 @@ impl Grid {
 
     /// Reads the numbers of a column, if there is one, of what a column of this name has in tables; those that
     /// are known: PEER writes -999 for what is not.
-    pub fn known(&self, column: Option<usize>, name: &str) -> Result<Vec<Option<f64>>, InputError> {
+    pub fn known(&self, column: Option<usize>, name: &str) -> Result<Vec<Option<f64>>> {
         let (range, expected) = range_of_column(name);
         let numbers = self.rows().map(|row| match column.filter(|at| self.value(row, *at).is_some()) {
             None => Ok(None),
@@ -201,7 +201,7 @@ impl Grid {
     }
 }
 
-fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>, InputError> {
+fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>> {
     let joined = join_lines(lines, separator)?;
     expect_few_cells(joined.matches([separator, '\n']).count())?;
     let mut reader = ReaderBuilder::new();
@@ -252,7 +252,7 @@ fn is_parted(line: &str, sign: char) -> bool {
 }
 
 /// Joins lines for the reader of rows, which counts them.
-fn join_lines(lines: &[&str], separator: char) -> Result<String, InputError> {
+fn join_lines(lines: &[&str], separator: char) -> Result<String> {
     let (mut text, mut quoted_from) = (String::new(), None);
     for (line, number) in lines.iter().zip(1..) {
         let (start, was_quoted) = (text.len(), quoted_from.is_some());
@@ -357,7 +357,7 @@ fn is_ruler(cells: &StringRecord) -> bool {
 }
 
 /// Headings with the units in a row below.
-fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>, InputError> {
+fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
     let with_unit = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
         "" | "-" => Ok(heading.clone()),
         "a" | "[a]" | "(a)" => Ok(heading.with_unit("years").unwrap_or(heading.clone())),

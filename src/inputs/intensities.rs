@@ -12,14 +12,14 @@ use rockfrag_core::warning::{Warning, Warnings};
 use super::hazard::peak;
 use super::objects::describes_object;
 use super::words::{is_vertical, means};
-use super::{Grid, Heading, InputError, Renames};
+use super::{Grid, Heading, InputError, Renames, Result};
 
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
-pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>, InputError> {
+pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>> {
     renames.read(path).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
 }
 
-fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
+fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>> {
     if let Some(heading) = grid.headings.iter().find(|heading| describes_object(heading)) {
         let found = format!("column '{}', which describes an object", heading.text);
         let expected = "peaks, mw, p_rad_s, alpha_rad and eta: describe one object by options, or list objects \
@@ -56,7 +56,7 @@ fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>, InputError> {
 }
 
 /// The column that a heading names, and its unit in rad/s, rad or s.
-fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>, InputError> {
+fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
     const COLUMNS: [(&str, &str, Quantity); 4] = [
         ("p", "p_rad_s", Quantity::AngularFrequency),
         ("alpha", "alpha_rad", Quantity::Angle),
@@ -77,7 +77,7 @@ fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>, InputError> {
 }
 
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.
-pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64), InputError> {
+pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64)> {
     let (own, expected) = match wanted {
         Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING renames one"),
         Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING renames one"),
@@ -97,7 +97,7 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
 }
 
 /// Refuses a row of totals or means.
-pub fn expect_motions_alone(grid: &Grid) -> Result<(), InputError> {
+pub fn expect_motions_alone(grid: &Grid) -> Result<()> {
     let mut cells = grid.rows().flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
     let total = cells.find(|(row, at)| {
         let cell = grid.cell(*row, *at);
@@ -116,7 +116,7 @@ pub struct MotionTable {
 
 /// Reads the motions of a table with both peaks, which must show no wrong unit, and warns of those beyond any
 /// record.
-pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTable>, InputError> {
+pub fn motions(grid: &Grid, warnings: &mut Warnings) -> Result<Option<MotionTable>> {
     let headings = || grid.headings.iter().enumerate().filter_map(|(at, heading)| Some((at, peak(heading)?)));
     let [Some((pga, (_, pga_unit))), Some((pgv, (_, pgv_unit)))] =
         [Peak::Pga, Peak::Pgv].map(|wanted| headings().find(|(_, (peak, _))| *peak == wanted))

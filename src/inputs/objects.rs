@@ -11,11 +11,11 @@ use strum::VariantArray;
 
 use super::floors::{self, Building, Storey};
 use super::words::{is_one_of, joined, means, synonyms};
-use super::{Grid, Heading, InputError, Renames};
+use super::{Grid, Heading, InputError, Renames, Result};
 use crate::number::rounded;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum ColumnRole {
+enum Role {
     Name,
     Known(Field),
     Count,
@@ -48,28 +48,20 @@ pub struct ListDefaults {
 
 struct List<'a> {
     grid: &'a Grid,
-    columns: Vec<ColumnRole>,
+    columns: Vec<Role>,
     ground_floor: u32,
     place: Place,
 }
 
 /// Reads a list: the objects of its rows, and what of it is not used.
-pub fn read(
-    path: &Path,
-    renames: &mut Renames,
-    defaults: &ListDefaults,
-) -> Result<(Vec<Object>, Warnings), InputError> {
+pub fn read(path: &Path, renames: &mut Renames, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
     renames.read(path).and_then(|grid| in_rows(&grid, &[], defaults)).map_err(|error| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.
-pub fn in_rows(
-    grid: &Grid,
-    others: &[usize],
-    defaults: &ListDefaults,
-) -> Result<(Vec<Object>, Warnings), InputError> {
+pub fn in_rows(grid: &Grid, others: &[usize], defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
     let mut list = List::new(grid, defaults)?;
-    others.iter().for_each(|at| list.columns[*at] = ColumnRole::Other);
+    others.iter().for_each(|at| list.columns[*at] = Role::Other);
     Ok((list.objects(), list.doubts()))
 }
 
@@ -78,59 +70,59 @@ pub fn describes_object(heading: &Heading) -> bool {
     match meaning(heading) {
         // Of an earthquake or a station.
         _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
-        ColumnRole::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
-        ColumnRole::Unclear => synonyms("of-objects").any(|part| heading.name.contains(part)),
-        column => matches!(column, ColumnRole::Storey | ColumnRole::Storeys),
+        Role::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
+        Role::Unclear => synonyms("of-objects").any(|part| heading.name.contains(part)),
+        column => matches!(column, Role::Storey | Role::Storeys),
     }
 }
 
-fn meaning(heading: &Heading) -> ColumnRole {
-    const OTHERS: [(&str, ColumnRole); 5] = [
-        ("count", ColumnRole::Count),
-        ("unit", ColumnRole::Unit),
-        ("storey", ColumnRole::Storey),
-        ("storeys", ColumnRole::Storeys),
-        ("building", ColumnRole::Building),
+fn meaning(heading: &Heading) -> Role {
+    const OTHERS: [(&str, Role); 5] = [
+        ("count", Role::Count),
+        ("unit", Role::Unit),
+        ("storey", Role::Storey),
+        ("storeys", Role::Storeys),
+        ("building", Role::Building),
     ];
     let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
-    let fields = Field::VARIANTS.iter().map(|field| (field.into(), ColumnRole::Known(*field)));
+    let fields = Field::VARIANTS.iter().map(|field| (field.into(), Role::Known(*field)));
     let mut known = fields.chain(OTHERS).filter(|(meaning, _)| name == meaning || is_one_of(name, meaning));
     match known.next().map(|(_, column)| column) {
-        _ if quantity == Some(Quantity::Counts) => ColumnRole::Count,
+        _ if quantity == Some(Quantity::Counts) => Role::Count,
         Some(column) => column,
-        None if synonyms("held").any(|start| name.starts_with(start)) => ColumnRole::Held,
-        None if synonyms("of-objects").any(|part| name.contains(part)) => ColumnRole::Unclear,
+        None if synonyms("held").any(|start| name.starts_with(start)) => Role::Held,
+        None if synonyms("of-objects").any(|part| name.contains(part)) => Role::Unclear,
         // Perhaps another side of the base: without it the object would seem safer.
-        None if quantity == Some(Quantity::Length) => ColumnRole::Unclear,
-        None => ColumnRole::Unused,
+        None if quantity == Some(Quantity::Length) => Role::Unclear,
+        None => Role::Unused,
     }
 }
 
 impl List<'_> {
-    fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>, InputError> {
-        let mut columns: Vec<ColumnRole> = grid.headings.iter().map(meaning).collect();
-        grid.about("name").into_iter().for_each(|at| columns[at] = ColumnRole::Name);
+    fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>> {
+        let mut columns: Vec<Role> = grid.headings.iter().map(meaning).collect();
+        grid.about("name").into_iter().for_each(|at| columns[at] = Role::Name);
         let mut list = List { grid, columns, ground_floor: 0, place: defaults.place };
         list.check()?;
-        let has_units = list.column(ColumnRole::Unit).is_some_and(|at| {
+        let has_units = list.column(Role::Unit).is_some_and(|at| {
             let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
         let is_of_floors = list.level_is_of_floors();
-        let has_storey = list.column(ColumnRole::Storey).is_some() || is_of_floors;
+        let has_storey = list.column(Role::Storey).is_some() || is_of_floors;
         for (at, column) in list.columns.iter_mut().enumerate() {
             match column {
-                ColumnRole::Known(Field::Level) if is_of_floors => *column = ColumnRole::Storey,
-                ColumnRole::Count if numbers_rows(grid, at) => *column = ColumnRole::Unused,
+                Role::Known(Field::Level) if is_of_floors => *column = Role::Storey,
+                Role::Count if numbers_rows(grid, at) => *column = Role::Unused,
                 // A ward, perhaps.
-                ColumnRole::Unit if !has_units => *column = ColumnRole::Unused,
+                Role::Unit if !has_units => *column = Role::Unused,
                 // Without a floor, the building says nothing.
-                ColumnRole::Storeys | ColumnRole::Building if !has_storey => *column = ColumnRole::Unused,
+                Role::Storeys | Role::Building if !has_storey => *column = Role::Unused,
                 _ => {}
             }
         }
-        let Some(at) = list.column(ColumnRole::Storey) else { return Ok(list) };
-        let open = grid.rows().filter(|row| list.cell(*row, ColumnRole::Known(Field::Level)).is_none());
+        let Some(at) = list.column(Role::Storey) else { return Ok(list) };
+        let open = grid.rows().filter(|row| list.cell(*row, Role::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
         let heading = grid.headings[at].text.clone();
         let found = defaults.ground_floor.map_or_else(|| floors::ground_floor(&storeys), Ok);
@@ -140,8 +132,8 @@ impl List<'_> {
 
     /// Whether levels are floors: shares of the height of a building do not exceed 1.
     fn level_is_of_floors(&self) -> bool {
-        let level = self.column(ColumnRole::Known(Field::Level));
-        level.filter(|_| self.column(ColumnRole::Storey).is_none()).is_some_and(|at| {
+        let level = self.column(Role::Known(Field::Level));
+        level.filter(|_| self.column(Role::Storey).is_none()).is_some_and(|at| {
             let levels = || self.grid.rows().filter_map(|row| self.grid.number(row, at).ok());
             levels().any(|level| level > 1.0)
                 && levels().all(|level| level.fract() == 0.0 && level < HIGHEST_FLOOR)
@@ -149,10 +141,10 @@ impl List<'_> {
     }
 
     /// Checks the headings, and the lengths below each.
-    fn check(&self) -> Result<(), InputError> {
+    fn check(&self) -> Result<()> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
-        if [Field::Height, Field::P].iter().all(|field| self.column(ColumnRole::Known(*field)).is_none()) {
-            let mut unknown = self.headings(ColumnRole::Unused).chain(self.headings(ColumnRole::Unclear));
+        if [Field::Height, Field::P].iter().all(|field| self.column(Role::Known(*field)).is_none()) {
+            let mut unknown = self.headings(Role::Unused).chain(self.headings(Role::Unclear));
             return Err(InputError::not_understood(unknown.next(), expected, grid.found()));
         }
         if grid.lines.is_empty() {
@@ -161,19 +153,19 @@ impl List<'_> {
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             let text = heading.text.replace("(-)", "").replace("[-]", "");
             let has_sign = text.contains(['(', '[', '"', '\'', '%']);
-            if matches!(column, ColumnRole::Known(_)) && heading.unit.is_none() && has_sign {
+            if matches!(column, Role::Known(_)) && heading.unit.is_none() && has_sign {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::unexpected(found, "m, cm or mm in brackets, or no unit"));
             }
-            let may_repeat = matches!(column, ColumnRole::Held | ColumnRole::Unclear | ColumnRole::Unused);
+            let may_repeat = matches!(column, Role::Held | Role::Unclear | Role::Unused);
             if let Some(first) = self.column(*column).filter(|first| *first != at && !may_repeat) {
                 let found = format!("columns '{}' and '{}'", grid.headings[first].text, heading.text);
                 return Err(InputError::unexpected(found, "one of them"));
             }
-            let is_side = matches!(column, ColumnRole::Known(Field::Width | Field::Depth | Field::Height));
+            let is_side = matches!(column, Role::Known(Field::Width | Field::Depth | Field::Height));
             if let Some(unit) = heading.unit.filter(|_| is_side) {
                 let lengths = grid.rows().filter_map(|row| grid.number(row, at).ok());
-                validate_lengths(*column == ColumnRole::Known(Field::Height), unit, lengths).map_err(
+                validate_lengths(*column == Role::Known(Field::Height), unit, lengths).map_err(
                     |expected| InputError::unexpected(format!("column '{}'", heading.text), expected),
                 )?;
             } else if let Some(note) = grid.notes.iter().find(|note| is_side && names_unit_of_length(note)) {
@@ -184,24 +176,24 @@ impl List<'_> {
         Ok(())
     }
 
-    fn column(&self, wanted: ColumnRole) -> Option<usize> {
+    fn column(&self, wanted: Role) -> Option<usize> {
         self.columns.iter().position(|column| *column == wanted)
     }
 
-    fn headings(&self, wanted: ColumnRole) -> impl Iterator<Item = &str> {
+    fn headings(&self, wanted: Role) -> impl Iterator<Item = &str> {
         let all = self.grid.headings.iter().zip(&self.columns).filter(move |(_, column)| **column == wanted);
         all.map(|(heading, _)| heading.text.as_str()).filter(|text| !text.is_empty())
     }
 
     /// What stands in a column, if it says anything.
-    fn cell(&self, row: usize, column: ColumnRole) -> Option<&str> {
+    fn cell(&self, row: usize, column: Role) -> Option<&str> {
         self.column(column).and_then(|at| self.grid.value(row, at))
     }
 
     /// The columns that are not used, named once, and the words that are taken as no value.
     fn doubts(&self) -> Warnings {
         let (grid, mut doubts) = (self.grid, Warnings::default());
-        let unused: Vec<&str> = self.headings(ColumnRole::Unused).collect();
+        let unused: Vec<&str> = self.headings(Role::Unused).collect();
         if !unused.is_empty() {
             doubts.add(Warning::UnusedColumns, unused.join(", "));
         }
@@ -209,9 +201,9 @@ impl List<'_> {
             let mut values = grid.rows().filter_map(|row| grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
             let is_open = match column {
-                ColumnRole::Held => values.any(|cell| means(cell, "free")),
-                ColumnRole::Known(Field::Depth) => values.next().is_some(),
-                ColumnRole::Known(_) => false,
+                Role::Held => values.any(|cell| means(cell, "free")),
+                Role::Known(Field::Depth) => values.next().is_some(),
+                Role::Known(_) => false,
                 _ => continue,
             };
             for row in grid.rows().filter(|row| grid.value(*row, at).is_none()) {
@@ -246,7 +238,7 @@ impl List<'_> {
     }
 
     fn name_of(&self, row: usize) -> String {
-        match self.column(ColumnRole::Name).map_or("", |column| self.grid.cell(row, column)) {
+        match self.column(Role::Name).map_or("", |column| self.grid.cell(row, column)) {
             "" => format!("line {}", self.grid.lines[row]),
             name => name.to_string(),
         }
@@ -254,7 +246,7 @@ impl List<'_> {
 
     /// Whether a row says on which floor its object stands.
     fn names_floor(&self, row: usize) -> bool {
-        self.cell(row, ColumnRole::Storey).or(self.cell(row, ColumnRole::Known(Field::Level))).is_some()
+        self.cell(row, Role::Storey).or(self.cell(row, Role::Known(Field::Level))).is_some()
     }
 
     fn object(&self, row: usize) -> Result<Object, String> {
@@ -262,12 +254,12 @@ impl List<'_> {
         for (at, column) in self.columns.iter().enumerate() {
             let cell = self.grid.cell(row, at);
             let is_needed =
-                [Field::Width, Field::Height, Field::P, Field::Alpha].map(ColumnRole::Known).contains(column);
+                [Field::Width, Field::Height, Field::P, Field::Alpha].map(Role::Known).contains(column);
             let (name, size) = match column {
                 _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
-                ColumnRole::Known(field) => (field.into(), self.size(row, at, *field)?),
-                ColumnRole::Count => ("count", 1.0),
-                ColumnRole::Unclear => {
+                Role::Known(field) => (field.into(), self.size(row, at, *field)?),
+                Role::Count => ("count", 1.0),
+                Role::Unclear => {
                     let text = &self.grid.headings[at].text;
                     return Err(format!(
                         "column '{text}' is not understood: rename it (--columns) or leave it out"
@@ -290,7 +282,7 @@ impl List<'_> {
     /// row.
     fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
         let (heading, quantity) = (&self.grid.headings[at], field.entry().quantity);
-        let cell = self.cell(row, ColumnRole::Unit).filter(|_| quantity == Some(Quantity::Length));
+        let cell = self.cell(row, Role::Unit).filter(|_| quantity == Some(Quantity::Length));
         let own = cell.map(|cell| {
             let own = Unit::parse(cell).filter(|own| heading.unit.is_none_or(|unit| unit == *own));
             own.ok_or_else(|| format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text))
@@ -304,8 +296,8 @@ impl List<'_> {
 
     /// Puts an object on the floor that its row names.
     fn put_on_floor(&self, row: usize, object: &mut Object) -> Result<(), String> {
-        let Some(cell) = self.cell(row, ColumnRole::Storey) else { return Ok(()) };
-        let (storey, all) = (Storey::parse(cell), self.cell(row, ColumnRole::Storeys));
+        let Some(cell) = self.cell(row, Role::Storey) else { return Ok(()) };
+        let (storey, all) = (Storey::parse(cell), self.cell(row, Role::Storeys));
         if let Some(Storey::Number(number) | Storey::Above(number)) = storey {
             let of_all = all.map_or(String::new(), |all| format!(" of {all}"));
             object.floor = Some(format!("floor {number}{of_all}"));
@@ -331,7 +323,7 @@ impl List<'_> {
             return Err(format!("floor {cell} of {storeys} storeys: which is right?"));
         }
         let expected = "walls, masonry, concrete frame or steel frame";
-        let building = self.cell(row, ColumnRole::Building).map(|cell| {
+        let building = self.cell(row, Role::Building).map(|cell| {
             Building::parse(cell).ok_or_else(|| format!("building '{cell}'; expected {expected}"))
         });
         *place = floors::place(above, storeys, building.transpose()?, known);
@@ -341,7 +333,7 @@ impl List<'_> {
     /// Why the object of a row is not free to rock.
     fn held(&self, row: usize) -> Option<ObjectError> {
         let columns = self.grid.headings.iter().zip(&self.columns).enumerate();
-        let mut held = columns.filter(|(_, (_, column))| **column == ColumnRole::Held);
+        let mut held = columns.filter(|(_, (_, column))| **column == Role::Held);
         held.find_map(|(at, (heading, _))| held_by(&heading.text, self.grid.value(row, at)?))
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::str::FromStr;
 
-use super::error::InputError;
+use super::error::{InputError, Result};
 use super::grid::Grid;
 use super::heading::Heading;
 
@@ -49,7 +49,7 @@ impl<'a> Renames<'a> {
     }
 
     /// Reads a table and renames its columns. A unit or a percent sign of the heading stays.
-    pub fn read(&mut self, path: &Path) -> Result<Grid, InputError> {
+    pub fn read(&mut self, path: &Path) -> Result<Grid> {
         let mut grid = Grid::read(path)?;
         for heading in &mut grid.headings {
             let Some(column) = self.renamed(&heading.text) else { continue };
@@ -74,7 +74,7 @@ impl<'a> Renames<'a> {
     }
 
     /// Refuses a heading that no file has.
-    pub fn expect_used(self) -> Result<(), InputError> {
+    pub fn expect_used(self) -> Result<()> {
         let mut unused = self.all.iter().filter(|rename| !self.seen.contains(&rename.heading));
         unused.next().map_or(Ok(()), |Rename { heading, .. }| {
             Err(InputError::Renamed { heading: heading.clone(), seen: self.seen.join(", ") })

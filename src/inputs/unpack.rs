@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use flate2::read::MultiGzDecoder;
 use zip::ZipArchive;
 
-use super::error::InputError;
+use super::error::{InputError, Result};
 
 /// The most bytes that a file may unpack to, with all that is in it.
 const LARGEST: u64 = 200 << 20;
@@ -22,17 +22,17 @@ pub struct Member {
 }
 
 /// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
-pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>, InputError> {
+pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>> {
     unpack_up_to(usize::MAX, bytes)
 }
 
 /// Returns the only file in an archive, or the bytes themselves, unpacked.
-pub fn unpack_one(bytes: Vec<u8>) -> Result<Vec<u8>, InputError> {
+pub fn unpack_one(bytes: Vec<u8>) -> Result<Vec<u8>> {
     let only = unpack_up_to(1, bytes)?.pop();
     only.map(|member| member.bytes).ok_or(InputError::Members { found: Vec::new() })
 }
 
-fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>, InputError> {
+fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
     let mut left = LARGEST;
     let is_archive = bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06");
     let members = if is_archive { members(&bytes, most, &mut left)? } else { None };
@@ -50,7 +50,7 @@ fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>, InputError> 
 
 /// Reads the files of a zip archive, without those that systems add; none of a workbook, whose parts must be
 /// small all the same.
-fn members(bytes: &[u8], most: usize, left: &mut u64) -> Result<Option<Vec<Member>>, InputError> {
+fn members(bytes: &[u8], most: usize, left: &mut u64) -> Result<Option<Vec<Member>>> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let is_workbook = archive.file_names().any(|name| matches!(name, "[Content_Types].xml" | "mimetype"));
     let is_left_out = |part: &str| match is_workbook {
@@ -75,7 +75,7 @@ fn members(bytes: &[u8], most: usize, left: &mut u64) -> Result<Option<Vec<Membe
     Ok((!is_workbook).then_some(members))
 }
 
-fn read(packed: impl Read, left: &mut u64) -> Result<Vec<u8>, InputError> {
+fn read(packed: impl Read, left: &mut u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let read = packed.take(*left + 1).read_to_end(&mut bytes);
     let read = read.map_err(InputError::damaged)? as u64;
@@ -87,7 +87,7 @@ fn read(packed: impl Read, left: &mut u64) -> Result<Vec<u8>, InputError> {
 
 /// Refuses a part of a workbook with a count or an index for which it is too small: its reader would reserve
 /// memory for it.
-fn expect_true_counts(part: &[u8]) -> Result<(), InputError> {
+fn expect_true_counts(part: &[u8]) -> Result<()> {
     let text = String::from_utf8_lossy(part);
     for name in [" uniqueCount=", " si="] {
         for (at, _) in text.match_indices(name) {

@@ -6,7 +6,7 @@ use calamine::open_workbook_auto_from_rs;
 use calamine::{Cell, Data, DataType, Range, Reader, Sheet, SheetVisible, Sheets, Xlsx, XlsxError};
 
 use super::decode::plain;
-use super::error::{InputError, expect_few_cells};
+use super::error::{InputError, Result, expect_few_cells};
 use crate::source::guarded;
 
 pub fn is_workbook(bytes: &[u8]) -> bool {
@@ -14,13 +14,13 @@ pub fn is_workbook(bytes: &[u8]) -> bool {
 }
 
 /// Reads the cells of the sheet with this name, or of the only visible one that has any.
-pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
+pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<Range<String>> {
     let damaged = || Err(InputError::damaged("its cells cannot be read"));
     expect_few_announced(bytes)?;
     guarded(|| read(bytes, name)).unwrap_or_else(damaged)
 }
 
-fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
+fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
     let mut filled = Vec::new();
@@ -40,7 +40,7 @@ fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>, InputError> {
 }
 
 /// Checks the records of dimensions of an .xls: its reader reserves memory for all cells between.
-fn expect_few_announced(bytes: &[u8]) -> Result<(), InputError> {
+fn expect_few_announced(bytes: &[u8]) -> Result<()> {
     const START: [u8; 4] = [0, 2, 14, 0];
     let is_xls = bytes.starts_with(b"\xd0\xcf\x11\xe0");
     for record in bytes.windows(18).filter(|record| is_xls && record.starts_with(&START)) {
@@ -52,7 +52,7 @@ fn expect_few_announced(bytes: &[u8]) -> Result<(), InputError> {
 }
 
 /// The cells of a sheet that have a text.
-fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>, InputError> {
+fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
     let mut cells = Vec::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
@@ -80,7 +80,7 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
 
 /// Reads a sheet twice, for formulas and values: the places of the former hold for values too, of which the
 /// reader skips those that it does not know, such as the error #SPILL!.
-fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>, InputError> {
+fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
     let mut formulas = Vec::new();
     match workbook.worksheet_cells_reader(sheet) {
         Err(XlsxError::NotAWorksheet(_)) => return Ok(Vec::new()),
@@ -104,7 +104,7 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
     cells.collect()
 }
 
-fn in_range(mut cells: Vec<Cell<String>>) -> Result<Range<String>, InputError> {
+fn in_range(mut cells: Vec<Cell<String>>) -> Result<Range<String>> {
     cells.sort_by_key(Cell::get_position);
     let columns = || cells.iter().map(|cell| cell.get_position().1 as usize);
     let width = columns().max().unwrap_or_default() + 1 - columns().min().unwrap_or_default();

@@ -7,7 +7,7 @@ use rockfrag_core::fragility::Peak;
 use rockfrag_core::units::Quantity;
 
 use crate::inputs::words::is_one_of;
-use crate::inputs::{Grid, Heading, InputError};
+use crate::inputs::{Grid, Heading, InputError, Result};
 
 /// An intensity measure type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
@@ -188,7 +188,7 @@ fn take_statistic(words: &mut Vec<&str>) -> Statistic {
 }
 
 /// Finds the statistic that a comment, or a column of statistics, names for the curves of a file.
-pub fn noted_statistic(grid: &Grid) -> Result<Statistic, InputError> {
+pub fn noted_statistic(grid: &Grid) -> Result<Statistic> {
     let mut texts = grid.notes.clone();
     if let Some(column) = grid.about("statistic") {
         let mut cells: Vec<&str> = grid.rows().map(|row| grid.cell(row, column)).collect();
@@ -232,7 +232,7 @@ impl Frequency {
     }
 
     /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
-    pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<Option<f64>, InputError> {
+    pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<Option<f64>> {
         let number = grid.number(row, column)?;
         let (rate, expected) = match self {
             Frequency::Rate | Frequency::Occurrence if grid.is_percent(row, column) => {

@@ -17,7 +17,7 @@ pub use self::columns::peak;
 use self::columns::{Frequency, HazardColumn, Imt, Statistic, noted_statistic};
 use super::intensities::{MotionTable, motions};
 use super::words::means;
-use super::{Grid, Heading, InputError, Renames};
+use super::{Grid, Heading, InputError, Renames, Result};
 use crate::number::period;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
@@ -26,7 +26,7 @@ pub fn read(
     paths: &[PathBuf],
     renames: &mut Renames,
     effective_years: Option<f64>,
-) -> Result<(Hazard, Warnings), InputError> {
+) -> Result<(Hazard, Warnings)> {
     let mut found = Found::default();
     for path in paths {
         found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
@@ -66,7 +66,7 @@ impl Curve {
         mut points: Vec<CurvePoint>,
         grid: &Grid,
         file: &Path,
-    ) -> Result<Curve, InputError> {
+    ) -> Result<Curve> {
         points.retain(|point| point.value != 0.0);
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
         for pair in points.windows(2) {
@@ -88,7 +88,7 @@ impl Curve {
 }
 
 /// The hazard of one peak, with what the other curves tell of it.
-fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard, InputError> {
+fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
     let find = |measure: Imt, statistic: Statistic| {
         curves.iter().find(|curve| (curve.measure, curve.statistic) == (measure, statistic))
     };
@@ -142,12 +142,7 @@ struct Found {
 
 impl Found {
     /// Adds what is in a file, by what its headings say.
-    fn add(
-        &mut self,
-        path: &Path,
-        renames: &mut Renames,
-        effective_years: Option<f64>,
-    ) -> Result<(), InputError> {
+    fn add(&mut self, path: &Path, renames: &mut Renames, effective_years: Option<f64>) -> Result<()> {
         let mut grid = renames.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
@@ -201,7 +196,7 @@ impl Found {
     }
 
     /// Adds a curve, unless another column of its file has said the same.
-    fn add_curve(&mut self, curve: Curve) -> Result<(), InputError> {
+    fn add_curve(&mut self, curve: Curve) -> Result<()> {
         const SAME: f64 = 0.1;
         let same = (curve.measure, curve.statistic);
         let Some(known) = self.curves.iter().find(|known| (known.measure, known.statistic) == same) else {
@@ -223,7 +218,7 @@ impl Found {
     }
 
     /// Checks that rows and comments are about the site of those before, in this file and in others.
-    fn expect_one_site(&mut self, grid: &Grid) -> Result<(), InputError> {
+    fn expect_one_site(&mut self, grid: &Grid) -> Result<()> {
         const SAME: f64 = 1e-4;
         /// North and east.
         const NEAR_KM: f64 = 1.0;
@@ -293,12 +288,7 @@ fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
 }
 
 /// The curve of a column of values and one of frequencies, if they belong together.
-fn curve_of(
-    grid: &Grid,
-    values: &HazardColumn,
-    rates: &HazardColumn,
-    file: &Path,
-) -> Result<Option<Curve>, InputError> {
+fn curve_of(grid: &Grid, values: &HazardColumn, rates: &HazardColumn, file: &Path) -> Result<Option<Curve>> {
     let (Some(unit), Some(frequency)) = (values.unit, rates.frequency) else { return Ok(None) };
     let measure = match (values.measure, rates.measure) {
         (Some(own), Some(other)) if own != other => return Ok(None),
@@ -328,7 +318,7 @@ fn joint(
     occurrence: Option<usize>,
     effective_years: Option<f64>,
     warnings: &mut Warnings,
-) -> Result<Vec<PairOfPeaks>, InputError> {
+) -> Result<Vec<PairOfPeaks>> {
     let Some(MotionTable { given, mw, .. }) = motions(grid, warnings)? else {
         let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
         return Err(InputError::unexpected(found, "both, or rates of exceedance"));

@@ -6,7 +6,7 @@ use rockfrag_core::units::{CM_PER_M, G_M_S2};
 
 use super::columns::{Frequency, Imt, Statistic};
 use super::{Curve, CurvePoint};
-use crate::inputs::{Grid, Heading, InputError};
+use crate::inputs::{Grid, Heading, InputError, Result};
 
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
 pub fn name_fields(grid: &mut Grid) {
@@ -20,7 +20,7 @@ pub fn name_fields(grid: &mut Grid) {
 }
 
 /// Reads a curve: the probability of exceedance of each level, in g or cm/s.
-pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
+pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve> {
     let (measure, unit) = match noted(grid, "imt") {
         Some("PGA") => (Imt::Pga, G_M_S2),
         Some("PGV") => (Imt::Pgv, 1.0 / CM_PER_M),
@@ -49,7 +49,7 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve, InputError> {
 }
 
 /// Which of several curves it is. What is not known to be the mean is not taken for it.
-fn statistic(grid: &Grid) -> Result<Statistic, InputError> {
+fn statistic(grid: &Grid) -> Result<Statistic> {
     // Before version 3, the kind was the first word of the header.
     let header = grid.notes.first().map_or("", |note| note.trim_start_matches(['#', ' ']));
     let kind = noted(grid, "kind").or(header.split([',', ' ']).next()).unwrap_or_default().to_lowercase();

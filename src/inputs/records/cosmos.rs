@@ -11,8 +11,8 @@ use super::ReadOptions;
 use super::header::{
     after, first_number, leading_number, numbers, samples, single_spaced, time_step, unit_of,
 };
-use crate::inputs::InputError;
 use crate::inputs::words::is_vertical;
+use crate::inputs::{InputError, Result};
 
 /// Places of the azimuth among the integers, and of the time step (ms) and the peak among the reals.
 const AZIMUTH: usize = 53;
@@ -28,7 +28,7 @@ pub fn recognises(lines: &[&str]) -> bool {
     lines.first().is_some_and(|line| after(line, "(format v").is_some())
 }
 
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let mut motions = Vec::new();
     let mut channel = Channel::default();
     let (line, expected) = (lines.len(), "'... acceleration pts, ...'");
@@ -60,7 +60,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
 
 /// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
 /// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
-fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>, InputError> {
+fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>> {
     let text = lines[*at - 1];
     let expected = "a count and 'Format=(8F10.5)'";
     let missing = InputError::Missing { line: *at, field: "format", expected };
@@ -103,7 +103,7 @@ impl Channel<'_> {
         unit: Unit,
         options: &ReadOptions,
         line: usize,
-    ) -> Result<RecordedMotion, InputError> {
+    ) -> Result<RecordedMotion> {
         let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
         let dt_s = time_step(step, options, line)?;
         let find = |key| self.header.iter().find_map(|text| after(text, key));

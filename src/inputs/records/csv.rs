@@ -8,7 +8,7 @@ use rockfrag_core::units::{Quantity, Unit};
 use super::ReadOptions;
 use super::header::{self, azimuth_of, expect_step, first_number, time_step};
 use crate::inputs::words::{is_vertical, joined};
-use crate::inputs::{Grid, Heading, InputError};
+use crate::inputs::{Grid, Heading, InputError, Result};
 
 const DAY_S: f64 = 86400.0;
 /// Accepted relative difference of a step of time from the usual one.
@@ -38,7 +38,7 @@ struct Samples<'a> {
     options: &'a ReadOptions,
 }
 
-pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
+pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let table = Samples::new(Grid::parse(bytes, None)?, options)?;
     if options.column.as_deref() == Some("all") {
         let step = noted_step(&table.grid.notes);
@@ -72,7 +72,7 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
 }
 
 impl Samples<'_> {
-    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>, InputError> {
+    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>> {
         let columns = 0..grid.headings.len();
         if grid.lines.is_empty() || !columns.clone().any(|at| grid.number(0, at).is_ok()) {
             let found = grid.notes.first().or(grid.headings.first().map(|heading| &heading.text));
@@ -85,7 +85,7 @@ impl Samples<'_> {
     }
 
     /// The column that the user names by its number or heading.
-    fn chosen(&self, choice: &str) -> Result<usize, InputError> {
+    fn chosen(&self, choice: &str) -> Result<usize> {
         let mut headings = self.grid.headings.iter();
         let column = match choice.parse::<usize>() {
             Ok(number) => number.checked_sub(1),
@@ -100,7 +100,7 @@ impl Samples<'_> {
 
     /// Finds the columns of acceleration: those with such a heading, those of directions, or the only one
     /// that may be it.
-    fn accelerations(&self) -> Result<Vec<usize>, InputError> {
+    fn accelerations(&self) -> Result<Vec<usize>> {
         let headings = &self.grid.headings;
         if let Some((heading, what)) = headings.iter().find_map(|heading| Some((heading, other(heading)?))) {
             return Err(self.not_acceleration(format!("'{}': {what}", heading.text)));
@@ -128,12 +128,7 @@ impl Samples<'_> {
     }
 
     /// The motion of samples under a heading, with the time step (s) found in the file.
-    fn motion(
-        &self,
-        heading: &Heading,
-        samples: Vec<f64>,
-        found: Option<f64>,
-    ) -> Result<RecordedMotion, InputError> {
+    fn motion(&self, heading: &Heading, samples: Vec<f64>, found: Option<f64>) -> Result<RecordedMotion> {
         let (options, line) = (self.options, self.line);
         if samples.len() < 2 {
             return Err(InputError::Count { announced: 2, found: samples.len() });
@@ -147,7 +142,7 @@ impl Samples<'_> {
     }
 
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
-    fn unit(&self, heading: &Heading) -> Result<Unit, InputError> {
+    fn unit(&self, heading: &Heading) -> Result<Unit> {
         let (options, line) = (self.options, self.line);
         let notes = self.grid.notes.iter().map(|note| Heading::new(note));
         let mut notes =
@@ -164,14 +159,14 @@ impl Samples<'_> {
     }
 
     /// Finds the time step (s) by the column of times, else by a comment, which must agree.
-    fn step(&self) -> Result<Option<f64>, InputError> {
+    fn step(&self) -> Result<Option<f64>> {
         let noted = noted_step(&self.grid.notes);
         let Some(times) = self.times else { return Ok(noted) };
         expect_step(noted, self.step_between(times)?, self.line).map(Some)
     }
 
     /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.
-    fn step_between(&self, column: usize) -> Result<f64, InputError> {
+    fn step_between(&self, column: usize) -> Result<f64> {
         let (grid, given) = (&self.grid, self.options.dt_s);
         let unit = grid.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
         let in_s = unit.map_or(1.0, |unit| unit.si);
@@ -206,7 +201,7 @@ impl Samples<'_> {
 
     /// Reads the samples of a column; without headings and times, a number of samples and the time step that
     /// is given may stand above them.
-    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>, InputError> {
+    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>> {
         let mut samples = self.grid.numbers(column)?;
         let decimals = |row: usize| decimals_of(self.grid.cell(row, column));
         let mut above = 0;
@@ -226,7 +221,7 @@ impl Samples<'_> {
     }
 
     /// Reads all cells as one series.
-    fn wrapped(&self) -> Result<Vec<f64>, InputError> {
+    fn wrapped(&self) -> Result<Vec<f64>> {
         self.expect_one_series(true)?;
         let rows = self.grid.rows();
         let cells = rows.flat_map(|row| (0..self.quantities.len()).map(move |column| (row, column)));
@@ -236,7 +231,7 @@ impl Samples<'_> {
 
     /// Refuses samples without times among which another line stands, a line of more cells than the first, and
     /// a short line of wrapped ones before the last: another series may begin there, or the file is damaged.
-    fn expect_one_series(&self, is_wrapped: bool) -> Result<(), InputError> {
+    fn expect_one_series(&self, is_wrapped: bool) -> Result<()> {
         let (grid, columns) = (&self.grid, self.quantities.len());
         let filled = |row: usize| (0..columns).take_while(|&at| !grid.cell(row, at).is_empty()).count();
         let expected = if is_wrapped || grid.has_headings { columns } else { filled(0) };

@@ -7,7 +7,7 @@ use super::ReadOptions;
 use super::header::{
     after, azimuth_of, field, header_pga, number_field, numbers, samples, single_spaced, time_step, unit_of,
 };
-use crate::inputs::InputError;
+use crate::inputs::{InputError, Result};
 
 /// Largest number of header lines.
 const HEADER: usize = 200;
@@ -16,7 +16,7 @@ pub fn recognises(lines: &[&str]) -> bool {
     field(header(lines), "SAMPLING_INTERVAL_S:").is_some()
 }
 
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let header = header(lines);
     let end = header.len();
     if let Some((line, kind)) = field(header, "DATA_TYPE:")

@@ -4,7 +4,7 @@ use rockfrag_core::records::HeaderPga;
 use rockfrag_core::units::{Quantity, Unit};
 
 use super::ReadOptions;
-use crate::inputs::{InputError, plain_number};
+use crate::inputs::{InputError, Result, plain_number};
 
 /// Accepted relative difference of a time step from the option.
 const SAME_STEP: f64 = 0.01;
@@ -14,7 +14,7 @@ const ACCELERATION: &str = "one of acceleration, such as g or cm/s2, or --unit, 
 const LONGEST_STEP_S: f64 = 10.0;
 
 /// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
-pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64, InputError> {
+pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64> {
     let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
     let missing = InputError::Missing { line, field: "time step", expected };
     let dt_s = found.or(options.dt_s).ok_or(missing)?;
@@ -25,7 +25,7 @@ pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Resu
     expect_step(options.dt_s, dt_s, line)
 }
 
-pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, InputError> {
+pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64> {
     let other = given.filter(|given| (dt_s - given).abs() > SAME_STEP * given);
     other.map_or(Ok(dt_s), |given| {
         let (found, given) = (format!("{dt_s} s"), format!("{given} s"));
@@ -34,7 +34,7 @@ pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64, In
 }
 
 /// Returns the unit at the start of a text, after which more may follow, else the given one; see [`unit`].
-pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
+pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit> {
     let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';');
     let found = text.map(|text| {
         let unit = text.trim_start().split(ends).next().and_then(Unit::parse);
@@ -44,7 +44,7 @@ pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result
 }
 
 /// Returns the unit of acceleration that a file says on a line, else the given one, which must not contradict.
-pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit, InputError> {
+pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit> {
     let missing = InputError::Missing { line, field: "unit", expected: ACCELERATION };
     let unit = found.or(options.unit).ok_or(missing)?;
     if unit.quantity != Quantity::Acceleration {
@@ -130,7 +130,7 @@ pub fn samples<'a, I: Iterator<Item = &'a str>>(
     header: usize,
     announced: f64,
     cells: impl Fn(&'a str) -> I,
-) -> Result<Vec<f64>, InputError> {
+) -> Result<Vec<f64>> {
     let (mut values, mut on_last_line) = (Vec::new(), 1);
     for (at, line) in lines.iter().enumerate().skip(header) {
         let before = values.len();

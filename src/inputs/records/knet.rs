@@ -9,7 +9,7 @@ use super::header::{
     after, azimuth_of, field, first_number, header_pga, leading_number, number_field, numbers, samples,
     single_spaced, time_step, unit,
 };
-use crate::inputs::InputError;
+use crate::inputs::{InputError, Result};
 
 /// Largest number of header lines.
 const HEADER: usize = 40;
@@ -18,7 +18,7 @@ pub fn recognises(lines: &[&str]) -> bool {
     lines.first().is_some_and(|line| line.trim_start().starts_with("Origin Time"))
 }
 
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let memo = lines.iter().take(HEADER).position(|line| line.trim_start().starts_with("Memo"));
     let end = memo.ok_or(missing(HEADER, "Memo.", "it at the end of the header"))?;

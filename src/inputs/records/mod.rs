@@ -24,7 +24,7 @@ use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::units::Unit;
 use strum::VariantArray;
 
-use super::{InputError, decode, words};
+use super::{InputError, Result, decode, words};
 
 /// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -60,7 +60,7 @@ pub fn is_vertical(origin: &Origin) -> bool {
 const SAME_PEAK: f64 = 0.05;
 
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
-pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>, InputError> {
+pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();

@@ -9,7 +9,7 @@ use super::header::{
     after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, single_spaced, time_step,
     unit_of,
 };
-use crate::inputs::InputError;
+use crate::inputs::{InputError, Result};
 
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
@@ -32,7 +32,7 @@ fn are_counts(line: &str) -> bool {
     matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
 }
 
-pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion, InputError> {
+pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
     let (header, counts) = (&lines[..at], lines[at]);
@@ -78,7 +78,7 @@ fn named(counts: &str, key: &str) -> Option<f64> {
 }
 
 /// Refuses a header of another quantity. Its first two lines are the database and the record.
-fn expect_acceleration(header: &[&str]) -> Result<(), InputError> {
+fn expect_acceleration(header: &[&str]) -> Result<()> {
     let mut others = header.iter().zip(1..).skip(2);
     let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
     other.map_or(Ok(()), |(text, line)| {
