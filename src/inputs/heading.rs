@@ -35,10 +35,8 @@ impl Heading {
     /// A cell without the unit behind its number, which is that of the heading: 40 cm below `Width (cm)`.
     pub fn without_unit<'a>(&self, cell: &'a str) -> &'a str {
         let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
-        let unit = self
-            .unit
-            .filter(|unit| (1..cell.len()).contains(&end) && Unit::parse(&cell[end..]) == Some(*unit));
-        unit.map_or(cell, |_| cell[..end].trim_end())
+        let is_own = |unit: &Unit| (1..cell.len()).contains(&end) && Unit::parse(&cell[end..]) == Some(*unit);
+        self.unit.filter(is_own).map_or(cell, |_| cell[..end].trim_end())
     }
 
     /// The heading with the unit in a cell below it; none where it has another one.

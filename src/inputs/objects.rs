@@ -332,9 +332,8 @@ impl List<'_> {
 
     /// Why the object of a row is not free to rock.
     fn held(&self, row: usize) -> Option<ObjectError> {
-        let columns = self.grid.headings.iter().zip(&self.columns).enumerate();
-        let mut held = columns.filter(|(_, (_, column))| **column == Role::Held);
-        held.find_map(|(at, (heading, _))| held_by(&heading.text, self.grid.value(row, at)?))
+        let mut held = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Held);
+        held.find_map(|at| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?))
     }
 }
 

@@ -1,8 +1,6 @@
 //! What the headings of a hazard say: measures by their units, rates, probabilities and return periods, means
 //! and fractiles.
 
-use std::ops::RangeInclusive;
-
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::units::Quantity;
 
@@ -207,9 +205,6 @@ pub fn noted_statistic(grid: &Grid) -> Result<Statistic> {
     Ok(named.map_or(Statistic::Mean, |(_, statistic)| statistic))
 }
 
-/// Motions a year: no site has more that a hazard counts.
-const MOST_FREQUENT: RangeInclusive<f64> = 0.0..=1000.0;
-
 impl Frequency {
     /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
     fn new(words: &[&str], investigation_years: Option<f64>) -> Option<Frequency> {
@@ -239,7 +234,7 @@ impl Frequency {
                 (None, "a rate a year, such as 0.002; percent are probabilities")
             }
             Frequency::Rate | Frequency::Occurrence => {
-                (Some(number).filter(|rate| MOST_FREQUENT.contains(rate)), "a rate a year from 0 to 1000")
+                (Some(number).filter(|rate| (0.0..=1000.0).contains(rate)), "a rate a year from 0 to 1000")
             }
             Frequency::ReturnPeriod => ((number > 0.0).then_some(1.0 / number), "years above 0"),
             Frequency::ProbabilityIn(_) if number == 1.0 => return Ok(None),

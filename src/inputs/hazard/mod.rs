@@ -61,12 +61,8 @@ struct Curve {
 impl Curve {
     /// Makes a curve, which some place on earth can have. Tables often begin with motions that are certain to
     /// come, and end with some that never do: these tell nothing.
-    fn new(
-        (measure, statistic): (Imt, Statistic),
-        mut points: Vec<CurvePoint>,
-        grid: &Grid,
-        file: &Path,
-    ) -> Result<Curve> {
+    fn new(of: (Imt, Statistic), mut points: Vec<CurvePoint>, grid: &Grid, file: &Path) -> Result<Curve> {
+        let (measure, statistic) = of;
         points.retain(|point| point.value != 0.0);
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
         for pair in points.windows(2) {
@@ -170,7 +166,7 @@ impl Found {
         let occurrence = columns.iter().position(|column| column.frequency == Some(Frequency::Occurrence));
         let is_joint = are_fields || occurrence.is_some();
         if is_joint {
-            self.joint = Some(joint(&grid, occurrence, effective_years, &mut self.warnings)?);
+            self.add_motions(&grid, occurrence, effective_years)?;
         } else {
             let before = self.curves.len();
             for values in columns.iter().filter(|column| column.unit.is_some()) {
@@ -192,6 +188,36 @@ impl Found {
                 self.warnings.add(Warning::UnusedColumns, heading.text.clone());
             }
         }
+        Ok(())
+    }
+
+    /// Adds motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or
+    /// equal in so many effective years.
+    fn add_motions(&mut self, grid: &Grid, occurrence: Option<usize>, years: Option<f64>) -> Result<()> {
+        let Some(MotionTable { given, mw, .. }) = motions(grid, &mut self.warnings)? else {
+            let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
+            return Err(InputError::unexpected(found, "both, or rates of exceedance"));
+        };
+        if given.is_empty() {
+            return Err(InputError::unexpected("no rows", "motions with PGA and PGV"));
+        }
+        let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
+        for (row, line) in grid.lines.iter().enumerate() {
+            let annual_rate = match (occurrence, years) {
+                (Some(at), None) => Frequency::Occurrence.annual_rate(grid, row, at)?.unwrap_or_default(),
+                (_, years) => 1.0 / years.unwrap_or(f64::INFINITY),
+            };
+            let same = [given[row].pga_m_s2, given[row].pgv_m_s, mw[row].unwrap_or(0.0)].map(f64::to_bits);
+            if let Some(first) = lines.insert(same, line).filter(|_| years.is_none()) {
+                let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
+                return Err(InputError::unexpected(found, "one row of each bin"));
+            }
+            bins.push(PairOfPeaks { peaks: given[row].clamp_to_recorded(), annual_rate, mw: mw[row] });
+        }
+        validate_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
+            .and_then(|()| validate_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
+            .map_err(InputError::Implausible)?;
+        self.joint = Some(bins);
         Ok(())
     }
 
@@ -310,37 +336,4 @@ fn curve_of(grid: &Grid, values: &HazardColumn, rates: &HazardColumn, file: &Pat
         points.push(CurvePoint { value, annual_rate, row, column: rates.at });
     }
     Curve::new((measure, statistic), points, grid, file).map(Some)
-}
-
-/// Motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or equal.
-fn joint(
-    grid: &Grid,
-    occurrence: Option<usize>,
-    effective_years: Option<f64>,
-    warnings: &mut Warnings,
-) -> Result<Vec<PairOfPeaks>> {
-    let Some(MotionTable { given, mw, .. }) = motions(grid, warnings)? else {
-        let found = format!("rates of occurrence without PGA and PGV: {}", grid.found());
-        return Err(InputError::unexpected(found, "both, or rates of exceedance"));
-    };
-    if given.is_empty() {
-        return Err(InputError::unexpected("no rows", "motions with PGA and PGV"));
-    }
-    let (mut bins, mut lines) = (Vec::new(), BTreeMap::new());
-    for (row, line) in grid.lines.iter().enumerate() {
-        let annual_rate = match (occurrence, effective_years) {
-            (Some(at), None) => Frequency::Occurrence.annual_rate(grid, row, at)?.unwrap_or_default(),
-            (_, years) => 1.0 / years.unwrap_or(f64::INFINITY),
-        };
-        let same = [given[row].pga_m_s2, given[row].pgv_m_s, mw[row].unwrap_or(0.0)].map(f64::to_bits);
-        if let Some(first) = lines.insert(same, line).filter(|_| effective_years.is_none()) {
-            let found = format!("lines {first} and {line}: the same PGA, PGV and magnitude");
-            return Err(InputError::unexpected(found, "one row of each bin"));
-        }
-        bins.push(PairOfPeaks { peaks: given[row].clamp_to_recorded(), annual_rate, mw: mw[row] });
-    }
-    validate_hazard("PGA", &exceedance(&bins, |bin| bin.peaks.pga_m_s2 / G_M_S2))
-        .and_then(|()| validate_hazard("PGV", &exceedance(&bins, |bin| bin.peaks.pgv_m_s)))
-        .map_err(InputError::Implausible)?;
-    Ok(bins)
 }

@@ -43,10 +43,10 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
         } else if announces("real-header values") {
             channel.reals = block(lines, &mut at)?;
         } else if announces("acceleration pts") {
-            let line = at;
-            let unit = unit_of(after(text, "units=").or(Some("")), options, line)?;
-            let values = block(lines, &mut at)?;
-            motions.push(std::mem::take(&mut channel).motion(values, unit, options, line)?);
+            let unit = unit_of(after(text, "units=").or(Some("")), options, at)?;
+            let step_ms = channel.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0);
+            let dt_s = time_step(step_ms.map(|step| step / MS_PER_S), options, at)?;
+            motions.push(std::mem::take(&mut channel).motion(dt_s, block(lines, &mut at)?, unit));
         } else if announces("velocity pts") || announces("displacement pts") {
             refusal = InputError::NotAcceleration { line: at, found: text.trim().to_string() };
             block(lines, &mut at).ok();
@@ -97,15 +97,7 @@ struct Channel<'a> {
 }
 
 impl Channel<'_> {
-    fn motion(
-        self,
-        values: Vec<f64>,
-        unit: Unit,
-        options: &ReadOptions,
-        line: usize,
-    ) -> Result<RecordedMotion> {
-        let step = self.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0).map(|step| step / MS_PER_S);
-        let dt_s = time_step(step, options, line)?;
+    fn motion(self, dt_s: f64, values: Vec<f64>, unit: Unit) -> RecordedMotion {
         let find = |key| self.header.iter().find_map(|text| after(text, key));
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
         let label = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
@@ -126,12 +118,12 @@ impl Channel<'_> {
             component: if is_vertical { Some("vertical".to_string()) } else { label },
             ..Origin::default()
         };
-        Ok(RecordedMotion {
+        RecordedMotion {
             header_pga: peak.map(|peak| {
                 let m_s2 = peak.abs() * unit.si;
                 HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }
             }),
             ..RecordedMotion::new(dt_s, values, unit, origin)
-        })
+        }
     }
 }

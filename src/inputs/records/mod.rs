@@ -55,8 +55,7 @@ pub fn is_vertical(origin: &Origin) -> bool {
     origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
 }
 
-/// Accepted relative difference of the samples from the peak in the header, which some programs round or take
-/// before a correction.
+/// Accepted relative difference of the peak in a header, which may be rounded or of uncorrected samples.
 const SAME_PEAK: f64 = 0.05;
 
 /// Reads the motions in the bytes of a file, and compares them with the peaks in their headers.
@@ -64,17 +63,15 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
-    let recognises = |format: &&RecordFormat| match format {
+    let recognises = |format: &RecordFormat| match format {
         RecordFormat::Cosmos => cosmos::recognises(&lines),
         RecordFormat::Knet => knet::recognises(&lines),
         RecordFormat::Esm => esm::recognises(&lines),
         RecordFormat::PeerAt2 => peer_at2::recognises(&lines),
         RecordFormat::Csv => true,
     };
-    let format = options
-        .format
-        .or_else(|| RecordFormat::VARIANTS.iter().find(recognises).copied())
-        .unwrap_or(RecordFormat::Csv);
+    let recognised = RecordFormat::VARIANTS.iter().copied().find(recognises);
+    let format = options.format.or(recognised).unwrap_or(RecordFormat::Csv);
     let mut motions = match format {
         RecordFormat::Cosmos => cosmos::parse(&lines, options)?,
         RecordFormat::Knet => vec![knet::parse(&lines, options)?],

@@ -36,7 +36,12 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
     let (header, counts) = (&lines[..at], lines[at]);
-    expect_acceleration(header)?;
+    // Below the database and the record.
+    let mut others = header.iter().zip(1..).skip(2);
+    let is_other = |text: &str| after(text, "VELOCITY").or(after(text, "DISPLACEMENT")).is_some();
+    if let Some((text, line)) = others.find(|(text, _)| is_other(text)) {
+        return Err(InputError::NotAcceleration { line, found: text.trim().to_string() });
+    }
     let (unit, line) =
         header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number))).unzip();
     let unit = unit_of(unit, options, line.unwrap_or(3))?;
@@ -75,13 +80,4 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
 fn named(counts: &str, key: &str) -> Option<f64> {
     let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
     first_number(value.strip_prefix(['=', ':'])?)
-}
-
-/// Refuses a header of another quantity. Its first two lines are the database and the record.
-fn expect_acceleration(header: &[&str]) -> Result<()> {
-    let mut others = header.iter().zip(1..).skip(2);
-    let other = others.find(|(line, _)| after(line, "VELOCITY").or(after(line, "DISPLACEMENT")).is_some());
-    other.map_or(Ok(()), |(text, line)| {
-        Err(InputError::NotAcceleration { line, found: text.trim().to_string() })
-    })
 }
