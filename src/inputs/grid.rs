@@ -275,7 +275,7 @@ fn join_lines(lines: &[&str], separator: char) -> Result<String> {
         // A row with one empty cell keeps the line count.
         text += if line.is_empty() && quoted_from.is_none() { "\"\"\n" } else { "\n" };
     }
-    let never_closed = quoted_from.filter(|line| *line < lines.len());
+    let never_closed = quoted_from.filter(|line| lines[*line..].iter().any(|line| !line.is_empty()));
     never_closed.map_or(Ok(text), |line| Err(InputError::Quote { line }))
 }
 

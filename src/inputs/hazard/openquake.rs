@@ -26,7 +26,7 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve> {
         Some("PGV") => (Imt::Pgv, 1.0 / CM_PER_M),
         Some("SA(1.0)") => (Imt::Spectral, G_M_S2),
         other => {
-            let found = format!("a curve of {}", other.unwrap_or("no imt in the header"));
+            let found = other.map_or("no imt in the header".to_string(), |imt| format!("a curve of {imt}"));
             return Err(InputError::unexpected(found, "PGA, PGV or SA(1.0)"));
         }
     };
