@@ -1,6 +1,7 @@
 //! Traits of real files: each is read as the agency means it, or refused.
 
-use rockfrag::inputs::records::{InputError, is_vertical};
+use rockfrag::inputs::InputError;
+use rockfrag::inputs::records::is_vertical;
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 

@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use rockfrag::inputs::records::{ReadOptions, RecordFileError, read_records};
+use rockfrag::inputs::InputError;
+use rockfrag::inputs::records::{ReadOptions, read_records};
 use rockfrag_core::records::RecordedMotion;
 use rockfrag_core::units::Unit;
 
@@ -99,7 +100,7 @@ pub fn knet(samples: &[f64]) -> String {
 }
 
 /// Reads with options such as `unit=g dt=0.01 column=acc`.
-pub fn read_with(text: &str, options: &str) -> Result<Vec<RecordedMotion>, RecordFileError> {
+pub fn read_with(text: &str, options: &str) -> Result<Vec<RecordedMotion>, InputError> {
     let value = |key: &str| options.split(' ').find_map(|option| option.strip_prefix(key)?.strip_prefix('='));
     let options = ReadOptions {
         dt_s: value("dt").map(|dt| dt.parse().unwrap()),
