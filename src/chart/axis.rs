@@ -1,19 +1,19 @@
-//! Axes: from values to fractions of a length, and the places of ticks.
+//! Axes: from values to places in a picture, and the ticks.
 
 use std::ops::RangeInclusive;
 
-use rockfrag_core::statistics::Range;
-
-use super::figure::{Axis, Panel, Scale};
+use super::figure::{Axis, Frame, Panel, Scale};
 use super::text::minus;
 use crate::number;
 
-/// An axis with a range.
-#[derive(Debug, Clone, PartialEq)]
+/// An axis with its range, and where in the picture the range begins and ends.
+#[derive(Debug, Clone, Copy)]
 pub struct Ruler<'a> {
-    scale: &'a Scale,
+    pub scale: &'a Scale,
     low: f64,
     high: f64,
+    pub from: f64,
+    pub to: f64,
 }
 
 /// A mark on an axis; a minor one has no label.
@@ -30,64 +30,68 @@ const MARGIN: f64 = 0.04;
 /// its ends, which is no accident of rounding.
 const SHOWN: RangeInclusive<f64> = 1e-30..=1e30;
 const NARROWEST: f64 = 1e-9;
+/// Multiples of a power of ten that have labels, the densest first.
+const DENSE: [&[f64]; 4] =
+    [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 3.0, 5.0], &[1.0, 2.0, 5.0], &[1.0, 3.0]];
 
 impl Panel {
-    /// Names of the rows in which estimates lie, with limits along x; none where y has numbers.
-    pub fn names(&self) -> &[String] {
-        if let Scale::Names(names) = &self.y.scale { names } else { &[] }
-    }
-
-    pub fn rulers(&self) -> [Ruler<'_>; 2] {
+    /// The axes, each from one place to another.
+    pub fn rulers(&self, across: [f64; 2], upwards: [f64; 2]) -> [Ruler<'_>; 2] {
         let (mut x, mut y) = (Vec::new(), Vec::new());
         for mark in self.layers.iter().flat_map(|layer| &layer.marks) {
             x.push(mark.x);
             y.push(mark.y);
             if self.names().is_empty() { &mut y } else { &mut x }.extend([mark.low, mark.high]);
         }
-        [Ruler::new(&self.x, x), Ruler::new(&self.y, y)]
+        let rulers = [Ruler::new(&self.x, x, across), Ruler::new(&self.y, y, upwards)];
+        match self.frame {
+            Frame::Axes => rulers,
+            Frame::ToScale => {
+                let per_point = rulers.map(|ruler| (ruler.high - ruler.low) / (ruler.to - ruler.from).abs());
+                rulers.map(|ruler| ruler.stretched(per_point[0].max(per_point[1])))
+            }
+        }
     }
 }
 
 impl<'a> Ruler<'a> {
-    fn new(axis: &'a Axis, mut values: Vec<f64>) -> Ruler<'a> {
+    fn new(axis: &'a Axis, mut values: Vec<f64>, [from, to]: [f64; 2]) -> Ruler<'a> {
         let scale = &axis.scale;
         let (least, most) = SHOWN.into_inner();
         values.retain(|value| value.abs() <= most && (*scale != Scale::Log || *value >= least));
-        let Range { low, high } = Range::over(values);
-        let (low, high) = match (axis.range, scale) {
-            (Some(given), _) if given.low < given.high && given.high <= most => (given.low, given.high),
-            (_, Scale::Names(names)) => (names.len() as f64 - 0.5, -0.5),
-            _ if low > high => (1.0, 10.0),
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = match (axis.range, scale) {
+            (Some([low, high]), _) if low < high && high <= most => [low, high],
+            (_, Scale::Names(names)) => [names.len() as f64 - 0.5, -0.5],
+            _ if low > high => [1.0, 10.0],
             (_, Scale::Log) => {
                 let is_wide = high / low > 1.0 + NARROWEST;
                 let margin = if is_wide { (high / low).powf(MARGIN) } else { 2.0 };
-                (low / margin, high * margin)
+                [low / margin, high * margin]
             }
             (_, Scale::Linear) => {
                 let is_wide = high - low > (NARROWEST * low.abs().max(high.abs())).max(least);
                 let margin = if is_wide { MARGIN * (high - low) } else { 1.0 + 0.1 * low.abs() };
-                (low - margin, high + margin)
+                [low - margin, high + margin]
             }
         };
-        Ruler { scale, low, high }
+        Ruler { scale, low, high, from, to }
     }
 
-    /// Stretches the range to this length about its middle.
-    pub fn over_length(&self, length: f64) -> Ruler<'a> {
-        let middle = 0.5 * (self.low + self.high);
-        Ruler { scale: self.scale, low: middle - 0.5 * length, high: middle + 0.5 * length }
+    /// Stretches the range about its middle to this much for each point of the picture.
+    fn stretched(self, per_point: f64) -> Ruler<'a> {
+        let (middle, half) = (0.5 * (self.low + self.high), 0.5 * per_point * (self.to - self.from).abs());
+        Ruler { low: middle - half, high: middle + half, ..self }
     }
 
-    /// The length of its range.
-    pub fn length(&self) -> f64 {
-        self.high - self.low
-    }
-
-    pub fn fraction(&self, value: f64) -> f64 {
-        match self.scale {
+    /// The place of a value.
+    pub fn at(&self, value: f64) -> f64 {
+        let fraction = match self.scale {
             Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
-            _ => (value - self.low) / self.length(),
-        }
+            _ => (value - self.low) / (self.high - self.low),
+        };
+        self.from + (self.to - self.from) * fraction
     }
 
     /// Places the ticks, of which `most` or fewer have labels.
@@ -109,18 +113,16 @@ impl<'a> Ruler<'a> {
         let step = factor.unwrap_or(10.0) * power;
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         let all = (self.low / step - 1e-9).ceil() as i64..=(self.high / step + 1e-9).floor() as i64;
-        all.map(|k| k as f64 * step)
-            .map(|value| Tick { value, label: Some(minus(number::fixed(value, decimals))) })
-            .collect()
+        let values = all.map(|k| k as f64 * step);
+        values.map(|value| Tick { value, label: Some(minus(number::fixed(value, decimals))) }).collect()
     }
 
     /// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
     fn log_ticks(&self, most: usize) -> Vec<Tick> {
         // Powers of ten where plain numbers would be long.
         let as_powers = self.low < 0.00099 || self.high > 100_100.0;
-        let dense: [&[f64]; 4] =
-            [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 3.0, 5.0], &[1.0, 2.0, 5.0], &[1.0, 3.0]];
-        let dense = dense[if as_powers { 2 } else { 0 }..].iter().map(|factors| (*factors, 1));
+        let label = if as_powers { power_of_ten } else { number::plain };
+        let dense = DENSE.into_iter().skip(if as_powers { 2 } else { 0 }).map(|factors| (factors, 1));
         let choices = dense.chain([1, 2, 3, 5, 10, 20].map(|every| (&[1.0][..], every)));
         let mut fitting = choices.filter_map(|(factors, every)| {
             // Whole decades have short labels, as wide apart as they can be.
@@ -128,7 +130,6 @@ impl<'a> Ruler<'a> {
             Some(self.in_decades(factors, every)).filter(|values| values.len() <= most)
         });
         let labelled = fitting.next().unwrap_or_default();
-        let label = if as_powers { power_of_ten } else { number::plain };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
         let factors = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
         let minor = self.in_decades(factors, 1).into_iter().filter(|value| !labelled.contains(value));
@@ -140,9 +141,8 @@ impl<'a> Ruler<'a> {
     fn in_decades(&self, factors: &[f64], every: i32) -> Vec<f64> {
         let decades = self.low.log10().floor() as i32..=self.high.log10().ceil() as i32;
         let inside = self.low * (1.0 - 1e-9)..=self.high * (1.0 + 1e-9);
-        let decades = decades.filter(|decade| decade.rem_euclid(every) == 0);
-        let values =
-            decades.flat_map(|decade| factors.iter().map(move |factor| factor * 10_f64.powi(decade)));
+        let powers = decades.filter(|decade| decade.rem_euclid(every) == 0).map(|decade| 10_f64.powi(decade));
+        let values = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
         values.filter(|value| inside.contains(value)).collect()
     }
 }

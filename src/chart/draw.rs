@@ -1,14 +1,13 @@
 //! Drawing of figures: as SVG files in points of 1/72 inch and as PNG of them; as SVG in a page.
 
 use std::collections::HashSet;
-use std::fmt::Write;
-use std::slice;
+use std::{iter, slice};
 
 use super::axis::Ruler;
-use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel};
+use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale};
 use super::pen::{LETTERS, Pen, Point, SMALL, course, round};
 use super::text::{escape, html, literal, words};
-use crate::table::provenance::CREATED_BY;
+use crate::number;
 
 /// Width of a file, points: across two columns of a journal, 180 mm.
 const FILE_WIDTH: f64 = 510.2;
@@ -27,9 +26,10 @@ const TITLE: f64 = 12.0;
 const LABEL: f64 = 10.0;
 const GAP: f64 = 6.0;
 const BELOW: f64 = 26.0;
-/// Height of a row with a name, and the most room for names.
+/// Height of a row with a name; the most room for names, and its most share of the width.
 const ROW: f64 = 13.0;
 const NAMES: f64 = 190.0;
+const NAMES_SHARE: f64 = 0.46;
 /// Height of a line of the legend, length of its marks, and room between its entries.
 const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
@@ -39,17 +39,26 @@ const FEW_POINTS: usize = 400;
 
 /// The fonts of a file: the first that its reader has.
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
+/// What made the files, in their heads.
+const GENERATOR: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+/// Dots per inch of PNG files.
+pub const DPI: f32 = 300.0;
 
 /// Writes a figure as an SVG file on white.
 pub fn svg(figure: &Figure) -> String {
-    let (body, height) = drawn(figure, FILE_WIDTH, Ink::in_file);
-    let width = FILE_WIDTH;
-    let captions = figure.panels.iter().map(|panel| words(&panel.caption));
+    let mut pen = Pen::new(Ink::in_file);
+    let mut height = pen.legend(&figure.panels, FILE_WIDTH);
+    let columns = figure.columns.max(1);
+    for row in figure.panels.chunks(columns) {
+        height = pen.row(row, figure.height, FILE_WIDTH / columns as f64, height);
+    }
+    let (width, height) = (FILE_WIDTH, round(height.max(1.0)));
+    let captions = iter::once(&figure.caption).chain(figure.panels.iter().map(|panel| &panel.caption));
     let caption: Vec<String> =
-        std::iter::once(words(&figure.caption)).chain(captions).filter(|text| !text.is_empty()).collect();
-    let (title, caption) = (escape(&words(&figure.title)), escape(&caption.join(" ")));
+        captions.filter(|text| !text.is_empty()).map(|text| escape(&words(text))).collect();
+    let (title, caption, body) = (escape(&words(&figure.title)), caption.join(" "), pen.text);
     let size = format!("width=\"{width}pt\" height=\"{height}pt\" viewBox=\"0 0 {width} {height}\"");
-    let meta = format!("xmlns=\"http://www.w3.org/1999/xhtml\" name=\"generator\" content=\"{CREATED_BY}\"");
+    let meta = format!("xmlns=\"http://www.w3.org/1999/xhtml\" name=\"generator\" content=\"{GENERATOR}\"");
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\">\n\
          <metadata><meta {meta}/></metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
@@ -63,33 +72,33 @@ pub fn html_of_panels(figure: &Figure) -> String {
     // As high over its width as in the file.
     let across = PAGE_WIDTH * figure.columns.max(1) as f64 / FILE_WIDTH;
     let height = (figure.height * across).max(LEAST_HEIGHT);
-    let (mut pen, mut shared, mut panels) = (Pen::new(Ink::in_page), String::new(), String::new());
     // A legend that all panels share stands above them.
-    let is_shared = figure.panels.windows(2).all(|pair| labels(&pair[0]) == labels(&pair[1]));
-    let is_shared = is_shared && figure.panels.len() > 1;
-    let above = if is_shared { pen.legend(legend(&figure.panels), PAGE_WIDTH) } else { 0.0 };
-    if above > 0.0 {
-        let (view, body) = (format!("0 0 {PAGE_WIDTH} {above}"), &pen.text);
-        shared = format!("<svg class=\"legend\" viewBox=\"{view}\" role=\"group\">\n{body}</svg>\n");
-    }
+    let names = |panel| listed(slice::from_ref(panel)).map(|layer| &layer.name).collect::<Vec<_>>();
+    let is_shared = figure.panels.windows(2).all(|pair| names(&pair[0]) == names(&pair[1]));
+    let shared = if is_shared && figure.panels.len() > 1 { &figure.panels[..] } else { &[] };
+    let mut pen = Pen::new(Ink::in_page);
+    let mut text = match pen.legend(shared, PAGE_WIDTH) {
+        0.0 => String::new(),
+        above => format!(
+            "<svg class=\"legend\" viewBox=\"0 0 {PAGE_WIDTH} {above}\" role=\"group\">\n{}</svg>\n",
+            pen.text
+        ),
+    };
+    let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
+    text += &format!("<div class=\"{class}\">\n");
     for panel in &figure.panels {
         let name = if panel.title.is_empty() { &figure.title } else { &panel.title };
         let (name, caption) = (escape(&words(name)), html(&panel.caption));
-        let mut panel = panel.clone();
-        panel.layers.iter_mut().filter(|_| is_shared).for_each(|layer| layer.label.clear());
-        let alone = Figure { columns: 1, height, panels: vec![panel], ..Figure::default() };
-        let (body, height) = drawn(&alone, PAGE_WIDTH, Ink::in_page);
-        panels += &format!(
+        let (mut pen, alone) = (Pen::new(Ink::in_page), slice::from_ref(panel));
+        let top = pen.legend(if shared.is_empty() { alone } else { &[] }, PAGE_WIDTH);
+        let (height, body) = (round(pen.row(alone, height, PAGE_WIDTH, top)), pen.text);
+        text += &format!(
             "<figure>\n<svg viewBox=\"0 0 {PAGE_WIDTH} {height}\" role=\"img\" aria-label=\"{name}\">\n\
              {body}</svg>\n<figcaption>{caption}</figcaption></figure>\n"
         );
     }
-    let class = if figure.panels.len() == 4 { "panels four" } else { "panels" };
-    format!("{shared}<div class=\"{class}\">\n{panels}</div>\n")
+    text + "</div>\n"
 }
-
-/// Dots per inch of PNG files.
-pub const DPI: f32 = 300.0;
 
 /// Draws an SVG file as PNG with so many dots per inch.
 pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
@@ -109,82 +118,21 @@ pub fn png(svg: &str, dpi: f32) -> Result<Vec<u8>, resvg::usvg::Error> {
     Ok(named(&drawn))
 }
 
-/// A PNG with our name behind its head: a chunk of its length, its kind, its words and their sum.
+/// A PNG with what made it behind its head: a chunk of its length, its kind, its words and their sum.
 fn named(png: &[u8]) -> Vec<u8> {
     const HEAD: usize = 33;
-    let content = [b"tEXtSoftware\0", CREATED_BY.as_bytes()].concat();
+    let content = [b"tEXtSoftware\0", GENERATOR.as_bytes()].concat();
     let mut sum = flate2::Crc::new();
     sum.update(&content);
     let [length, sum] = [content.len() as u32 - 4, sum.sum()].map(u32::to_be_bytes);
     [&png[..HEAD], &length, &content, &sum, &png[HEAD..]].concat()
 }
 
-/// Draws all panels in rows below one legend, so wide; returns the height too.
-fn drawn(figure: &Figure, width: f64, colour: fn(Ink) -> &'static str) -> (String, f64) {
-    let mut pen = Pen::new(colour);
-    let across = width / figure.columns.max(1) as f64;
-    let mut top = pen.legend(legend(&figure.panels), width);
-    for row in figure.panels.chunks(figure.columns.max(1)) {
-        let rooms: Vec<Rooms> = row.iter().map(|panel| Rooms::new(panel, figure, across)).collect();
-        let above = rooms.iter().map(|rooms| rooms.above).fold(0.0, f64::max);
-        for (column, (panel, rooms)) in row.iter().zip(&rooms).enumerate() {
-            let area = Area {
-                left: column as f64 * across + rooms.left,
-                top: top + above,
-                width: across - rooms.left - rooms.right,
-                height: rooms.height,
-            };
-            pen.panel(panel, area, above);
-        }
-        top += above + rooms.iter().map(|rooms| rooms.height).fold(0.0, f64::max);
-        top += rooms.iter().map(|rooms| rooms.below).fold(0.0, f64::max);
-    }
-    (pen.text, round(top.max(1.0)))
-}
-
-/// The area of the data of a panel.
-#[derive(Debug, Clone, Copy)]
-struct Area {
-    left: f64,
-    top: f64,
-    width: f64,
-    height: f64,
-}
-
-/// The height of the area of the data of a panel, and the room around it.
-struct Rooms {
-    left: f64,
-    right: f64,
-    above: f64,
-    below: f64,
-    height: f64,
-}
-
-impl Rooms {
-    fn new(panel: &Panel, figure: &Figure, across: f64) -> Rooms {
-        let is_to_scale = panel.frame == Frame::ToScale;
-        let has_words_above = panel.words.iter().any(|words| words.position == LabelPosition::Above);
-        let title = TITLE * f64::from(!panel.title.is_empty());
-        let labels = LABEL * f64::from(!panel.y.label.is_empty()) + LABEL * f64::from(has_words_above);
-        let mut rooms = Rooms {
-            left: if is_to_scale { 4.0 } else { LEFT },
-            right: RIGHT,
-            above: GAP + title + labels,
-            below: if is_to_scale || panel.x.label.is_empty() { GAP } else { BELOW },
-            height: figure.height,
-        };
-        if !panel.names().is_empty() {
-            rooms.height = ROW * panel.names().len() as f64;
-            // The names and words of rows have the same room in all panels over the same axis.
-            for peer in figure.panels.iter().filter(|peer| !peer.names().is_empty() && peer.x == panel.x) {
-                let words = peer.words.iter().filter(|words| words.position == LabelPosition::Margin);
-                rooms.right = words.map(|words| room(&words.text)).fold(rooms.right, f64::max);
-                rooms.left = peer.names().iter().map(|name| room(name)).fold(rooms.left, f64::max);
-            }
-            rooms.left = rooms.left.min(NAMES.min(0.46 * across));
-        }
-        rooms
-    }
+/// The layers of the legend, in the order in which they come.
+fn listed(panels: &[Panel]) -> impl Iterator<Item = &Layer> {
+    let mut known = HashSet::new();
+    let layers = panels.iter().flat_map(|panel| &panel.layers);
+    layers.filter(move |layer| layer.is_listed && known.insert(&layer.name))
 }
 
 /// Estimates the width of marked text: the letters of its reader are not known.
@@ -192,132 +140,131 @@ fn width(marked: &str, size: f64) -> f64 {
     words(marked).chars().count() as f64 * size * LETTER_WIDTH
 }
 
-/// The room for a name or words beside a row.
-fn room(marked: &str) -> f64 {
-    width(marked, SMALL) + 8.0
-}
-
-/// Cuts a name to the room for names.
-fn shortened(name: &str, room: f64, size: f64) -> String {
-    let name = words(name);
-    let most = (room / (size * LETTER_WIDTH)) as usize;
-    match name.char_indices().nth(most) {
-        Some(_) => format!("{}\u{2026}", name.chars().take(most.saturating_sub(1)).collect::<String>()),
-        None => name,
+impl Panel {
+    /// The room above the area of its data, for title and label of y.
+    fn above(&self) -> f64 {
+        let has_words = self.words.iter().any(|words| words.position == LabelPosition::Above);
+        let labels = LABEL * f64::from(!self.y.label.is_empty()) + LABEL * f64::from(has_words);
+        GAP + TITLE * f64::from(!self.title.is_empty()) + labels
     }
-}
 
-/// One layer of each name, in the order in which they come.
-fn legend(panels: &[Panel]) -> impl Iterator<Item = &Layer> {
-    let mut known = HashSet::new();
-    let layers = panels.iter().flat_map(|panel| &panel.layers);
-    layers.filter(move |layer| !layer.label.is_empty() && known.insert(&layer.label))
-}
+    /// The room below it, for ticks and label of x.
+    fn below(&self) -> f64 {
+        if self.frame == Frame::ToScale || self.x.label.is_empty() { GAP } else { BELOW }
+    }
 
-fn labels(panel: &Panel) -> Vec<&str> {
-    legend(slice::from_ref(panel)).map(|layer| layer.label.as_str()).collect()
+    /// The height of the area of its data, where that of others is given.
+    fn height(&self, of_others: f64) -> f64 {
+        if self.names().is_empty() { of_others } else { ROW * self.names().len() as f64 }
+    }
+
+    /// The room at the left for ticks or names, and at the right for words in the margin.
+    fn sides(&self, across: f64) -> [f64; 2] {
+        let room = |marked: &String| width(marked, SMALL) + 8.0;
+        let left = self.names().iter().map(room).fold(LEFT, f64::max).min(NAMES.min(NAMES_SHARE * across));
+        let words = self.words.iter().filter(|words| words.position == LabelPosition::Margin);
+        let right = words.map(|words| room(&words.text)).fold(RIGHT, f64::max);
+        [if self.frame == Frame::ToScale { 4.0 } else { left }, right]
+    }
 }
 
 impl Pen {
     /// Draws the legend in lines; returns where the first row of panels begins.
-    fn legend<'a>(&mut self, entries: impl Iterator<Item = &'a Layer>, across: f64) -> f64 {
+    fn legend(&mut self, panels: &[Panel], across: f64) -> f64 {
         let left = 4.0;
         let (mut x, mut y) = (left, 11.0);
-        for layer in entries {
-            let long = MARK + 3.0 + width(&layer.label, LETTERS);
+        for layer in listed(panels) {
+            let long = MARK + 3.0 + width(&layer.name, LETTERS);
             if x > left && x + long > across {
                 (x, y) = (left, y + LEGEND);
             }
-            self.legend_mark(layer, Point::new(x, y - 2.6));
-            self.label(Point::new(x + MARK + 3.0, y), LETTERS, "", Ink::Text, &layer.label);
+            let along = |part: f64| Point::new(x + part * MARK, y - 2.6);
+            match layer.style {
+                MarkStyle::Points => self.dots(&[along(0.5)], 2.0, layer.ink, 1.0),
+                MarkStyle::Line(dash) => self.path(&[along(0.0), along(1.0)], layer.ink, 1.3, dash),
+                MarkStyle::Estimates => {
+                    self.interval(along(0.07), along(0.93), layer.ink);
+                    self.dots(&[along(0.5)], 2.2, layer.ink, 1.0);
+                }
+            }
+            self.label(Point::new(x + MARK + 3.0, y), LETTERS, "", Ink::Text, &layer.name);
             x += long + BETWEEN;
         }
         if x > left { y + 5.0 } else { 0.0 }
     }
 
-    /// The mark of a layer in the legend, from this place to the right.
-    fn legend_mark(&mut self, layer: &Layer, from: Point) {
-        let (colour, y) = ((self.colour)(layer.ink), from.y);
-        let [middle, end] = [0.5, 1.0].map(|part| Point::new(from.x + part * MARK, y));
-        match layer.style {
-            MarkStyle::Points => self.dots(&[middle], 2.0, colour, 1.0),
-            MarkStyle::Line(dash) => self.path(&[from, end], colour, 1.3, dash),
-            MarkStyle::Estimates => {
-                self.interval(Point::new(from.x + 1.0, y), Point::new(end.x - 1.0, y), colour);
-                self.dots(&[middle], 2.2, colour, 1.0);
-            }
+    /// Draws panels beside each other, each so wide; returns where the next row begins.
+    fn row(&mut self, panels: &[Panel], height: f64, across: f64, top: f64) -> f64 {
+        let most = |room: &dyn Fn(&Panel) -> f64| panels.iter().map(room).fold(0.0, f64::max);
+        let data = top + most(&Panel::above);
+        for (column, panel) in panels.iter().enumerate() {
+            let (edge, [left, right]) = (column as f64 * across, panel.sides(across));
+            let [x, y] =
+                panel.rulers([edge + left, edge + across - right], [data + panel.height(height), data]);
+            let bold = " font-weight=\"600\"";
+            self.label(Point::new(edge + 2.0, top + 9.0), LETTERS, bold, Ink::Text, &panel.title);
+            self.label(Point::new(edge + 2.0, data - GAP), SMALL, "", Ink::Muted, &panel.y.label);
+            self.panel(panel, &x, &y);
         }
+        data + most(&|panel| panel.height(height)) + most(&Panel::below)
     }
 
-    /// Draws a panel with its title and label of y in the room `above` the area of its data.
-    fn panel(&mut self, panel: &Panel, area: Area, above: f64) {
-        let Area { left, top, width, height } = area;
-        let [mut x, mut y] = panel.rulers();
-        if panel.frame == Frame::ToScale {
-            let longest = (x.length() / width).max(y.length() / height);
-            (x, y) = (x.over_length(longest * width), y.over_length(longest * height));
-        }
-        let transform = PanelTransform { x, y, area };
+    fn panel(&mut self, panel: &Panel, x: &Ruler, y: &Ruler) {
         if panel.frame == Frame::Axes {
-            self.axes(panel, &transform);
+            self.axes(panel, x, y);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
-        let [x, y, wide, high] = [left, top, width, height].map(round);
-        let _ = writeln!(
-            self.text,
-            "<svg x=\"{x}\" y=\"{y}\" width=\"{wide}\" height=\"{high}\" viewBox=\"{x} {y} {wide} {high}\">"
+        let [left, top, width, height] = [x.from, y.to, x.to - x.from, y.from - y.to].map(round);
+        let area = format!("{left} {top} {width} {height}");
+        self.text += &format!(
+            "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{area}\">\n"
         );
-        for layer in &panel.layers {
-            self.marks(layer, !panel.names().is_empty(), &transform);
-        }
-        self.text.push_str("</svg>\n");
+        panel.drawn().for_each(|layer| self.marks(layer, x, y));
+        self.text += "</svg>\n";
         for words in &panel.words {
-            let at = transform.at(words.x, words.y);
-            let x = if words.position == LabelPosition::Margin { left + width } else { at.x };
-            self.beside(Point { x, ..at }, words);
+            let across = if words.position == LabelPosition::Margin { x.to } else { x.at(words.x) };
+            self.beside(Point::new(across, y.at(words.y)), words);
         }
-        // Titles stand over the ticks, not over the names of rows.
-        let room = if panel.names().is_empty() { LEFT } else { NAMES };
-        let edge = (left - room).max(0.0) + 2.0;
-        let first = Point::new(edge, top - above + 9.0);
-        self.label(first, LETTERS, " font-weight=\"600\"", Ink::Text, &panel.title);
-        self.label(Point::new(edge, top - GAP), SMALL, "", Ink::Muted, &panel.y.label);
     }
 
     /// The axes; faint lines stand at labelled ticks of y, or along rows.
-    fn axes(&mut self, panel: &Panel, transform: &PanelTransform) {
-        let Area { left, top, width, height } = transform.area;
-        let (bottom, right, middle) = (top + height, left + width, " text-anchor=\"middle\"");
-        let (room, mut lines) = (left - 4.0, String::new());
-        for tick in transform.y.ticks(((height / 18.0) as usize).max(5)) {
-            let Some(words) = tick.label else { continue };
-            let at = transform.down(tick.value);
-            lines += &course(&[Point::new(left, at), Point::new(right, at)]);
-            let (ink, words) = match panel.names() {
-                [] => (Ink::Muted, words),
-                _ => (Ink::Text, literal(&shortened(&words, room, SMALL))),
+    fn axes(&mut self, panel: &Panel, x: &Ruler, y: &Ruler) {
+        let (end, mut lines) = (x.from - 4.0, String::new());
+        let letters = (end / (SMALL * LETTER_WIDTH)) as usize;
+        for tick in y.ticks((((y.from - y.to) / 18.0) as usize).max(5)) {
+            let Some(label) = tick.label else { continue };
+            let at = y.at(tick.value);
+            lines += &course(&[Point::new(x.from, at), Point::new(x.to, at)]);
+            let (ink, label) = match panel.names() {
+                [] => (Ink::Muted, label),
+                _ => (Ink::Text, literal(&number::shown(&words(&label), letters))),
             };
-            self.label(Point::new(room, at + 0.35 * SMALL), SMALL, " text-anchor=\"end\"", ink, &words);
+            self.label(Point::new(end, at + 0.35 * SMALL), SMALL, " text-anchor=\"end\"", ink, &label);
         }
-        self.stroke(&lines, (self.colour)(Ink::Rule), 0.45, "");
-        let mut axis = course(&[Point::new(left, bottom), Point::new(right, bottom)]);
-        for tick in transform.x.ticks((width / 28.0) as usize) {
-            let at = transform.across(tick.value);
+        self.stroke(&lines, Ink::Rule, 0.45, "");
+        let (bottom, middle) = (y.from, " text-anchor=\"middle\"");
+        let mut axis = course(&[Point::new(x.from, bottom), Point::new(x.to, bottom)]);
+        for tick in x.ticks(((x.to - x.from) / 28.0) as usize) {
+            let at = x.at(tick.value);
             let length = if tick.label.is_some() { 3.0 } else { 1.6 };
             axis += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
             if let Some(words) = tick.label.filter(|_| !panel.x.label.is_empty()) {
                 self.label(Point::new(at, bottom + 10.5), SMALL, middle, Ink::Muted, &words);
             }
         }
-        self.stroke(&axis, (self.colour)(Ink::Muted), 0.6, "");
-        let label = Point::new(left + 0.5 * width, bottom + 21.0);
-        self.label(label, SMALL, middle, Ink::Muted, &panel.x.label);
+        self.stroke(&axis, Ink::Muted, 0.6, "");
+        let below = Point::new(0.5 * (x.from + x.to), bottom + 21.0);
+        self.label(below, SMALL, middle, Ink::Muted, &panel.x.label);
     }
 
     /// Draws the marks of a layer, each value at its place.
-    fn marks(&mut self, layer: &Layer, has_rows: bool, transform: &PanelTransform) {
-        let (colour, marks) = ((self.colour)(layer.ink), &layer.marks);
-        let places: Vec<Point> = marks.iter().map(|mark| transform.at(mark.x, mark.y)).collect();
+    fn marks(&mut self, layer: &Layer, x: &Ruler, y: &Ruler) {
+        let (ink, marks) = (layer.ink, &layer.marks);
+        let places: Vec<Point> = marks.iter().map(|mark| Point::new(x.at(mark.x), y.at(mark.y))).collect();
+        let limits = |mark: &Mark| match y.scale {
+            Scale::Names(_) => [mark.low, mark.high].map(|limit| Point::new(x.at(limit), y.at(mark.y))),
+            _ => [mark.low, mark.high].map(|limit| Point::new(x.at(mark.x), y.at(limit))),
+        };
         match layer.style {
             MarkStyle::Points => {
                 let (radius, opacity) = match marks.len() {
@@ -325,55 +272,31 @@ impl Pen {
                     6..FEW_POINTS => (1.3, 0.85),
                     _ => (0.8, 0.5),
                 };
-                self.dots(&places, radius, colour, opacity);
+                self.dots(&places, radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {
                 let has_band = |mark: &Mark| mark.is_finite() && mark.low.is_finite();
                 for piece in marks.split(|mark| !has_band(mark)).filter(|piece| !piece.is_empty()) {
-                    let lows = piece.iter().map(|mark| transform.at(mark.x, mark.low));
-                    let highs = piece.iter().rev().map(|mark| transform.at(mark.x, mark.high));
-                    self.fill(&lows.chain(highs).collect::<Vec<_>>(), colour, 0.16);
+                    let lows = piece.iter().map(|mark| limits(mark)[0]);
+                    let highs = piece.iter().rev().map(|mark| limits(mark)[1]);
+                    self.fill(&lows.chain(highs).collect::<Vec<_>>(), ink, 0.16);
                 }
-                let stroke = match marks.len() {
+                let width = match marks.len() {
                     ..=FEW_POINTS if dash == Dash::Short => 0.9,
                     ..=FEW_POINTS => 1.4,
                     _ => 0.65,
                 };
-                self.path(&places, colour, stroke, dash);
+                self.path(&places, ink, width, dash);
             }
             MarkStyle::Estimates => {
                 let most = marks.iter().map(|mark| mark.n).fold(1.0, f64::max);
                 for (mark, at) in marks.iter().zip(places) {
-                    let [low, high] = [mark.low, mark.high].map(|limit| match has_rows {
-                        true => transform.at(limit, mark.y),
-                        false => transform.at(mark.x, limit),
-                    });
-                    self.interval(low, high, colour);
+                    let [low, high] = limits(mark);
+                    self.interval(low, high, ink);
                     let radius = if mark.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (mark.n / most).sqrt() };
-                    self.dots(&[at], radius, colour, 1.0);
+                    self.dots(&[at], radius, ink, 1.0);
                 }
             }
         }
-    }
-}
-
-/// Where values stand in a picture.
-struct PanelTransform<'a> {
-    x: Ruler<'a>,
-    y: Ruler<'a>,
-    area: Area,
-}
-
-impl PanelTransform<'_> {
-    fn across(&self, x: f64) -> f64 {
-        self.area.left + self.area.width * self.x.fraction(x)
-    }
-
-    fn down(&self, y: f64) -> f64 {
-        self.area.top + self.area.height * (1.0 - self.y.fraction(y))
-    }
-
-    fn at(&self, x: f64, y: f64) -> Point {
-        Point::new(self.across(x), self.down(y))
     }
 }

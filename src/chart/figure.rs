@@ -1,7 +1,5 @@
 //! A figure as data: panels of layers. Its axes, its legend and the table of its numbers follow from them.
 
-use rockfrag_core::statistics::{Interval, Range};
-
 use super::text::words;
 
 /// One picture: panels in rows.
@@ -17,8 +15,8 @@ pub struct Figure {
     /// Height of the area of the data of a panel, points; a panel of names has its own.
     pub height: f64,
     pub panels: Vec<Panel>,
-    /// What moves, beside the panels on a page: a picture as HTML.
-    pub moving: String,
+    /// HTML that stands beside the panels on a page.
+    pub beside: String,
 }
 
 /// A pair of axes and what lies between them.
@@ -52,10 +50,12 @@ pub struct Axis {
     /// Marked text; a horizontal axis without a label has ticks without numbers.
     pub label: String,
     pub scale: Scale,
-    pub range: Option<Range>,
+    /// Its ends.
+    pub range: Option<[f64; 2]>,
 }
 
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, strum::IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum Scale {
     #[default]
     Linear,
@@ -67,15 +67,18 @@ pub enum Scale {
 /// Marks of one kind that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Name in the legend, which has each name once; none if empty.
-    pub label: String,
+    /// Marked text.
+    pub name: String,
+    /// Whether the legend has it; of one name it has the first layer.
+    pub is_listed: bool,
     pub ink: Ink,
     pub style: MarkStyle,
     pub marks: Vec<Mark>,
 }
 
 /// What is drawn of marks.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, strum::IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum MarkStyle {
     Points,
     /// A line, and between the limits of y a band.
@@ -91,7 +94,7 @@ pub struct Mark {
     pub y: f64,
     pub low: f64,
     pub high: f64,
-    /// Number of cases behind it, which its dot shows.
+    /// Number of observations behind it, which its dot shows.
     pub n: f64,
 }
 
@@ -128,11 +131,12 @@ pub enum Ink {
     Rule,
     /// Data, by number.
     Data(usize),
-    /// How much there is to worry about: 0, 1 or 2.
-    Band(usize),
+    /// A step from cold to hot: 0, 1 or 2.
+    Step(usize),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum Dash {
     Solid,
     Long,
@@ -142,15 +146,13 @@ pub enum Dash {
 
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
+/// Columns of the table of a figure.
+const COLUMNS: &str = "panel,layer,x_is,x,y_is,y,low,high,n,\
+                       panel_number,layer_number,x_scale,y_scale,row,style,dash,colour";
 
 impl Mark {
     pub fn new(x: f64, y: f64) -> Mark {
         Mark { x, y, low: f64::NAN, high: f64::NAN, n: f64::NAN }
-    }
-
-    /// A value of y with its limits.
-    pub fn estimate(x: f64, Interval { value, low, high }: Interval) -> Mark {
-        Mark { low, high, ..Mark::new(x, value) }
     }
 
     pub fn is_finite(&self) -> bool {
@@ -159,24 +161,30 @@ impl Mark {
 }
 
 impl Layer {
-    pub fn new(label: &str, ink: Ink, style: MarkStyle, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer { label: label.to_string(), ink, style, marks: marks.into_iter().collect() }
+    /// Without a name, it is not in the legend.
+    pub fn new(name: &str, ink: Ink, style: MarkStyle, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        let (name, is_listed) = (name.to_string(), !name.is_empty());
+        Layer { name, is_listed, ink, style, marks: marks.into_iter().collect() }
     }
 
     /// Draws points; of too many, some that are spread over all.
-    pub fn points(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+    pub fn points(name: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
         let marks: Vec<Mark> = marks.into_iter().filter(Mark::is_finite).collect();
         let step = marks.len().div_ceil(MOST_POINTS).max(1);
-        Layer::new(label, ink, MarkStyle::Points, marks.into_iter().step_by(step))
+        Layer::new(name, ink, MarkStyle::Points, marks.into_iter().step_by(step))
     }
 
-    pub fn line(label: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer::new(label, ink, MarkStyle::Line(Dash::Solid), marks)
+    pub fn line(name: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer::new(name, ink, MarkStyle::Line(Dash::Solid), marks)
     }
 
-    /// Draws a thin dashed line.
-    pub fn guide(ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        Layer::new("", ink, MarkStyle::Line(Dash::Short), marks)
+    /// Draws a thin dashed line, which is not in the legend.
+    pub fn guide(name: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+        Layer::new(name, ink, MarkStyle::Line(Dash::Short), marks).unlisted()
+    }
+
+    pub fn unlisted(self) -> Layer {
+        Layer { is_listed: false, ..self }
     }
 }
 
@@ -191,20 +199,31 @@ impl Figure {
         Figure { caption: caption.into(), ..self }
     }
 
-    /// Writes what is drawn as comma-separated values: a row a mark, numbers that it does not have left
-    /// empty.
+    /// Writes what is drawn as comma-separated values: a row a mark, and a row for each of the words. Numbers
+    /// that a mark does not have are left empty; a layer without a name has the title of its panel.
     pub fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(["panel", "layer", "x_is", "x", "y_is", "y", "low", "high", "n"])?;
-        for panel in &self.panels {
-            let [title, x_is, y_is] =
-                [&panel.title, &panel.x.label, &panel.y.label].map(|label| words(label));
-            for layer in &panel.layers {
-                let name = words(&layer.label);
-                for mark in &layer.marks {
-                    let [x, y, low, high, n] = [mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
-                    writer.write_record([&title, &name, &x_is, &x, &y_is, &y, &low, &high, &n])?;
-                }
+        writer.write_record(COLUMNS.split(','))?;
+        for (panel, number) in self.panels.iter().zip(1_i32..) {
+            let of_panel = [&panel.title, &panel.x.label, &panel.y.label].map(|label| words(label));
+            let ([title, x_is, y_is], number) = (of_panel, number.to_string());
+            let [x_scale, y_scale] = [&panel.x.scale, &panel.y.scale].map(<&str>::from);
+            let mut write = |name: &str, mark: Mark, [layer, style, dash]: [&str; 3], ink: Ink| {
+                let [x, y, low, high, n] = [mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
+                let name = if name.is_empty() { title.clone() } else { words(name) };
+                let row = panel.names().get(mark.y.round() as usize).map_or(String::new(), |row| words(row));
+                let place = [&title, &name, &x_is, &x, &y_is, &y, &low, &high, &n].map(String::as_str);
+                let kind = [&number, layer, x_scale, y_scale, &row, style, dash, &ink.in_file()];
+                writer.write_record([&place[..], &kind].concat())
+            };
+            for (layer, number) in panel.drawn().zip(1_i32..) {
+                let number = number.to_string();
+                let dash = if let MarkStyle::Line(dash) = layer.style { dash.into() } else { "" };
+                let kind = [number.as_str(), layer.style.into(), dash];
+                layer.marks.iter().try_for_each(|mark| write(&layer.name, *mark, kind, layer.ink))?;
+            }
+            for Words { x, y, text, ink, .. } in &panel.words {
+                write(text, Mark::new(*x, *y), ["", "words", ""], *ink)?;
             }
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
@@ -224,9 +243,20 @@ impl Panel {
         Panel { caption: caption.into(), ..self }
     }
 
+    /// Names of the rows in which estimates lie, with limits along x; none where y has numbers.
+    pub fn names(&self) -> &[String] {
+        if let Scale::Names(names) = &self.y.scale { names } else { &[] }
+    }
+
+    /// The layers that have marks; others stand in the legend alone.
+    pub fn drawn(&self) -> impl Iterator<Item = &Layer> {
+        self.layers.iter().filter(|layer| !layer.marks.is_empty())
+    }
+
     /// Adds words, and a vertical line from a height to them.
     pub fn add_upright(&mut self, words: Words, from: f64) {
-        self.layers.push(Layer::guide(words.ink, [Mark::new(words.x, from), Mark::new(words.x, words.y)]));
+        let line = [from, words.y].map(|y| Mark::new(words.x, y));
+        self.layers.push(Layer::guide(&words.text, words.ink, line));
         self.words.push(words);
     }
 }
@@ -245,11 +275,11 @@ impl Axis {
     }
 
     pub fn over(self, low: f64, high: f64) -> Axis {
-        Axis { range: Some(Range { low, high }), ..self }
+        Axis { range: Some([low, high]), ..self }
     }
 
     /// From 0 to 1, with room for dots at both ends.
-    pub fn probability(label: &str) -> Axis {
+    pub fn fraction(label: &str) -> Axis {
         Axis::linear(label).over(-0.04, 1.04)
     }
 }

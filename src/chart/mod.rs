@@ -1,7 +1,7 @@
 //! Figures as data, and as SVG and PNG.
 //!
 //! ```text
-//! figure     a figure as data: panels of layers
+//! figure     a figure as data: panels of layers; its numbers as CSV
 //! draw       a figure as SVG and PNG; axis: ranges and ticks
 //! pen        texts, lines, areas and dots of a drawing
 //! text       marked text

@@ -1,6 +1,4 @@
-//! The elements of a picture: texts, lines, areas and dots, in the colours of a file.
-
-use std::fmt::Write;
+//! The elements of a picture: texts, lines, areas and dots, in the colours of a file or of the page.
 
 use super::figure::{Dash, Ink, LabelPosition, Words};
 use super::text::{Level, escape, runs};
@@ -26,40 +24,32 @@ impl Point {
     }
 }
 
-impl Ink {
-    /// The colours in a file, and those on the page. Data: Okabe & Ito's palette without its
-    /// yellow, too faint on white; then the bands of a probability, from rare to frequent.
-    const COLOURS: [(&'static str, &'static str); 12] = [
-        ("#1b1f24", "var(--ink)"),
-        ("#5d646d", "var(--muted)"),
-        ("#d8dce1", "var(--rule)"),
-        ("#0069a8", "var(--data0)"),
-        ("#cf5412", "var(--data1)"),
-        ("#00916b", "var(--data2)"),
-        ("#c06a97", "var(--data3)"),
-        ("#d99400", "var(--data4)"),
-        ("#4aa3d8", "var(--data5)"),
-        ("#4f86a6", "var(--band0)"),
-        ("#d98a00", "var(--band1)"),
-        ("#b8321f", "var(--band2)"),
-    ];
+/// The colours in a file, and their names on the page, by [`Ink::place`]. Data: Okabe & Ito's palette without
+/// its yellow, too faint on white.
+const COLOURS: [&str; 12] = [
+    "#1b1f24", "#5d646d", "#d8dce1", "#0069a8", "#cf5412", "#00916b", "#c06a97", "#d99400", "#4aa3d8",
+    "#4f86a6", "#d98a00", "#b8321f",
+];
+const NAMES: [&str; 12] =
+    ["ink", "muted", "rule", "data0", "data1", "data2", "data3", "data4", "data5", "step0", "step1", "step2"];
 
-    fn colours(self) -> (&'static str, &'static str) {
+impl Ink {
+    fn place(self) -> usize {
         match self {
-            Ink::Text => Ink::COLOURS[0],
-            Ink::Muted => Ink::COLOURS[1],
-            Ink::Rule => Ink::COLOURS[2],
-            Ink::Data(number) => Ink::COLOURS[3 + number % 6],
-            Ink::Band(number) => Ink::COLOURS[9 + number.min(2)],
+            Ink::Text => 0,
+            Ink::Muted => 1,
+            Ink::Rule => 2,
+            Ink::Data(number) => 3 + number % 6,
+            Ink::Step(number) => 9 + number.min(2),
         }
     }
 
-    pub fn in_file(self) -> &'static str {
-        self.colours().0
+    pub fn in_file(self) -> String {
+        COLOURS[self.place()].to_string()
     }
 
-    pub fn in_page(self) -> &'static str {
-        self.colours().1
+    pub fn in_page(self) -> String {
+        format!("var(--{})", NAMES[self.place()])
     }
 }
 
@@ -67,28 +57,29 @@ impl Ink {
 pub struct Pen {
     pub text: String,
     /// The colour of an ink, in a file or on the page.
-    pub colour: fn(Ink) -> &'static str,
+    colour: fn(Ink) -> String,
 }
 
 impl Pen {
-    pub fn new(colour: fn(Ink) -> &'static str) -> Pen {
+    pub fn new(colour: fn(Ink) -> String) -> Pen {
         Pen { text: String::new(), colour }
     }
 
     /// Writes a text beside its place.
     pub fn beside(&mut self, at: Point, words: &Words) {
-        let (right, down, style) = match words.position {
-            LabelPosition::Right | LabelPosition::Margin => (5.0, 0.35 * SMALL, String::new()),
-            LabelPosition::Left => (-5.0, 0.35 * SMALL, " text-anchor=\"end\"".to_string()),
-            LabelPosition::Above => (0.0, -5.0, " text-anchor=\"middle\"".to_string()),
-            LabelPosition::Below => (0.0, 5.0 + SMALL, " text-anchor=\"middle\"".to_string()),
-            LabelPosition::Along => {
-                let (x, y) = (round(at.x - 3.0), round(at.y));
-                (-3.0, 0.0, format!(" text-anchor=\"end\" transform=\"rotate(-90 {x} {y})\""))
-            }
+        let (right, down, anchor) = match words.position {
+            LabelPosition::Right | LabelPosition::Margin => (5.0, 0.35 * SMALL, "start"),
+            LabelPosition::Left => (-5.0, 0.35 * SMALL, "end"),
+            LabelPosition::Above => (0.0, -5.0, "middle"),
+            LabelPosition::Below => (0.0, 5.0 + SMALL, "middle"),
+            LabelPosition::Along => (-3.0, 0.0, "end"),
         };
-        let place = Point::new(at.x + right, at.y + down);
-        self.label(place, SMALL, &format!("{style} class=\"word\""), words.ink, &words.text);
+        let at = Point::new(at.x + right, at.y + down);
+        let mut style = format!(" class=\"word\" text-anchor=\"{anchor}\"");
+        if words.position == LabelPosition::Along {
+            style += &format!(" transform=\"rotate(-90 {} {})\"", round(at.x), round(at.y));
+        }
+        self.label(at, SMALL, &style, words.ink, &words.text);
     }
 
     /// Writes marked text; `style` are further attributes.
@@ -97,8 +88,7 @@ impl Pen {
             return;
         }
         let (x, y, letters, colour) = (round(at.x), round(at.y), round(size), (self.colour)(ink));
-        let _ =
-            write!(self.text, "<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
+        self.text += &format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{letters}\" fill=\"{colour}\"{style}>");
         let mut drop = 0.0;
         for run in runs(marked) {
             let below = match run.level {
@@ -106,64 +96,66 @@ impl Pen {
                 Level::Sub => 0.22 * size,
                 Level::Super => -0.36 * size,
             };
-            let small =
-                if below == 0.0 { String::new() } else { format!(" font-size=\"{}\"", round(0.72 * size)) };
-            let italic = if run.italic { " font-style=\"italic\" font-weight=\"400\"" } else { "" };
-            let moved =
-                if below == drop { String::new() } else { format!(" dy=\"{}\"", round(below - drop)) };
+            self.text += "<tspan";
+            if below != 0.0 {
+                self.text += &format!(" font-size=\"{}\"", round(0.72 * size));
+            }
+            if run.italic {
+                self.text += " font-style=\"italic\" font-weight=\"400\"";
+            }
+            if below != drop {
+                self.text += &format!(" dy=\"{}\"", round(below - drop));
+            }
             drop = below;
-            let _ = write!(self.text, "<tspan{small}{italic}{moved}>{}</tspan>", escape(&run.words));
+            self.text += &format!(">{}</tspan>", escape(&run.words));
         }
-        self.text.push_str("</text>\n");
+        self.text += "</text>\n";
     }
 
     /// Draws small discs: strokes of no length with round ends, short to write.
-    pub fn dots(&mut self, places: &[Point], radius: f64, colour: &str, opacity: f64) {
+    pub fn dots(&mut self, places: &[Point], radius: f64, ink: Ink, opacity: f64) {
         let finite = places.iter().filter(|place| place.is_finite());
         let d: String = finite.map(|place| format!("M{} {}h0", round(place.x), round(place.y))).collect();
         let style = format!(" stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"");
-        self.stroke(&d, colour, 2.0 * radius, &style);
+        self.stroke(&d, ink, 2.0 * radius, &style);
     }
 
     /// The limits of a value: a broad, pale line.
-    pub fn interval(&mut self, from: Point, to: Point, colour: &str) {
-        self.stroke(&course(&[from, to]), colour, 2.4, " class=\"limits\" stroke-opacity=\"0.42\"");
+    pub fn interval(&mut self, from: Point, to: Point, ink: Ink) {
+        self.stroke(&course(&[from, to]), ink, 2.4, " class=\"limits\" stroke-opacity=\"0.42\"");
     }
 
-    pub fn fill(&mut self, outline: &[Point], colour: &str, opacity: f64) {
-        let d = course(outline);
-        let _ = writeln!(self.text, "<path d=\"{d}Z\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>");
+    pub fn fill(&mut self, outline: &[Point], ink: Ink, opacity: f64) {
+        let (d, colour) = (course(outline), (self.colour)(ink));
+        self.text += &format!("<path d=\"{d}Z\" fill=\"{colour}\" fill-opacity=\"{opacity}\"/>\n");
     }
 
-    pub fn path(&mut self, places: &[Point], colour: &str, width: f64, dash: Dash) {
+    pub fn path(&mut self, places: &[Point], ink: Ink, width: f64, dash: Dash) {
         let dash = match dash {
             Dash::Solid => "",
             Dash::Long => " stroke-dasharray=\"5 2\"",
             Dash::Short => " stroke-dasharray=\"2 2\"",
             Dash::Mixed => " stroke-dasharray=\"5 1.6 1.2 1.6\"",
         };
-        self.stroke(&course(places), colour, width, &format!(" stroke-linejoin=\"round\"{dash}"));
+        self.stroke(&course(places), ink, width, &format!(" stroke-linejoin=\"round\"{dash}"));
     }
 
     /// Draws a course of lines; `style` are further attributes.
-    pub fn stroke(&mut self, d: &str, colour: &str, width: f64, style: &str) {
-        let width = round(width);
+    pub fn stroke(&mut self, d: &str, ink: Ink, width: f64, style: &str) {
+        let (width, colour) = (round(width), (self.colour)(ink));
         let line = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"");
-        let _ = writeln!(self.text, "<path d=\"{d}\" {line}{style}/>");
+        self.text += &format!("<path d=\"{d}\" {line}{style}/>\n");
     }
 }
 
 /// Writes the steps of a line, anew after each place that is not finite.
 pub fn course(places: &[Point]) -> String {
-    let mut d = String::new();
-    let mut step = 'M';
+    let (mut d, mut step) = (String::new(), 'M');
     for place in places {
         if place.is_finite() {
-            let _ = write!(d, "{step}{} {}", round(place.x), round(place.y));
-            step = 'L';
-        } else {
-            step = 'M';
+            d += &format!("{step}{} {}", round(place.x), round(place.y));
         }
+        step = if place.is_finite() { 'L' } else { 'M' };
     }
     d
 }

@@ -47,14 +47,8 @@ pub fn runs(marked: &str) -> Vec<Run> {
 
 /// Marks a text so that it reads as it stands: a name of the user's is no markup.
 pub fn literal(name: &str) -> String {
-    let mut text = String::new();
-    for letter in name.chars() {
-        if ['\\', '*', '_', '^', '}'].contains(&letter) {
-            text.push('\\');
-        }
-        text.push(letter);
-    }
-    text
+    let mark = |letter| ['\\', '*', '_', '^', '}'].contains(&letter).then_some('\\');
+    name.chars().flat_map(|letter| mark(letter).into_iter().chain([letter])).collect()
 }
 
 /// Writes marked text as HTML, without a break between a number and its percent sign.

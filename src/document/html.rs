@@ -102,11 +102,11 @@ fn write_figure(figure: &Figure, title: &str) -> Markup {
     html! {
         section class="figure" style={ "--across:" (figure.panels.len().min(3)) } {
             h2 { (write(title)) }
-            @if figure.moving.is_empty() {
+            @if figure.beside.is_empty() {
                 (panels) (caption)
             } @else {
                 div class="response" {
-                    figure { (PreEscaped(&figure.moving)) (caption) }
+                    figure { (PreEscaped(&figure.beside)) (caption) }
                     div { (panels) }
                 }
             }

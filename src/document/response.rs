@@ -116,7 +116,11 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let most = rotation.marks.iter().map(|mark| mark.y.abs()).fold(1.1, f64::max) * 1.08;
     let mut layers = Vec::new();
     for limit in [-1.0, 1.0] {
-        layers.push(Layer::guide(Ink::Muted, [low, high].map(|time_s| Mark::new(time_s, limit))));
+        layers.push(Layer::guide(
+            "tipping angle",
+            Ink::Muted,
+            [low, high].map(|time_s| Mark::new(time_s, limit)),
+        ));
     }
     layers.push(rotation);
     for (name, ink, event) in
@@ -143,7 +147,7 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
     let figure = Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels);
-    Figure { moving: moving(response, id), ..figure }.explained(response.caption())
+    Figure { beside: moving(response, id), ..figure }.explained(response.caption())
 }
 
 /// The figures of responses.

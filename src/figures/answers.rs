@@ -9,6 +9,7 @@ use rockfrag_core::object::{RockingObject, UncertaintySource};
 use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, Range};
 
+use super::common::estimate;
 use crate::answer::{Answer, ObjectColumns, Variant};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
@@ -117,7 +118,7 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let rows = drawn.iter().map(|answer| {
         let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
         let name = answer.object.name_and_floor();
-        ProbabilityRow::new(&name, Ink::Band(band), bands[band], &[answer.p.p_overturning])
+        ProbabilityRow::new(&name, Ink::Step(band), bands[band], &[answer.p.p_overturning])
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let rest = match answers.len() - drawn.len() {
@@ -161,9 +162,9 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
             [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) }),
         ),
         Layer::line("", Ink::Text, corners),
-        Layer::guide(Ink::Data(1), turned),
-        Layer::guide(Ink::Data(1), [edge, tipped(centre)]),
-        Layer::guide(Ink::Muted, [edge, centre]),
+        Layer::guide("as it tips", Ink::Data(1), turned),
+        Layer::guide("edge to centre, as it tips", Ink::Data(1), [edge, tipped(centre)]),
+        Layer::guide("edge to centre", Ink::Muted, [edge, centre]),
         Layer::points("", Ink::Data(1), [tipped(centre)]),
         Layer::points("", Ink::Text, [centre]),
     ];
@@ -190,7 +191,7 @@ fn curve(over: Peak, points: &[FragilityPoint], state: LimitState, has_limits: b
     let (_, unit, _) = over.name_and_unit();
     let marks = points.iter().filter_map(|point| {
         let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
-        Some(if has_limits { Mark::estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
+        Some(if has_limits { estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
     });
     marks.collect()
 }

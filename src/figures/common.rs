@@ -1,9 +1,11 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
+use std::collections::BTreeMap;
+
 use rockfrag_core::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::statistics::Range;
+use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
 use rockfrag_core::warning::UNNAMED;
 
@@ -133,23 +135,21 @@ pub fn demands(cases: &Cases) -> impl Iterator<Item = (&Case, f64)> {
     known.filter(|(_, demand)| *demand > 0.0)
 }
 
+/// A value of y with its limits.
+pub fn estimate(x: f64, Interval { value, low, high }: Interval) -> Mark {
+    Mark { low, high, ..Mark::new(x, value) }
+}
+
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %
 /// limits, number of cases. Empty bins are left out.
 pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Mark> {
-    let mut bins: Vec<(f64, usize, usize)> = Vec::new();
+    let mut bins: BTreeMap<usize, (f64, usize, usize)> = BTreeMap::new();
     for &(value, event) in cases {
-        let place = bin(value);
-        bins.resize(bins.len().max(place + 1), (0.0, 0, 0));
-        let (sum, n, events) = &mut bins[place];
+        let (sum, n, events) = bins.entry(bin(value)).or_default();
         (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
     }
-    let filled = bins.into_iter().filter(|(_, n, _)| *n > 0);
-    filled
-        .map(|(sum, n, events)| Mark {
-            n: n as f64,
-            ..Mark::estimate(sum / n as f64, observed_share(events, n))
-        })
-        .collect()
+    let share = |(sum, n, events)| estimate(sum / n as f64, observed_share(events, n));
+    bins.into_values().map(|bin| Mark { n: bin.1 as f64, ..share(bin) }).collect()
 }
 
 /// Bins of equal ratio within a span, for [`observed_shares`].

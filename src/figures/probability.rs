@@ -6,7 +6,7 @@ use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{Fits, by, called, compare, demands, label};
+use super::common::{Fits, by, called, compare, demands, estimate, label};
 use super::common::{observed_shares, ratio_bins, rocked};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
@@ -16,90 +16,66 @@ const STEPS: usize = 120;
 const BINS: usize = 14;
 const CASES: usize = 8;
 /// Quantiles of IM3 at which P_ex is drawn.
-const SHARES: [f64; 3] = [0.1, 0.5, 0.9];
+const SHARES: [(f64, Dash); 3] = [(0.1, Dash::Solid), (0.5, Dash::Long), (0.9, Dash::Short)];
 const CONFIDENCE: f64 = 0.95;
-const DASHES: [Dash; 4] = [Dash::Solid, Dash::Long, Dash::Short, Dash::Mixed];
 
-/// The structures of a suite over one measure.
-struct Over<'a> {
-    measure: &'a str,
-    structures: Vec<Drawn<'a>>,
-}
-
-/// What is drawn of a structure.
+/// What is drawn of a structure, as the legend shows it: the panel has it in the colour of the structure.
 struct Drawn<'a> {
     cases: &'a Cases,
-    /// Up to four with their labels, told apart by dashes.
-    curves: Vec<(String, Vec<Mark>)>,
-    shares: Vec<Mark>,
+    layers: Vec<Layer>,
 }
 
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let panels = panels("*P*_{ex}", suites.iter().map(|groups| exceeding(fits, groups)).collect());
+    let axes = [label(&Measure::Im4), "*P*_{ex}"];
+    let panels = suites.iter().filter_map(|groups| panel(axes, exceeding(fits, groups), suites));
     let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
                    IM4 alone where it has a curve.";
-    Figure::new("exceedance", "Exceeding the limit state in safe rocking", 2, 118.0, panels)
-        .explained(compare(caption, "Figure 10"))
+    let title = "Exceeding the limit state in safe rocking";
+    Figure::new("exceedance", title, 2, 118.0, panels.collect()).explained(compare(caption, "Figure 10"))
 }
 
 /// Figure 11: probability of overturning over single measures.
 pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let single = [&Measure::Im4, &Measure::Im5].into_iter();
-    let all = single.flat_map(|measure| suites.iter().map(move |groups| over(fits, groups, measure, None)));
-    let panels = panels("*P*_{ro}", all.collect());
+    let panels = [&Measure::Im4, &Measure::Im5].map(|measure| over(fits, suites, measure, None));
     let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
-    Figure::new("overturning", "Overturning over single measures", 2, 118.0, panels)
+    Figure::new("overturning", "Overturning over single measures", 2, 118.0, panels.concat())
         .explained(compare(caption, "Figure 11"))
 }
 
 /// Figure 12: probability of overturning over hybrid measures (Eq. 23).
 pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let all = suites.iter().map(|groups| over(fits, groups, &Measure::Im4, Some(&Measure::Im3Inverse)));
-    let panels = panels("*P*_{ro}", all.collect());
+    let panels = over(fits, suites, &Measure::Im4, Some(&Measure::Im3Inverse));
     let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
                    observed fractions with 95 % limits.";
     Figure::new("overturning-hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
         .explained(compare(caption, "Figure 12"))
 }
 
-/// Draws what has a curve: a panel a suite, each structure in one colour in all panels.
-fn panels(probability: &str, mut all: Vec<Over>) -> Vec<Panel> {
-    all.retain(|over| over.structures.iter().any(|structure| !structure.curves.is_empty()));
-    let names = all.iter().flat_map(|over| &over.structures).map(|drawn| &drawn.cases.structure.name);
-    let names = by(names, |name| name);
-    let ink = |cases: &Cases| {
-        Ink::Data(names.iter().position(|same| *same[0] == cases.structure.name).unwrap_or(0))
-    };
-    let mut panels = Vec::new();
-    for Over { measure, structures } in &all {
-        let mut layers = Vec::new();
-        for Drawn { cases, curves, .. } in structures {
-            for (place, ((_, marks), dash)) in curves.iter().zip(DASHES).enumerate() {
-                // The legend names the structure by its first curve.
-                let label = if place == 0 { called(&cases.structure) } else { String::new() };
-                layers.push(Layer::new(&label, ink(cases), MarkStyle::Line(dash), marks.clone()));
-            }
-        }
-        // Layers of nothing, for the legend: what the dashes and the dots mean.
-        let most = structures.iter().map(|structure| &structure.curves[..]).max_by_key(|curves| curves.len());
-        let most = most.filter(|curves| curves.len() > 1).unwrap_or_default();
-        for ((label, _), dash) in most.iter().zip(DASHES) {
-            layers.push(Layer::new(label, Ink::Muted, MarkStyle::Line(dash), []));
-        }
-        for Drawn { cases, shares, .. } in structures.iter().filter(|drawn| !drawn.shares.is_empty()) {
-            layers.push(Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, []));
-            layers.push(Layer::new("", ink(cases), MarkStyle::Estimates, shares.clone()));
-        }
-        let suite = structures[0].cases.suite.as_deref().unwrap_or_default();
-        panels.push(Panel::new(suite, Axis::log(measure), Axis::probability(probability), layers));
+/// A panel of the structures of a suite, each in one colour in all panels.
+fn panel([x, y]: [&str; 2], structures: Vec<Drawn>, suites: &[Vec<&Cases>]) -> Option<Panel> {
+    let names = by(suites.iter().flatten(), |cases| &cases.structure.name);
+    let suite = structures.first()?.cases.suite.clone().unwrap_or_default();
+    // Layers of nothing, for the legend: the colours, then what the dashes and the dots mean.
+    let (mut colours, mut keys, mut layers) = (Vec::new(), Vec::new(), Vec::new());
+    for Drawn { cases: Cases { structure, .. }, layers: its } in structures {
+        let number = names.iter().position(|same| same[0].structure.name == structure.name);
+        let (called, ink) = (called(structure), Ink::Data(number.unwrap_or(0)));
+        colours.push(Layer::line(&called, ink, []));
+        keys.extend(its.iter().map(|layer| Layer { marks: Vec::new(), ..layer.clone() }));
+        layers.extend(its.into_iter().map(|layer| {
+            let name = format!("{called}, {}", layer.name);
+            Layer { name, ink, is_listed: false, ..layer }
+        }));
     }
-    panels
+    layers.sort_by_key(|layer| layer.style == MarkStyle::Estimates);
+    Some(Panel::new(&suite, Axis::log(x), Axis::fraction(y), [colours, keys, layers].concat()))
 }
 
 /// A curve with its band, broken where it has no value.
-fn curve(x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Interval>) -> Vec<Mark> {
-    x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| Mark::estimate(x, p))).collect()
+fn curve(name: &str, dash: Dash, x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Interval>) -> Layer {
+    let marks = x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| estimate(x, p)));
+    Layer::new(name, Ink::Muted, MarkStyle::Line(dash), marks)
 }
 
 /// The measures of a motion with these IM4 and IM3.
@@ -108,71 +84,60 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
-fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Over<'a> {
-    let mut im3 = Vec::new();
-    let mut span = Range { low: 1.0, high: 1.5 };
-    for cases in groups {
-        for (case, _) in demands(cases) {
-            im3.extend(case.measures.im3);
-            span.high = span.high.max(case.measures.im4);
-        }
-    }
-    let structures = groups.iter().map(|cases| Drawn {
-        cases,
-        curves: exceeding_curves(fits, cases, span, &im3),
-        shares: Vec::new(),
-    });
-    Over { measure: label(&Measure::Im4), structures: structures.collect() }
+fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Vec<Drawn<'a>> {
+    let rocking = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| &case.measures);
+    let im3: Vec<f64> = rocking().filter_map(|measures| measures.im3).collect();
+    let span = Range { low: 1.0, high: rocking().map(|measures| measures.im4).fold(1.5, f64::max) };
+    let drawn =
+        groups.iter().map(|&cases| Drawn { cases, layers: exceeding_curves(fits, cases, span, &im3) });
+    drawn.filter(|drawn| !drawn.layers.is_empty()).collect()
 }
 
-fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<(String, Vec<Mark>)> {
+fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<Layer> {
     let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
+    let transition = planes.last().and_then(|plane| plane.range_low);
     let mut curves = Vec::new();
-    for share in SHARES {
-        let im3 = sample_quantile(im3.to_vec(), share);
-        let transition = planes.last().and_then(|plane| plane.range_low);
-        let Some((im3, transition)) = im3.zip(transition) else { continue };
-        let below = Range { high: transition * (1.0 - 1e-9), ..span };
-        let above = Range { low: transition, ..span };
-        let im4 = equal_ratios(below.low, below.high, STEPS)
-            .chain([f64::NAN])
-            .chain(equal_ratios(above.low, above.high, STEPS));
+    for (share, dash) in SHARES {
+        let Some((im3, transition)) = sample_quantile(im3.to_vec(), share).zip(transition) else { continue };
+        let below = equal_ratios(span.low, transition * (1.0 - 1e-9), STEPS);
+        let im4 = below.chain([f64::NAN]).chain(equal_ratios(transition, span.high, STEPS));
         let p = |im4: f64| {
             let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
             plane.p_exceeding(&measures(im4, im3), fits.limit_state, CONFIDENCE)
         };
-        curves.push((format!("IM3 at its {} % quantile", number::plain(100.0 * share)), curve(im4, p)));
+        curves.push(curve(&format!("IM3 at its {} % quantile", number::plain(100.0 * share)), dash, im4, p));
     }
     let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     curves.extend(alone.map(|fit| {
         let p = |im4: f64| fit.p_exceeding(&measures(im4, 1.0), fits.limit_state, CONFIDENCE);
-        ("IM4 alone".to_string(), curve(equal_ratios(span.low, span.high, STEPS), p))
+        curve("IM4 alone", Dash::Mixed, equal_ratios(span.low, span.high, STEPS), p)
     }));
     curves
 }
 
-/// P_ro over a measure, or over a hybrid one at the median IM3.
-fn over<'a>(fits: &Fits, groups: &[&'a Cases], im_x: &'static Measure, im_y: Option<&Measure>) -> Over<'a> {
-    let mut structures = Vec::new();
-    for &cases in groups {
-        let mut drawn = Drawn { cases, curves: Vec::new(), shares: Vec::new() };
-        let fit = fits.curve(cases, im_x, im_y);
-        if let Some(fit) = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0) {
-            let observed: Vec<(f64, bool)> = rocked(cases)
-                .filter_map(|(case, event)| Some((measure_of(fit, &case.measures)?, event)))
-                .collect();
-            let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
-            let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
-            let span = Range::over(observed.iter().map(|(value, _)| *value));
-            let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
-            let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
-            drawn.shares = observed_shares(&observed, bin);
-            drawn.curves.push((String::new(), curve(equal_ratios(span.low, span.high, STEPS), p)));
-        }
-        structures.push(drawn);
-    }
-    let measure = if im_y.is_some() { "hybrid measure" } else { label(im_x) };
-    Over { measure, structures }
+/// P_ro over a measure, or over a hybrid one at the median IM3; a panel a suite.
+fn over(fits: &Fits, suites: &[Vec<&Cases>], im_x: &Measure, im_y: Option<&Measure>) -> Vec<Panel> {
+    let axes = [if im_y.is_some() { "hybrid measure" } else { label(im_x) }, "*P*_{ro}"];
+    let panels = suites.iter().map(|groups| {
+        let fitted = groups.iter().filter_map(|cases| Some((fits.curve(cases, im_x, im_y)?, *cases)));
+        let rising = fitted.filter(|(fit, _)| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
+        panel(axes, rising.map(|(fit, cases)| overturned(fit, cases)).collect(), suites)
+    });
+    panels.flatten().collect()
+}
+
+fn overturned<'a>(fit: &CurveFit, cases: &'a Cases) -> Drawn<'a> {
+    let observed = rocked(cases).filter_map(|(case, event)| Some((measure_of(fit, &case.measures)?, event)));
+    let observed: Vec<(f64, bool)> = observed.collect();
+    let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
+    let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
+    let span = Range::over(observed.iter().map(|(value, _)| *value));
+    let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
+    let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
+    let curve = curve("lognormal curve", Dash::Solid, equal_ratios(span.low, span.high, STEPS), p);
+    let shares = observed_shares(&observed, bin);
+    let shares = Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares);
+    Drawn { cases, layers: vec![curve.unlisted(), shares] }
 }
 
 /// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.

@@ -7,7 +7,7 @@ use rockfrag_core::studies::ReliabilityBin;
 
 use super::common::{by, observed_shares, scaled_label, title};
 use crate::chart::text::literal;
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
+use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
 use crate::table::responses::OutcomeWord;
 
@@ -62,7 +62,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
         Layer::line("at or below the intensity", Ink::Muted, steps),
         Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares),
     ];
-    let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::probability("fraction that overturns"));
+    let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::fraction("fraction that overturns"));
     Panel::new(&title(&literal(&fit.structure), fit.suite.as_deref()), x, y, layers)
 }
 
@@ -70,12 +70,11 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
 /// series an event and model.
 pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let mut panels = Vec::new();
-    for bins in by(bins, |bin| title(&literal(&bin.structure), bin.suite.as_deref())).into_iter().take(PANELS)
-    {
-        let name = title(&literal(&bins[0].structure), bins[0].suite.as_deref());
-        let mut ideal = Layer::guide(Ink::Muted, [Mark::new(0.0, 0.0), Mark::new(1.0, 1.0)]);
-        ideal.label = "predicted = observed".to_string();
-        let mut layers = vec![ideal];
+    let name = |bin: &ReliabilityBin| title(&literal(&bin.structure), bin.suite.as_deref());
+    for bins in by(bins, name).into_iter().take(PANELS) {
+        let name = name(bins[0]);
+        let (ideal, dashed) = ([0.0, 1.0].map(|p| Mark::new(p, p)), MarkStyle::Line(Dash::Short));
+        let mut layers = vec![Layer::new("predicted = observed", Ink::Muted, dashed, ideal)];
         for (number, bins) in by(bins, |bin| (bin.event, &bin.model)).into_iter().enumerate() {
             let label = format!("{}, {}", bins[0].event, bins[0].model);
             let marks = bins.into_iter().map(|bin| {
@@ -84,7 +83,7 @@ pub fn validation(bins: &[ReliabilityBin]) -> Figure {
             });
             layers.push(Layer::new(&label, Ink::Data(number), MarkStyle::Estimates, marks));
         }
-        let (x, y) = (Axis::probability("predicted probability"), Axis::probability("observed fraction"));
+        let (x, y) = (Axis::fraction("predicted probability"), Axis::fraction("observed fraction"));
         panels.push(Panel::new(&name, x, y, layers));
     }
     let caption =
