@@ -14,7 +14,6 @@ use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
 
 type CaseValue = fn(&Structure, &Case) -> Option<f64>;
-type FitValue = fn(&DemandFit) -> Option<f64>;
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;
@@ -33,11 +32,10 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     for cases in groups {
         let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
         for (label, value) in over {
-            let structure = &cases.structure;
-            let safe = demands(cases);
-            let safe = safe.filter_map(|(case, edp)| Some(Mark::new(value(structure, case)?, edp)));
+            let at = |case: &Case, y: f64| Some(Mark::new(value(&cases.structure, case)?, y));
+            let safe = demands(cases).filter_map(|(case, edp)| at(case, edp));
             let fallen = rocked(cases).filter(|(_, overturned)| *overturned);
-            let fallen = fallen.filter_map(|(case, _)| Some(Mark::new(value(structure, case)?, top)));
+            let fallen = fallen.filter_map(|(case, _)| at(case, top));
             let layers = vec![
                 Layer::points("safe rocking", Ink::Data(0), safe),
                 Layer::points("overturning, at the top", Ink::Data(1), fallen),
@@ -54,37 +52,29 @@ pub fn demand(groups: &[&Cases]) -> Figure {
         .explained(compare(&caption, "Figures 3 and 4"))
 }
 
-/// The regression of the demand on each measure, ln EDP = ln a + b ln IM (Eq. 16), if there is one.
-pub fn power_laws<'a>(fits: &'a Fits, cases: &Cases) -> [Option<&'a DemandFit>; Measure::SCALAR.len()] {
-    Measure::SCALAR.map(|measure| {
-        fits.demand(cases, DemandModel::Univariate)
-            .find(|fit| fit.im_x == measure)
-            .filter(|fit| fit.r2.is_some() && fit.beta.is_some())
-    })
-}
-
 /// The modified dispersion beta / b; none where the demand falls with the measure.
 fn zeta(fit: &DemandFit) -> Option<f64> {
     let b = fit.coefficients[1];
     Some(fit.beta? / b).filter(|_| b > 0.0)
 }
 
-/// Figure 7: the demand in safe rocking over each measure, with its regression if there is one.
+/// Figure 7: the demand in safe rocking over each measure, with its regression, ln EDP = ln a + b ln IM
+/// (Eq. 16), if there is one; nothing without any regression.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
+    let laws = fits.demand(cases, DemandModel::Univariate);
+    let laws: Vec<&DemandFit> = laws.filter(|fit| Measure::SCALAR.contains(&fit.im_x)).collect();
     let mut panels = Vec::new();
-    for (measure, fit) in Measure::SCALAR.into_iter().zip(power_laws(fits, cases)) {
-        let points: Vec<Mark> = demands(cases)
-            .filter_map(|(case, edp)| Some(Mark::new(measure.value_of(&case.measures)?, edp)))
-            .collect();
+    for measure in Measure::SCALAR.into_iter().filter(|_| !laws.is_empty()) {
+        let mark = |(case, edp): (&Case, f64)| Some(Mark::new(measure.value_of(&case.measures)?, edp));
+        let points: Vec<Mark> = demands(cases).filter_map(mark).collect();
         let Range { low, high } = Range::over(points.iter().map(|point| point.x));
         let mut layers = vec![Layer::points("safe rocking", Ink::Data(0), points)];
         let mut title = short_label(&measure);
-        if let Some(fit) = fit.filter(|_| low < high) {
+        if let Some(fit) = laws.iter().find(|fit| fit.im_x == measure && low < high) {
             let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
             layers.push(Layer::line("regression", Ink::Data(1), line));
             let zeta = zeta(fit).map_or("none".to_string(), |zeta| number::significant(zeta, 3));
-            let [r2, beta] = [fit.r2, fit.beta]
-                .map(|value| value.map_or("-".to_string(), |value| number::fixed(value, 2)));
+            let [r2, beta] = [fit.r2, fit.beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
             title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
         }
         panels.push(Panel::new(&title, Axis::log(label(&measure)), Axis::log(DEMAND), layers));
@@ -101,26 +91,26 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
 /// overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let laws = fits.demand.iter().filter(|fit| fit.model != DemandModel::Biplanar && fit.r2.is_some());
-    let of_demand = |value: FitValue| -> Vec<Quality> {
-        laws.clone().map(|fit| (fit.group(), row_label(&fit.predictors()), value(fit))).collect()
-    };
-    let curves = fits.curves.iter();
-    let scores = curves.map(|fit| (fit.group(), row_label(&fit.predictors()), fit.held_out_log_score));
-    let panels = [
-        (of_demand(|fit| fit.r2), "*R*^{2} (more is better)"),
-        (of_demand(|fit| fit.beta), "*β* (less is better)"),
-        (of_demand(zeta), "*ζ* = *β* / *b* (less is better)"),
-    ];
-    let panels = panels.into_iter().map(|(all, label)| {
+    let panel = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
+        let all = laws.clone().map(|fit| (fit.group(), row_label(&fit.predictors()), value(fit)));
+        let all: Vec<Quality> = all.collect();
         let range = Range::over(all.iter().filter_map(|(_, _, value)| *value));
         let most = 1.08 * range.high.min(MOST_ZETA * range.low.max(0.2));
         dots(all, Axis::linear(label).over(0.0, most), groups)
-    });
+    };
+    let scores = fits.curves.iter();
+    let scores = scores.map(|fit| (fit.group(), row_label(&fit.predictors()), fit.held_out_log_score));
     let score = Axis::linear("log score of overturning on held-out cases (more is better)");
-    let panels = panels.chain([dots(scores.collect(), score, groups)]).flatten();
-    let caption = "Of the regressions of the demand over all cases, and of the lognormal curves of overturning. \
-                   A measure without a dot has no such number, or one far to the right.";
-    let figure = Figure::new("quality", "Quality of the measures", 2, 0.0, panels.collect());
+    let panels = [
+        panel(|fit| fit.r2, "*R*^{2} (more is better)"),
+        panel(|fit| fit.beta, "*β* (less is better)"),
+        panel(zeta, "*ζ* = *β* / *b* (less is better)"),
+        dots(scores.collect(), score, groups),
+    ];
+    let caption = "Of the regressions of the demand over all cases, and of the lognormal curves of \
+                   overturning. A measure without a dot has no such number, or one far to the right.";
+    let figure =
+        Figure::new("quality", "Quality of the measures", 2, 0.0, panels.into_iter().flatten().collect());
     figure.explained(compare(caption, "Figure 8"))
 }
 

@@ -11,7 +11,7 @@ mod probability;
 mod studies;
 
 pub use common::Fits;
-pub use demand::{demand, power_laws, quality, regressions};
+pub use demand::{demand, quality, regressions};
 pub use map::maps;
 pub use motion::{envelope, motion, similarity};
 pub use planes::planes;

@@ -13,6 +13,7 @@ use crate::table::motions::MotionRow;
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
 const VALUES: usize = 1200;
 const SMOOTH_VALUES: usize = 450;
+const UNIT: &str = "*a* (m/s^{2})";
 /// Free rocking that Figure 5 shows, in 1 / p.
 const TAIL: f64 = 5.0;
 
@@ -21,30 +22,28 @@ const TAIL: f64 = 5.0;
 pub fn motion(motions: &[MotionRow]) -> Figure {
     let combined = motions.iter().find(|whole| is_of(whole, Suite::Csgm) && pulse(whole, motions).is_some());
     let Some(whole) = combined.or(motions.first()) else { return Figure::default() };
-    let MotionRow { dt_s, acceleration_m_s2, .. } = whole;
-    let line = |label: &str, ink: Ink, values: &[f64], most: usize| {
-        vec![Layer::line(label, ink, envelope(values, *dt_s, most))]
+    let layer = |name: &str, ink: Ink, values: &[f64], most: usize| {
+        Layer::line(name, ink, envelope(values, whole.dt_s, most))
     };
     let panel = |title: &str, unit: &str, layers: Vec<Layer>| {
-        let time = Axis::linear("time (s)").over(0.0, acceleration_m_s2.len() as f64 * dt_s);
+        let time = Axis::linear("time (s)").over(0.0, whole.acceleration_m_s2.len() as f64 * whole.dt_s);
         Panel::new(title, time, Axis::linear(unit), layers)
     };
-    const UNIT: &str = "*a* (m/s^{2})";
-    let (mut panels, mut velocities) = (Vec::new(), Vec::new());
-    velocities.extend(line("whole motion", Ink::Data(0), &velocity(whole), VALUES));
+    let mut panels = Vec::new();
+    let mut velocities = vec![layer("whole motion", Ink::Data(0), &velocity(whole), VALUES)];
     let mut caption = format!("Acceleration and velocity: {}.", words(whole));
     if let Some(pulse) = pulse(whole, motions) {
-        let parts = acceleration_m_s2.iter().zip(&pulse.acceleration_m_s2);
+        let parts = whole.acceleration_m_s2.iter().zip(&pulse.acceleration_m_s2);
         let rest: Vec<f64> = parts.map(|(whole, pulse)| whole - pulse).collect();
-        let coherent = line("pulse", Ink::Data(1), &pulse.acceleration_m_s2, SMOOTH_VALUES);
-        let rest = line("high frequencies", Ink::Muted, &rest, VALUES);
-        panels.push(panel("Coherent pulse", UNIT, coherent));
-        panels.push(panel("High frequencies", UNIT, rest));
-        velocities.extend(line("pulse", Ink::Data(1), &velocity(pulse), SMOOTH_VALUES));
+        let coherent = layer("pulse", Ink::Data(1), &pulse.acceleration_m_s2, SMOOTH_VALUES);
+        panels.push(panel("Coherent pulse", UNIT, vec![coherent]));
+        let rest = layer("high frequencies", Ink::Muted, &rest, VALUES);
+        panels.push(panel("High frequencies", UNIT, vec![rest]));
+        velocities.push(layer("pulse", Ink::Data(1), &velocity(pulse), SMOOTH_VALUES));
         caption = compare(&format!("A combined motion and its parts: {}.", words(whole)), "Figure 1");
     }
-    let whole = line("whole motion", Ink::Data(0), acceleration_m_s2, VALUES);
-    panels.push(panel("Whole motion", UNIT, whole));
+    let all = layer("whole motion", Ink::Data(0), &whole.acceleration_m_s2, VALUES);
+    panels.push(panel("Whole motion", UNIT, vec![all]));
     panels.push(panel("Velocity", "*v* (m/s)", velocities));
     Figure::new("motion", "A ground motion", 1, 46.0, panels).explained(caption)
 }
@@ -84,28 +83,24 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     let stronger = second.alpha_rad.tan() / first.alpha_rad.tan();
     let scaled: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
     let second = Structure { eta: first.eta, ..second.clone() };
-    let rotations = [
-        (first, motion.dt_s, rotations(first, &motion.acceleration_m_s2, motion.dt_s)?),
-        (&second, motion.dt_s / faster, rotations(&second, &scaled, motion.dt_s / faster)?),
+    let responses = [
+        (first, &motion.acceleration_m_s2, motion.dt_s, Ink::Data(0), Dash::Solid),
+        (&second, &scaled, motion.dt_s / faster, Ink::Data(1), Dash::Short),
     ];
-    let mut panels = Vec::new();
-    for (title, x, y, is_dimensionless) in [
-        ("In their own units", "time (s)", "*θ* (rad)", false),
-        ("Dimensionless", "*p t*", "*θ* / *α*", true),
-    ] {
-        let styles = [(Ink::Data(0), Dash::Solid), (Ink::Data(1), Dash::Short)];
-        let mut layers = Vec::new();
-        for ((structure, dt_s, theta_rad), (ink, dash)) in rotations.iter().zip(styles) {
-            let Structure { p_rad_s, alpha_rad, .. } = **structure;
-            let [p, alpha] = [p_rad_s, alpha_rad].map(|value| number::significant(value, 3));
-            let (time, angle) = if is_dimensionless { (p_rad_s, alpha_rad) } else { (1.0, 1.0) };
-            let marks = envelope(theta_rad, dt_s * time, SMOOTH_VALUES).into_iter();
-            let marks = marks.map(|mark| Mark { y: mark.y / angle, ..mark });
-            let label = format!("*p* = {p} rad/s, *α* = {alpha} rad");
-            layers.push(Layer::new(&label, ink, MarkStyle::Line(dash), marks));
-        }
-        panels.push(Panel::new(title, Axis::linear(x), Axis::linear(y), layers));
+    let (mut own, mut dimensionless) = (Vec::new(), Vec::new());
+    for (structure, samples, dt_s, ink, dash) in responses {
+        let (p, alpha) = (structure.p_rad_s, structure.alpha_rad);
+        let [p_words, alpha_words] = [p, alpha].map(|value| number::significant(value, 3));
+        let name = format!("*p* = {p_words} rad/s, *α* = {alpha_words} rad");
+        let layer = |marks: Vec<Mark>| Layer::new(&name, ink, MarkStyle::Line(dash), marks);
+        let marks = envelope(&rotations(structure, samples, dt_s)?, dt_s, SMOOTH_VALUES);
+        dimensionless.push(layer(marks.iter().map(|mark| Mark::new(p * mark.x, mark.y / alpha)).collect()));
+        own.push(layer(marks));
     }
+    let panels = vec![
+        Panel::new("In their own units", Axis::linear("time (s)"), Axis::linear("*θ* (rad)"), own),
+        Panel::new("Dimensionless", Axis::linear("*p t*"), Axis::linear("*θ* / *α*"), dimensionless),
+    ];
     let [faster, stronger] = [faster, stronger].map(|ratio| number::significant(ratio, 3));
     let caption = format!(
         "Rotation under a motion ({}), and of a structure of {faster} times the *p* under the same motion, \
@@ -134,20 +129,13 @@ fn rotations(structure: &Structure, samples: &[f64], dt_s: f64) -> Option<Vec<f6
 /// steps, in their order.
 pub fn envelope(values: &[f64], step: f64, most: usize) -> Vec<Mark> {
     let each = values.len().div_ceil(most).max(1);
+    let by_value = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
     let mut kept: Vec<usize> = Vec::new();
-    for (k, bucket) in values.chunks(2 * each).enumerate().filter(|_| each > 1) {
-        let mut ends = [0, 0];
-        for at in 1..bucket.len() {
-            if bucket[at] < bucket[ends[0]] {
-                ends[0] = at;
-            }
-            if bucket[at] > bucket[ends[1]] {
-                ends[1] = at;
-            }
-        }
-        ends.sort_unstable();
-        kept.extend(ends.map(|at| 2 * k * each + at));
+    for start in (0..values.len()).step_by(2 * each) {
+        let step = start..values.len().min(start + 2 * each);
+        kept.extend(step.clone().min_by(by_value).into_iter().chain(step.max_by(by_value)));
     }
-    let kept = if each == 1 { (0..values.len()).collect() } else { kept };
+    kept.sort_unstable();
+    kept.dedup();
     kept.into_iter().map(|k| Mark::new(k as f64 * step, values[k])).collect()
 }

@@ -27,17 +27,15 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
 fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
     let [right, up] = edge_on(planes);
     let view = |point: Vector3<f64>| Mark::new(right.dot(&point), up.dot(&point));
+    let by_x = |a: &Mark, b: &Mark| a.x.total_cmp(&b.x);
+    let (below, above): (Vec<_>, Vec<_>) = logarithms(cases).partition(|case| case.x < transition.ln());
+    let sides = [("below the transition", Ink::Data(2), below), ("above it", Ink::Data(0), above)];
     let (mut layers, mut lines) = (Vec::new(), Vec::new());
-    let sides = [("below the transition", Ink::Data(2), true), ("above it", Ink::Data(0), false)];
-    for ((label, ink, is_below), plane) in sides.into_iter().zip(planes) {
-        let mut its = logarithms(cases);
-        its.retain(|case| (case.x < transition.ln()) == is_below);
+    for ((label, ink, its), plane) in sides.into_iter().zip(planes) {
         let [ln_a, b1, b2] = plane.into();
-        let on_plane =
-            its.iter().map(|case| view(Vector3::new(case.x, case.y, ln_a + b1 * case.x + b2 * case.y)));
-        let mut on_plane: Vec<Mark> = on_plane.collect();
-        on_plane.sort_unstable_by(|a, b| a.x.total_cmp(&b.x));
-        let ends = on_plane.first().into_iter().chain(on_plane.last()).copied();
+        let on_plane = |case: &Vector3<f64>| Vector3::new(case.x, case.y, ln_a + b1 * case.x + b2 * case.y);
+        let line = its.iter().map(|case| view(on_plane(case)));
+        let ends = line.clone().min_by(by_x).into_iter().chain(line.max_by(by_x));
         lines.push(Layer::line("planes", Ink::Text, ends));
         layers.push(Layer::points(label, ink, its.into_iter().map(view)));
     }
@@ -47,12 +45,11 @@ fn panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
 }
 
 /// ln IM4, ln IM3 and ln EDP of the cases that have them.
-fn logarithms(cases: &Cases) -> Vec<Vector3<f64>> {
-    let all = demands(cases).filter_map(|(case, edp)| {
+fn logarithms(cases: &Cases) -> impl Iterator<Item = Vector3<f64>> {
+    demands(cases).filter_map(|(case, edp)| {
         let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
         Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
-    });
-    all.collect()
+    })
 }
 
 /// Returns the directions to the right and upwards in a view along the line in which the planes meet; of

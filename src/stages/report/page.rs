@@ -101,8 +101,6 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         .flat_map(|suite| suite.chunks(MOST_STRUCTURES).map(<[_]>::to_vec))
         .collect();
     let (motions, fits) = (tables.motions()?, &tables.fits);
-    let mut fitted: Vec<&Cases> = groups.to_vec();
-    fitted.retain(|cases| power_laws(fits, cases).iter().any(Option::is_some));
     let stripes = tables.rows(Kind::Stripes)?;
     let mut figures = vec![
         ida(&tables.rows(Kind::CapacityFits)?, &tables.rows(Kind::Capacities)?, &stripes),
@@ -117,7 +115,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         demand(groups),
         quality(fits, groups),
     ];
-    figures.extend(fitted.iter().map(|cases| regressions(fits, cases)));
+    figures.extend(groups.iter().map(|cases| regressions(fits, cases)));
     figures.retain(|figure| !figure.panels.is_empty());
     Ok(figures)
 }
