@@ -154,19 +154,17 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
     let room = 0.16 * height.max(width);
     let right = turned.iter().map(|corner| corner.x).fold(width, f64::max);
     let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
+    let ground = [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0));
+    let body = [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) });
     let layers = vec![
-        Layer::line("", Ink::Muted, [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0))),
-        Layer::line(
-            "",
-            Ink::Data(0),
-            [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) }),
-        ),
-        Layer::line("", Ink::Text, corners),
-        Layer::guide("as it tips", Ink::Data(1), turned),
-        Layer::guide("edge to centre, as it tips", Ink::Data(1), [edge, tipped(centre)]),
+        Layer::line("ground", Ink::Muted, ground).unlisted(),
+        Layer::line("body", Ink::Data(0), body).unlisted(),
+        Layer::line("outline", Ink::Text, corners).unlisted(),
+        Layer::guide("outline as it tips", Ink::Data(1), turned),
+        Layer::guide("edge to centre as it tips", Ink::Data(1), [edge, tipped(centre)]),
         Layer::guide("edge to centre", Ink::Muted, [edge, centre]),
-        Layer::points("", Ink::Data(1), [tipped(centre)]),
-        Layer::points("", Ink::Text, [centre]),
+        Layer::points("centre of mass as it tips", Ink::Data(1), [tipped(centre)]).unlisted(),
+        Layer::points("centre of mass", Ink::Text, [centre]).unlisted(),
     ];
     let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
     let degrees = significant(alpha_rad.to_degrees(), 3);
@@ -213,13 +211,11 @@ fn fragility_panel(
     drawn: Option<&AtSite>,
 ) -> Panel {
     let too_far = format!("{}, or overturns", object.too_far().replace("its slenderness", "*α*"));
+    let failure = curve(over, points, LimitState::Failure, false);
+    let overturning = curve(over, points, LimitState::Overturning, true);
     let layers = vec![
-        Layer::line(&too_far, Ink::Data(0), curve(over, points, LimitState::Failure, false)),
-        Layer::line(
-            "overturns, with 95 % limits",
-            Ink::Data(1),
-            curve(over, points, LimitState::Overturning, true),
-        ),
+        Layer::line(&too_far, Ink::Data(0), failure),
+        Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
     ];
     let mut panel = curves_panel("Fragility", over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
@@ -269,8 +265,8 @@ fn hazard_panel(drawn: &AtSite) -> Panel {
         panel.add_upright(upright(intensity, y, text), lowest);
     }
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
-    panel.layers.push(Layer::line("", Ink::Text, curve));
-    panel.layers.push(Layer::points("", Ink::Text, dots));
+    panel.layers.push(Layer::line("hazard curve", Ink::Text, curve).unlisted());
+    panel.layers.push(Layer::points("usual return periods", Ink::Text, dots).unlisted());
     let caption = format!("How often {what} is exceeded at the site: {}.", words.join(", "));
     panel.explained(caption)
 }
@@ -355,11 +351,8 @@ impl ProbabilityRow {
             _ => OF_HUNDRED.value(*p),
         });
         let words = words.collect::<Vec<_>>().join(", ") + " %";
-        ProbabilityRow {
-            name: name.to_string(),
-            values: all.iter().map(|&p| (p, ink, label)).collect(),
-            words,
-        }
+        let values = all.iter().map(|&p| (p, ink, label)).collect();
+        ProbabilityRow { name: name.to_string(), values, words }
     }
 }
 
