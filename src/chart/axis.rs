@@ -44,13 +44,11 @@ impl Panel {
             if self.names().is_empty() { &mut y } else { &mut x }.extend([mark.low, mark.high]);
         }
         let rulers = [Ruler::new(&self.x, x, across), Ruler::new(&self.y, y, upwards)];
-        match self.frame {
-            Frame::Axes => rulers,
-            Frame::ToScale => {
-                let per_point = rulers.map(|ruler| (ruler.high - ruler.low) / (ruler.to - ruler.from).abs());
-                rulers.map(|ruler| ruler.stretched(per_point[0].max(per_point[1])))
-            }
+        if self.frame == Frame::Axes {
+            return rulers;
         }
+        let per_point = rulers.map(|ruler| (ruler.high - ruler.low) / (ruler.to - ruler.from).abs());
+        rulers.map(|ruler| ruler.stretched(per_point[0].max(per_point[1])))
     }
 }
 

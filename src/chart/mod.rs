@@ -14,7 +14,5 @@ mod pen;
 pub mod text;
 
 pub use draw::{DPI, html_of_panels, png, svg};
-pub use figure::{
-    Axis, Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Words,
-};
+pub use figure::{Axis, Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 pub use pen::round;
