@@ -127,8 +127,6 @@ fn without_dictionary(column: &ArrayRef) -> Result<ArrayRef, ArrowError> {
 fn write_csv(reader: ArrowArrayStreamReader, path: &Path) -> anyhow::Result<()> {
     let parquet = path.with_extension("parquet");
     write(reader.schema(), reader, &parquet)?;
-    Ok(std::fs::write(
-        path,
-        frame::show(&frame::read(&ParquetTable::open(&parquet)?, usize::MAX)?, Format::Csv)?,
-    )?)
+    let text = frame::show(&frame::read(&ParquetTable::open(&parquet)?)?, Format::Csv)?;
+    Ok(std::fs::write(path, text)?)
 }

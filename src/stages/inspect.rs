@@ -7,7 +7,6 @@ use clap::{Args, ValueHint};
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::statistics::Statistics;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
 use crate::number::visible;
 use crate::table::file::ParquetTable;
@@ -39,12 +38,20 @@ struct ColumnRow {
     meaning: String,
 }
 
+#[derive(Serialize)]
+struct Inspected {
+    file: String,
+    rows: usize,
+    made: Option<Provenance>,
+    columns: Vec<ColumnRow>,
+}
+
 impl Inspect {
     /// The text to print.
     pub fn run(&self) -> anyhow::Result<String> {
         let table = ParquetTable::open(&self.file)?;
         if let Some(head) = self.head {
-            let shown = frame::show(&frame::read(&table, head)?, self.format)?;
+            let shown = frame::show(&frame::read(&table.head(head))?, self.format)?;
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
         let metadata = table.metadata().metadata();
@@ -52,11 +59,8 @@ impl Inspect {
         let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata)).collect();
         let made = Provenance::from_footer(metadata);
         if self.format == Format::Json {
-            let path = self.file.display().to_string();
-            return Ok(format!(
-                "{:#}\n",
-                json!({ "file": path, "rows": table.rows(), "made": made, "columns": columns })
-            ));
+            let (file, rows) = (self.file.display().to_string(), table.rows());
+            return Ok(serde_json::to_string_pretty(&Inspected { file, rows, made, columns })? + "\n");
         }
         let shown = frame::show(&frame::from_batch(&rows::batch(&columns)?)?, self.format)?;
         if self.format == Format::Csv {

@@ -149,6 +149,11 @@ impl ParquetTable {
         }
     }
 
+    /// Keeps the first rows, at most this many.
+    pub fn head(self, most: usize) -> ParquetTable {
+        ParquetTable { rows: 0..most.min(self.rows()), ..self }
+    }
+
     /// Checks that each file has these columns.
     pub fn expect<'a>(&self, columns: impl IntoIterator<Item = &'a str> + Clone) -> Result<(), TableError> {
         for TableFile { path, metadata, .. } in &self.files {

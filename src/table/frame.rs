@@ -1,15 +1,18 @@
-//! Narrow tables as polars frames, and their text, CSV and JSON.
+//! Tables as polars frames: their groups and joins, and their text, CSV and JSON.
 
+use anyhow::Context as _;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch};
-use polars::prelude::{AnyValue, Column, DataFrame, DataType, GroupsIndicator, PolarsError};
+use polars_core::prelude::{AnyValue, Column, DataFrame, DataType, GroupsType, PolarsResult};
+use polars_io::prelude::{CsvWriter, JsonFormat, JsonWriter, SerWriter};
+use polars_ops::prelude::{DataFrameJoinOps, JoinArgs, JoinType, MaintainOrderJoin};
 use rockfrag_core::fragility::Group;
 use rockfrag_core::spelling::unknown_word;
-use serde_json::Value;
 
 use super::columns::{integers, numbers};
-use super::file::{NARROW_BATCH, ParquetTable};
+use super::file::ParquetTable;
 use crate::number::{aligned, fixed, significant};
+use crate::source::guarded;
 
 /// Format of a printed table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -22,23 +25,25 @@ pub enum Format {
     Json,
 }
 
-/// Reads the first rows of a table, at most this many; a list is shown by its length.
-pub fn read(table: &ParquetTable, most: usize) -> anyhow::Result<DataFrame> {
-    let mut whole = DataFrame::default();
-    for group in table.row_groups() {
-        for batch in table.read(&group, &|_| true, most.clamp(1, NARROW_BATCH)) {
-            let rows = batch?.rows;
-            let some = from_batch(&rows.slice(0, rows.num_rows().min(most - whole.height())))?;
-            whole = if whole.width() == 0 { some } else { whole.vstack(&some)? };
-            if whole.height() == most {
-                return Ok(whole);
-            }
-        }
+/// Reads a table; a list is shown by its length.
+pub fn read(table: &ParquetTable) -> anyhow::Result<DataFrame> {
+    let mut whole = from_batch(&RecordBatch::new_empty(table.schema().clone()))?;
+    for batch in table.batches(|_| true) {
+        append(&mut whole, from_batch(&batch?.rows)?)?;
     }
     Ok(whole)
 }
 
-pub fn from_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
+/// Appends rows to a frame, to an empty one of any columns.
+pub fn append(whole: &mut DataFrame, rows: DataFrame) -> PolarsResult<()> {
+    if whole.height() == 0 {
+        *whole = rows;
+        return Ok(());
+    }
+    whole.vstack_mut_owned(rows).map(drop)
+}
+
+pub fn from_batch(rows: &RecordBatch) -> PolarsResult<DataFrame> {
     let schema = rows.schema();
     let columns =
         schema.fields().iter().zip(rows.columns()).map(|(field, array)| column(field.name(), array));
@@ -46,18 +51,25 @@ pub fn from_batch(rows: &RecordBatch) -> Result<DataFrame, PolarsError> {
 }
 
 /// The rows of each suite and structure, in the order in which these first come.
-pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> Result<Vec<Vec<usize>>, PolarsError> {
+pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> anyhow::Result<Vec<Vec<usize>>> {
     let (suites, structures): (Vec<_>, Vec<_>) = rows.map(|group| (group.suite, group.structure)).unzip();
     let height = structures.len();
     let keys = vec![Column::new("suite".into(), suites), Column::new("structure".into(), structures)];
-    // On this thread: the pool of polars does not know --threads.
     let frame = DataFrame::new(height, keys)?;
-    let groups = frame.group_by_with_series(frame.columns().to_vec(), false, true)?;
-    let rows = groups.get_groups().iter().map(|group| match group {
-        GroupsIndicator::Idx((_, rows)) => rows.iter().map(|&row| row as usize).collect(),
-        GroupsIndicator::Slice([first, count]) => (first as usize..(first + count) as usize).collect(),
-    });
-    Ok(rows.collect())
+    let grouped = with_threads(|| frame.group_by_stable(["suite", "structure"]))?;
+    let groups = GroupsType::clone(grouped.get_groups()).into_idx();
+    Ok(groups.all().iter().map(|rows| rows.iter().map(|&row| row as usize).collect()).collect())
+}
+
+/// The rows of a frame in their order, with those of the other that have the same in a column.
+pub fn left_join(rows: &DataFrame, other: &DataFrame, on: &str) -> anyhow::Result<DataFrame> {
+    let how = JoinArgs { maintain_order: MaintainOrderJoin::Left, ..JoinArgs::new(JoinType::Left) };
+    with_threads(|| rows.join(other, [on], [on], how, None))
+}
+
+/// Calls polars, which has threads of its own, and panics if one of them cannot start.
+fn with_threads<T>(call: impl FnOnce() -> PolarsResult<T>) -> anyhow::Result<T> {
+    Ok(guarded(call).context("a thread cannot start")??)
 }
 
 fn column(name: &str, array: &ArrayRef) -> Column {
@@ -70,13 +82,14 @@ fn column(name: &str, array: &ArrayRef) -> Column {
         match whole.iter().map(|value| value.map(i64::try_from).transpose()).collect::<Result<Vec<_>, _>>() {
             Ok(counts) => Column::new(name, counts),
             // Names such as hashes.
-            Err(_) => Column::new(
-                name,
-                whole.iter().map(|value| Some(value.as_ref()?.to_string())).collect::<Vec<_>>(),
-            ),
+            Err(_) => {
+                let names = whole.iter().map(|value| value.map(|value| value.to_string()));
+                Column::new(name, names.collect::<Vec<_>>())
+            }
         }
     } else if let Some(values) = numbers(array) {
-        Column::new(name, values)
+        let finite = values.into_iter().map(|value| value.filter(|value| value.is_finite()));
+        Column::new(name, finite.collect::<Vec<_>>())
     } else {
         let lists = array.as_list_opt::<i32>();
         let lengths = (0..array.len()).map(|row| Some(format!("{} numbers", lists?.value_length(row))));
@@ -87,55 +100,31 @@ fn column(name: &str, array: &ArrayRef) -> Column {
 /// Formats a frame as text with aligned columns, as CSV, or as a list of JSON objects: numbers in full but in
 /// text, null as an empty cell.
 pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
-    let names = frame.get_column_names();
+    let (mut frame, mut shown) = (frame.clone(), Vec::new());
     match format {
-        Format::Text => Ok(text(frame)),
-        Format::Csv => {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            writer.write_record(names.iter().map(|name| name.as_str()))?;
-            for row in rows(frame) {
-                writer.write_record(row.iter().map(|value| cell(value, "")))?;
-            }
-            Ok(String::from_utf8(writer.into_inner()?)?)
-        }
+        Format::Text => return Ok(text(&frame)),
+        Format::Csv => with_threads(|| CsvWriter::new(&mut shown).finish(&mut frame))?,
         Format::Json => {
-            let names = names.iter().map(|name| name.to_string());
-            let objects = rows(frame).map(|row| names.clone().zip(row).collect::<Value>());
-            Ok(serde_json::to_string_pretty(&objects.collect::<Vec<_>>())? + "\n")
+            with_threads(|| {
+                JsonWriter::new(&mut shown).with_json_format(JsonFormat::Json).finish(&mut frame)
+            })?;
+            shown.push(b'\n');
         }
     }
-}
-
-fn rows(frame: &DataFrame) -> impl Iterator<Item = Vec<Value>> {
-    let value = |column: &Column, row| match column.get(row) {
-        Ok(AnyValue::Float64(number)) => Value::from(number),
-        Ok(AnyValue::Int64(count)) => Value::from(count),
-        Ok(AnyValue::Boolean(flag)) => Value::from(flag),
-        Ok(AnyValue::String(text)) => Value::from(text),
-        _ => Value::Null,
-    };
-    (0..frame.height()).map(move |row| frame.columns().iter().map(|column| value(column, row)).collect())
-}
-
-fn cell(value: &Value, null: &str) -> String {
-    match value {
-        Value::Null => null.to_string(),
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
+    Ok(String::from_utf8(shown)?)
 }
 
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
+    let cell = |column: &Column, row| match column.get(row) {
+        Ok(AnyValue::Int64(count)) => fixed(count as f64, 0),
+        Ok(AnyValue::Float64(number)) => significant(number, 4),
+        Ok(AnyValue::Null) | Err(_) => "-".to_string(),
+        Ok(other) => other.str_value().into_owned(),
+    };
     let names = frame.get_column_names().into_iter().map(|name| name.to_string());
-    let lines = rows(frame).map(|row| {
-        let cells = row.iter().map(|value| match (value.as_i64(), value.as_f64()) {
-            (Some(count), _) => fixed(count as f64, 0),
-            (None, Some(number)) => significant(number, 4),
-            _ => cell(value, "-"),
-        });
-        cells.collect()
-    });
-    let lines: Vec<Vec<String>> = std::iter::once(names.collect()).chain(lines).collect();
+    let rows =
+        (0..frame.height()).map(|row| frame.columns().iter().map(|column| cell(column, row)).collect());
+    let lines: Vec<Vec<String>> = std::iter::once(names.collect()).chain(rows).collect();
     aligned(&lines, |column| frame.columns()[column].dtype() != &DataType::String)
 }

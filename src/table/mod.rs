@@ -12,7 +12,7 @@
 //! motions     motions, one per row
 //! responses   responses, one row for each motion and structure
 //! capacities  intensities that overturn, one row for each motion and structure
-//! frame       tables as polars frames, and their text, CSV and JSON
+//! frame       tables as polars frames: groups, joins, and text, CSV and JSON
 //! ```
 
 pub mod capacities;

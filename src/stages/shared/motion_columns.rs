@@ -1,18 +1,22 @@
 //! Columns of the motions as further measures of fits.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use polars_core::prelude::{Column, DataFrame};
 use rockfrag_core::fragility::{Measure, Predictors};
 use rockfrag_core::motion::Dimension;
-use rockfrag_core::rocking::Structure;
 
 use crate::number::listed;
 use crate::pipeline::UsageError;
 use crate::table::TableError;
+use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
+use crate::table::frame;
 
+/// Column of the names of motions.
+const ID: &str = "motion_id";
 /// The units at the end of the names of columns, the longer ones first.
 const UNITS: [(&str, Dimension); 4] = [
     ("_m_s2", Dimension::Acceleration),
@@ -23,14 +27,17 @@ const UNITS: [(&str, Dimension); 4] = [
 /// Units that are not converted.
 const OTHER_UNITS: [&str; 7] = ["_cm_s2", "_cm_s", "_ms", "_cm", "_mm", "_km", "_g"];
 
-/// Columns of the motions file, by motion.
+/// The name of a column, what it measures, and its values.
+pub type MotionColumn<'a> = (&'a str, Option<Dimension>, Vec<f64>);
+
+/// Columns of the motions file.
 #[derive(Default)]
 pub struct MotionColumns {
     path: PathBuf,
     /// The columns, and what each measures; a dimensionless one stays as it is.
     columns: Vec<(String, Option<Dimension>)>,
-    /// The values of each motion, by its name; NaN where one is missing.
-    motions: HashMap<String, Vec<f64>>,
+    /// The name of each motion, and its values; NaN where one is missing.
+    motions: DataFrame,
 }
 
 impl MotionColumns {
@@ -66,39 +73,44 @@ impl MotionColumns {
             }
             read.columns.push((name.to_string(), quantity(name)));
         }
-        let wanted = |name: &str| name == "motion_id" || read.columns.iter().any(|(own, _)| own == name);
+        let wanted = |name: &str| name == ID || read.columns.iter().any(|(own, _)| own == name);
         for batch in table.batches(wanted) {
             let batch = batch?;
-            let values = read.columns.iter().map(|(column, _)| batch.numbers(column));
-            let values = values.collect::<Result<Vec<_>, _>>()?;
-            for (row, id) in batch.required_texts("motion_id")?.into_iter().enumerate() {
-                let its = values.iter().map(|values| values[row].unwrap_or(f64::NAN)).collect();
-                if read.motions.insert(id.to_string(), its).is_some() {
-                    let problem = format!("motion '{id}' is there twice; expected each once");
-                    return Err(TableError::table(path, problem).into());
-                }
+            let mut columns = vec![Column::new(ID.into(), batch.required_texts(ID)?)];
+            for (name, _) in &read.columns {
+                let values = batch.numbers(name)?.into_iter().map(|value| value.unwrap_or(f64::NAN));
+                columns.push(Column::new(name.into(), values.collect::<Vec<_>>()));
+            }
+            frame::append(&mut read.motions, DataFrame::new(batch.rows.num_rows(), columns)?)?;
+        }
+        let mut known = HashSet::new();
+        for id in read.motions.column(ID)?.str()?.iter().flatten() {
+            if !known.insert(id) {
+                let problem = format!("motion '{id}' is there twice; expected each once");
+                return Err(TableError::table(path, problem).into());
             }
         }
         Ok(read)
     }
 
-    /// Returns the value of each column for a motion, made dimensionless for a structure.
-    pub fn values(
-        &self,
-        motion: &str,
-        structure: &Structure,
-    ) -> anyhow::Result<impl Iterator<Item = (&str, f64)>> {
-        let values = self.motions.get(motion).with_context(|| {
-            let file = self.path.display();
-            format!("{file}: no motion '{motion}'; expected the motions of the responses")
-        })?;
-        Ok(self.columns.iter().zip(values).map(|((name, quantity), value)| {
-            (name.as_str(), quantity.map_or(*value, |quantity| quantity.dimensionless(*value, structure)))
-        }))
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.columns.is_empty()
+    /// Returns the columns of the motions of responses, and what each measures.
+    pub fn of_responses(&self, batch: &Batch) -> anyhow::Result<Vec<MotionColumn<'_>>> {
+        if self.columns.is_empty() {
+            return Ok(Vec::new());
+        }
+        let ids = batch.required_texts(ID)?;
+        let responses = DataFrame::new(ids.len(), vec![Column::new(ID.into(), &ids)])?;
+        let joined = frame::left_join(&responses, &self.motions, ID)?;
+        let columns = self.columns.iter().map(|(name, quantity)| {
+            let values = joined.column(name)?.f64()?.iter().zip(&ids).map(|(value, id)| {
+                value.with_context(|| {
+                    let file = self.path.display();
+                    format!("{file}: no motion '{id}'; expected the motions of the responses")
+                })
+            });
+            Ok((name.as_str(), *quantity, values.collect::<anyhow::Result<Vec<f64>>>()?))
+        });
+        columns.collect()
     }
 }
 

@@ -29,7 +29,7 @@ pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let grid = match is_text(path) {
         true => Grid::read(path),
         false => {
-            let text = frame::show(&frame::read(&ParquetTable::open(path)?, usize::MAX)?, Format::Csv)?;
+            let text = frame::show(&frame::read(&ParquetTable::open(path)?)?, Format::Csv)?;
             Grid::parse(text.as_bytes(), None)
         }
     };

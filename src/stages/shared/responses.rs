@@ -27,12 +27,12 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
 }
 
 /// Reads responses with columns of their motions.
-pub fn read_with(path: &Path, columns: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
+pub fn read_with(path: &Path, motions: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
     let table = ParquetTable::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
     let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
     for batch in table.batches(|name| is_measure(name) || COLUMNS.split(' ').any(|one| one == name)) {
-        add(&mut all, &mut hashes, &batch?, columns)?;
+        add(&mut all, &mut hashes, &batch?, motions)?;
     }
     if all.is_empty() {
         return Err(TableError::table(path, "no responses; expected at least one").into());
@@ -53,7 +53,7 @@ fn add(
     all: &mut Vec<Cases>,
     hashes: &mut Vec<u64>,
     batch: &Batch,
-    columns: &MotionColumns,
+    motions: &MotionColumns,
 ) -> anyhow::Result<()> {
     let (suites, names) = (batch.texts("suite")?, batch.required_texts("structure")?);
     let (structures, outcomes) = (batch.structures(&names)?, outcomes(batch)?);
@@ -66,7 +66,7 @@ fn add(
         (&suites[row], &names[row], motion, pga[row].to_bits()).hash(&mut hash);
         hashes.push(hash.finish());
     }
-    let motions = if columns.is_empty() { Vec::new() } else { batch.required_texts("motion_id")? };
+    let columns = motions.of_responses(batch)?;
     let groups = (0..names.len()).map(|row| Group { suite: suites[row].as_deref(), structure: &names[row] });
     for rows in frame::groups(groups)? {
         let group = Group { suite: suites[rows[0]].as_deref(), structure: &names[rows[0]] };
@@ -90,8 +90,9 @@ fn add(
                 cluster: 0,
             };
             cases.push(case, Cluster::new(earthquakes[row].as_deref(), mw[row], re_km[row]));
-            let Some(motion) = motions.get(row) else { continue };
-            for (name, value) in columns.values(motion, &structures[row])? {
+            for (name, quantity, values) in &columns {
+                let value =
+                    quantity.map_or(values[row], |of| of.dimensionless(values[row], &structures[row]));
                 cases.columns.entry(name.to_string()).or_default().push(value);
             }
         }
