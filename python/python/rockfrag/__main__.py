@@ -1,5 +1,6 @@
 """The ``rockfrag`` command: the same words, files, messages and exit codes as the program."""
 
+import os
 import signal
 import sys
 
@@ -9,6 +10,8 @@ from ._rockfrag import command
 def main() -> int:
     # Ctrl-C ends the program as it ends any other.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    # As in main.rs.
+    os.environ["POLARS_MAX_THREADS"] = "1"
     return command(["rockfrag", *sys.argv[1:]])
 
 
