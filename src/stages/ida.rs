@@ -324,14 +324,11 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
 fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
     if fits.len() > MOST_LINES {
-        fits.sort_by(|a, b| weakness(a).total_cmp(&weakness(b)));
+        let found_at =
+            |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
+        fits.sort_by(|a, b| found_at(a).total_cmp(&found_at(b)));
     }
     first_lines(&fits.iter().map(|row| line(row)).collect::<String>(), 0, out)
-}
-
-/// The intensity by which the weakest structures are found.
-fn weakness(row: &CapacityFitRow) -> f64 {
-    row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY)
 }
 
 fn line(row: &CapacityFitRow) -> String {

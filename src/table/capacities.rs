@@ -68,21 +68,18 @@ pub struct Stripe {
 }
 
 impl CapacityRow {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
 }
 
 impl CapacityFitRow {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }
 }
 
 impl Stripe {
-    /// Returns the suite and the structure that it is of.
     pub fn group(&self) -> Group<'_> {
         Group { suite: self.suite.as_deref(), structure: &self.structure }
     }

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::path::Path;
-use std::str::FromStr;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
@@ -30,16 +29,13 @@ impl Batch {
         let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
         let numbers = numbers(column).ok_or_else(|| self.other_type(name, column, "a number"))?;
         let (range, expected) = range_of_column(name);
-        match numbers.iter().position(|number| number.is_some_and(|number| !range.contains(&number))) {
-            Some(row) => {
-                let found = numbers[row].unwrap_or_default();
-                Err(self.value_error(row, name, format!("{found:?}; expected {expected}")))
-            }
-            None => Ok(numbers),
+        let outside = |(_, number): &(usize, &Option<f64>)| number.is_some_and(|one| !range.contains(&one));
+        if let Some((row, Some(found))) = numbers.iter().enumerate().find(outside) {
+            return Err(self.value_error(row, name, format!("{found:?}; expected {expected}")));
         }
+        Ok(numbers)
     }
 
-    /// Returns the numbers of a column without nulls.
     pub fn required_numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
         self.required(name, self.numbers(name)?)
     }
@@ -71,13 +67,6 @@ impl Batch {
         self.required(name, self.texts(name)?)
     }
 
-    pub fn required_words<T: FromStr<Err = String>>(&self, name: &str) -> Result<Vec<T>, TableError> {
-        let texts = self.required_texts(name)?.into_iter().enumerate();
-        texts
-            .map(|(row, text)| text.parse().map_err(|unknown| self.value_error(row, name, unknown)))
-            .collect()
-    }
-
     /// Returns the lists of numbers of a column.
     pub fn lists(&self, name: &str) -> Result<Vec<Vec<f64>>, TableError> {
         let Some(column) = self.rows.column_by_name(name) else {
@@ -86,13 +75,9 @@ impl Batch {
         let expected = "a list of numbers";
         let lists = column.as_list_opt::<i32>().ok_or_else(|| self.other_type(name, column, expected))?;
         let read = lists.iter().enumerate().map(|(row, list)| {
-            let Some(list) = list.filter(|list| list.null_count() == 0) else {
-                return Err(self.value_error(
-                    row,
-                    name,
-                    format!("null, or with a null; expected {expected}"),
-                ));
-            };
+            let list = list.filter(|list| list.null_count() == 0).ok_or_else(|| {
+                self.value_error(row, name, format!("null, or with a null; expected {expected}"))
+            })?;
             // Our own, without a detour by options.
             if let Some(own) = list.as_primitive_opt::<Float32Type>() {
                 return Ok(own.values().iter().map(|value| f64::from(*value)).collect());
@@ -142,8 +127,9 @@ impl Batch {
         TableError::value(&self.path, self.first_row + row, column, problem)
     }
 
-    fn other_type(&self, name: &str, column: &ArrayRef, expected: &'static str) -> TableError {
-        TableError::other_type(&self.path, name, column.data_type(), expected)
+    fn other_type(&self, name: &str, column: &ArrayRef, expected: &str) -> TableError {
+        let found = column.data_type();
+        TableError::table(&self.path, format!("column '{name}' is {found}; expected {expected}"))
     }
 }
 

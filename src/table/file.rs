@@ -27,7 +27,7 @@ use crate::source::{self, is_pipe};
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
 /// Rows per batch of a narrow table.
-pub const NARROW_BATCH: usize = 8192;
+const NARROW_BATCH: usize = 8192;
 
 /// One of `of` equal parts of a table, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,11 +79,6 @@ impl Partition {
         let files = if named.exists() { Vec::new() } else { tables(folder)? };
         let numbered = files.get(self.index).filter(|_| files.len() == self.of);
         Ok(numbered.cloned().unwrap_or(named))
-    }
-
-    pub fn rows(self, total: usize) -> Range<usize> {
-        let at = |index: usize| (total as u128 * index as u128 / self.of as u128) as usize;
-        at(self.index)..at(self.index + 1)
     }
 }
 
@@ -143,10 +138,9 @@ impl ParquetTable {
 
     /// Keeps the rows of a partition.
     pub fn part(self, partition: Option<Partition>) -> ParquetTable {
-        match partition {
-            Some(partition) => ParquetTable { rows: partition.rows(self.rows()), ..self },
-            None => self,
-        }
+        let Some(Partition { index, of }) = partition else { return self };
+        let at = |index: usize| (self.rows() as u128 * index as u128 / of as u128) as usize;
+        ParquetTable { rows: at(index)..at(index + 1), ..self }
     }
 
     /// Keeps the first rows, at most this many.
@@ -259,18 +253,14 @@ impl TableFile {
     fn open(path: PathBuf) -> Result<TableFile, TableError> {
         let metadata = metadata(&path)?;
         let mut known = HashSet::new();
-        match metadata.schema().fields().iter().find(|field| !known.insert(field.name())) {
-            Some(field) => {
-                let problem = format!("two columns are called '{}'; leave out one", field.name());
-                Err(TableError::table(&path, problem))
-            }
-            None => {
-                let made = Provenance::from_footer(metadata.metadata());
-                let part = |made: &Provenance| made.partition().and_then(|part| part.parse().ok());
-                let part = made.map(|made| (part(&made).unwrap_or(Partition::WHOLE), made.whole()));
-                Ok(TableFile { path: path.into(), metadata, part })
-            }
+        if let Some(field) = metadata.schema().fields().iter().find(|field| !known.insert(field.name())) {
+            let problem = format!("two columns are called '{}'; leave out one", field.name());
+            return Err(TableError::table(&path, problem));
         }
+        let made = Provenance::from_footer(metadata.metadata());
+        let part = |made: &Provenance| made.partition().and_then(|part| part.parse().ok());
+        let part = made.map(|made| (part(&made).unwrap_or(Partition::WHOLE), made.whole()));
+        Ok(TableFile { path: path.into(), metadata, part })
     }
 
     fn rows(&self) -> usize {
@@ -354,13 +344,11 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
 fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &ProjectionMask) -> Result<(), TableError> {
     let columns = group.columns().iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf));
     let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();
-    match bytes <= MOST_BYTES {
-        true => Ok(()),
-        false => {
-            let cause = format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
-            Err(TableError::parquet(path, cause))
-        }
+    if bytes > MOST_BYTES {
+        let cause = format!("a row group of {bytes} bytes; expected {MOST_BYTES} or less");
+        return Err(TableError::parquet(path, cause));
     }
+    Ok(())
 }
 
 /// Calls `read`; a panic of the decoder is an error of a damaged file.

@@ -30,8 +30,6 @@ pub mod writer;
 
 use std::path::{Path, PathBuf};
 
-use arrow_schema::DataType;
-
 /// A table that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
@@ -59,10 +57,6 @@ impl TableError {
     pub fn missing_column(path: &Path, column: &str) -> TableError {
         let expected = dictionary::meaning(column);
         TableError::table(path, format!("no column '{column}'; expected {expected}"))
-    }
-
-    pub fn other_type(path: &Path, column: &str, found: &DataType, expected: &str) -> TableError {
-        TableError::table(path, format!("column '{column}' is {found}; expected {expected}"))
     }
 
     /// A value that cannot be; `row` counts from 0, in words from 1.

@@ -178,7 +178,7 @@ pub fn batch<'a>(
 }
 
 /// Returns the column name of the spectral acceleration at a period (s): `sa_0p50_m_s2`.
-pub fn spectral_column(period_s: f64) -> String {
+fn spectral_column(period_s: f64) -> String {
     format!("sa_{}_m_s2", format!("{period_s:.2}").replace('.', "p"))
 }
 

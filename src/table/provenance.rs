@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
 use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 /// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
@@ -144,7 +144,6 @@ impl Provenance {
         known.or(Some(Provenance { stage, version, summary, ..Provenance::default() }))
     }
 
-    /// Returns the entry of the footer.
     pub fn key_value(&self) -> KeyValue {
         KeyValue::new(KEY.to_string(), serde_json::json!(self).to_string())
     }
@@ -163,9 +162,9 @@ impl Provenance {
                 [self, now].map(|made| made.arguments.get(name).map_or("nothing".to_string(), text_of));
             return Some(format!("--{name} changed from {before} to {now}"));
         }
-        let [before, now] = [self, now].map(|made| serde_json::json!(made.inputs));
-        let mut names = now.as_object().into_iter().chain(before.as_object()).flat_map(Map::keys);
-        let other = names.find(|name| before.get(*name) != now.get(*name));
-        other.map(|name| format!("what --{name} reads changed"))
+        let read = |made: &Provenance, name: &str| serde_json::json!(made.inputs.get(name));
+        let mut names = now.inputs.keys().chain(self.inputs.keys());
+        let other = names.find(|name| read(self, name) != read(now, name))?;
+        Some(format!("what --{other} reads changed"))
     }
 }

@@ -129,11 +129,8 @@ pub fn persist(files: Vec<PendingFile>) -> Result<(), TableError> {
     }
     let mut named: Vec<(PathBuf, Option<NamedTempFile<()>>)> = Vec::new();
     for (after, PendingFile { partial, path, target }) in (0..files.len()).rev().zip(files) {
-        let former = if after > 0 && target.exists() {
-            beside(&target, second_name(&target)).map(Some)
-        } else {
-            Ok(None)
-        };
+        let is_kept = after > 0 && target.exists();
+        let former = is_kept.then(|| beside(&target, |second| second_name(&target, second))).transpose();
         let renamed = former
             .and_then(|former| partial.persist(&target).map(|_| former).map_err(|refused| refused.error));
         match renamed {
@@ -148,8 +145,8 @@ pub fn persist(files: Vec<PendingFile>) -> Result<(), TableError> {
 }
 
 /// Gives a file a second name: of a copy where the file system knows one name only.
-fn second_name(file: &Path) -> impl Fn(&Path) -> io::Result<()> {
-    move |second| std::fs::hard_link(file, second).or_else(|_| std::fs::copy(file, second).map(drop))
+fn second_name(file: &Path, second: &Path) -> io::Result<()> {
+    std::fs::hard_link(file, second).or_else(|_| std::fs::copy(file, second).map(drop))
 }
 
 fn restore(target: &Path, former: Option<NamedTempFile<()>>) {

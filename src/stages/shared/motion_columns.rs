@@ -1,6 +1,6 @@
 //! Columns of the motions as further measures of fits.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -83,6 +83,9 @@ impl MotionColumns {
             }
             frame::append(&mut read.motions, DataFrame::new(batch.rows.num_rows(), columns)?)?;
         }
+        if read.motions.height() == 0 {
+            return Err(TableError::table(path, "no motions; expected at least one").into());
+        }
         let mut known = HashSet::new();
         for id in read.motions.column(ID)?.str()?.iter().flatten() {
             if !known.insert(id) {
@@ -114,17 +117,12 @@ impl MotionColumns {
     }
 }
 
-/// The columns among measures, each once.
-fn names(asked: &[Predictors]) -> Vec<&str> {
-    let mut names = Vec::new();
-    for measure in asked.iter().flat_map(Predictors::measures) {
-        if let Measure::Column(name) = measure
-            && !names.contains(&name.as_str())
-        {
-            names.push(name);
-        }
-    }
-    names
+/// The columns among measures.
+fn names(asked: &[Predictors]) -> BTreeSet<&str> {
+    let measures = asked.iter().flat_map(Predictors::measures);
+    let names =
+        measures.map(|measure| if let Measure::Column(name) = measure { Some(name.as_str()) } else { None });
+    names.flatten().collect()
 }
 
 /// What a column measures, by the unit at its end; none of a dimensionless one.

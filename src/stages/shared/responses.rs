@@ -102,8 +102,9 @@ fn add(
 
 /// The outcomes with their demands, which only overturned structures lack.
 fn outcomes(batch: &Batch) -> Result<Vec<Outcome>, TableError> {
-    let words = batch.required_words::<OutcomeWord>("outcome")?.into_iter().zip(batch.numbers("edp")?);
+    let words = batch.required_texts("outcome")?.into_iter().zip(batch.numbers("edp")?);
     let outcomes = words.enumerate().map(|(row, (word, edp))| {
+        let word: OutcomeWord = word.parse().map_err(|unknown| batch.value_error(row, "outcome", unknown))?;
         let problem = "null; expected a number unless it overturns";
         word.with_demand(edp).ok_or_else(|| batch.value_error(row, "edp", problem))
     });
