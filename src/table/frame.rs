@@ -56,7 +56,8 @@ pub fn groups<'a>(rows: impl Iterator<Item = Group<'a>>) -> anyhow::Result<Vec<V
     let height = structures.len();
     let keys = vec![Column::new("suite".into(), suites), Column::new("structure".into(), structures)];
     let frame = DataFrame::new(height, keys)?;
-    let grouped = with_threads(|| frame.group_by_stable(["suite", "structure"]))?;
+    let keys = frame.columns().to_vec();
+    let grouped = with_threads(|| frame.group_by_with_series(keys, false, true))?;
     let groups = GroupsType::clone(grouped.get_groups()).into_idx();
     Ok(groups.all().iter().map(|rows| rows.iter().map(|&row| row as usize).collect()).collect())
 }
