@@ -2,9 +2,11 @@
 //!
 //! ```text
 //! row        the columns of an answer
+//! at_site    what is drawn of an object at a site
 //! variants   what would change an object, a row each
 //! ```
 
+mod at_site;
 mod row;
 mod variants;
 
@@ -13,7 +15,9 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
-use rockfrag_core::hazard::{Fragility, FragilityPoint, GenericSites, GroundMotion, Lognormal, Site};
+use rockfrag_core::hazard::{
+    Bases, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, Lognormal, Site,
+};
 use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -23,10 +27,11 @@ use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::rows;
+pub use at_site::{AtSite, Usual};
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
-pub use variants::{Variant, variants};
+pub use variants::variants;
 
 /// What is asked of an object.
 pub enum Question {
@@ -44,6 +49,8 @@ pub enum Question {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Answer {
+    /// What is changed of the object, if it is a variant.
+    pub variant: Option<String>,
     pub object: ObjectColumns,
     pub tree: TreeColumns,
     pub p: StateColumns,
@@ -63,8 +70,11 @@ pub struct Answer {
 pub struct AnswerTable {
     pub rows: Vec<Answer>,
     /// Those of the worst objects, as far as they are known.
-    pub variants: Vec<Variant>,
+    pub variants: Vec<Answer>,
     pub made: Vec<Provenance>,
+    /// The hazard, and what is drawn of an object that is alone there, as far as they are known.
+    pub hazard: Option<Hazard>,
+    pub at_site: Option<AtSite>,
 }
 
 /// Joins an object with the models of its directions, and returns the warnings about these.
@@ -124,8 +134,8 @@ impl Answer {
                 (rates.budget, rates.motion)
             }
             Question::Curve { general, site } => {
-                let fragility =
-                    at_site(site.as_ref(), &rocking).unwrap_or_else(|| general.fragility(&rocking));
+                let at_site = site.as_ref().and_then(|site| site.fragility(&rocking));
+                let fragility = at_site.unwrap_or_else(|| general.fragility(&rocking));
                 answer.fragility = FragilityColumns::new(&fragility);
                 answer.points = fragility.points;
                 (fragility.budget, fragility.motion)
@@ -153,10 +163,6 @@ impl Answer {
     }
 }
 
-fn at_site(site: Option<&Site>, object: &RockingObject) -> Option<Fragility> {
-    site?.fragility(object)
-}
-
 impl FragilityColumns {
     fn new(fragility: &Fragility) -> FragilityColumns {
         let (_, unit, _) = fragility.over.name_and_unit();
@@ -170,6 +176,11 @@ impl FragilityColumns {
     }
 }
 
+#[derive(Serialize, Deserialize)]
+struct VariantColumn {
+    variant: Option<String>,
+}
+
 /// The answers as a table, without the columns of other questions.
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
     let objects = rows::batch(answers.iter().map(|answer| &answer.object))?;
@@ -180,18 +191,30 @@ pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBa
         Question::Curve { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.fragility))?],
     };
     parts.insert(0, objects);
+    if answers.iter().any(|answer| answer.variant.is_some()) {
+        parts.insert(
+            0,
+            rows::batch(
+                answers
+                    .iter()
+                    .map(|Answer { variant, .. }| VariantColumn { variant: variant.clone() })
+                    .collect::<Vec<_>>()
+                    .iter(),
+            )?,
+        );
+    }
     parts.push(rows::batch(answers.iter().map(|answer| &answer.uncertainty))?);
     rows::side_by_side(&parts)
 }
 
-/// The points of the fragilities as a table, each with the columns of its answer.
+/// The points of the fragilities as a table, each with the columns of its answer; a row without a point for
+/// an object without an answer.
 pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
-    let over = |answer: &Answer| answer.fragility.over.unwrap_or(rockfrag_core::fragility::Peak::Pga);
-    let all = || answers.iter().flat_map(|answer| iter::repeat_n(answer, answer.points.len()));
-    let points = answers.iter().flat_map(|one| one.points.iter().map(|at| CurveRow::new(over(one), at)));
+    let all = || answers.iter().flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
+    let points: Vec<CurveRow> = answers.iter().flat_map(CurveRow::of).collect();
     rows::side_by_side(&[
         rows::batch(all().map(|answer| &answer.object))?,
-        rows::batch(&points.collect::<Vec<_>>())?,
+        rows::batch(&points)?,
         rows::batch(all().map(|answer| &answer.fragility))?,
         rows::batch(all().map(|answer| &answer.uncertainty))?,
     ])
@@ -211,7 +234,7 @@ impl AnswerTable {
         let of_these =
             other.filter(|other| (Provenance { output: made.output, ..other.clone() }).key() == made.key());
         let variants = if of_these.is_some() { rows::read(&beside)? } else { Vec::new() };
-        Ok(AnswerTable { rows, variants, made: vec![made] })
+        Ok(AnswerTable { rows, variants, made: vec![made], ..AnswerTable::default() })
     }
 
     /// The answers of several files, without a target that is not that of all.
@@ -224,9 +247,10 @@ impl AnswerTable {
         }
         let target = rows.iter().find_map(|answer| answer.rates.target);
         if rows.iter().any(|answer| answer.is_answered() && answer.rates.target != target) {
-            rows.iter_mut().for_each(|answer| answer.rates.target = None);
+            rows.iter_mut()
+                .for_each(|answer| (answer.rates.target, answer.rates.bases) = (None, Bases::default()));
         }
-        AnswerTable { rows, variants, made }
+        AnswerTable { rows, variants, made, ..AnswerTable::default() }
     }
 
     /// The name of its file; none of a call's own answers.
@@ -250,8 +274,8 @@ impl AnswerTable {
     }
 
     /// The variants of an answer, which follow each other.
-    pub fn variants_of(&self, answer: &Answer) -> &[Variant] {
-        let is_its = |variant: &&Variant| variant.structure == answer.object.structure;
+    pub fn variants_of(&self, answer: &Answer) -> &[Answer] {
+        let is_its = |variant: &&Answer| variant.object.structure == answer.object.structure;
         let start = self.variants.iter().position(|variant| is_its(&variant)).unwrap_or_default();
         let count = self.variants[start..].iter().take_while(is_its).count();
         &self.variants[start..start + count]
@@ -270,7 +294,7 @@ fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
         if answers.last().is_none_or(|last| last.object.structure != row.object.structure) {
             answers.push(Answer { p: StateColumns::default(), ..row });
         }
-        answers.last_mut().into_iter().for_each(|answer| answer.points.push(point.point()));
+        answers.last_mut().into_iter().for_each(|answer| answer.points.extend(point.point()));
     }
     answers
 }

@@ -6,12 +6,14 @@ use rockfrag_core::hazard::{
     probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{Object, RockingObject, UncertaintySource};
+use rockfrag_core::object::{Object, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
+
+use super::Answer;
 
 /// An object and the model that predicts for it; without parameters where it has no answer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -51,16 +53,14 @@ impl ObjectColumns {
         let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
         let structure = weaker.map(|direction| &direction.structure);
         let model = weaker.map(|direction| &direction.model);
-        // A frame has no centre of mass of its own.
-        let body_height = shape.height.filter(|_| shape.beam_mass_ratio.is_none());
         ObjectColumns {
             structure: object.name.clone(),
             object_kind: Some(shape.kind().to_string()),
             width_m: shape.width,
             depth_m: shape.depth,
             height_m: shape.height,
-            centre_height_m: body_height.map(|height| shape.centre_height.unwrap_or(0.5 * height)),
-            centre_offset_m: body_height.map(|_| shape.centre_offset.unwrap_or(0.0)),
+            centre_height_m: centre_height(shape),
+            centre_offset_m: centre_height(shape).map(|_| shape.centre_offset.unwrap_or(0.0)),
             floor_period_s: floor.map(|floor| floor.period_s),
             floor_level: floor.map(|floor| floor.level),
             floor: object.floor.clone().filter(|_| floor.is_some()),
@@ -76,6 +76,12 @@ impl ObjectColumns {
             limit_state: model.and_then(|model| model.limit_state()),
         }
     }
+}
+
+/// The height of the centre of mass, m; none of a frame, which has none of its own.
+fn centre_height(shape: &Shape) -> Option<f64> {
+    let height = shape.height.filter(|_| shape.beam_mass_ratio.is_none())?;
+    Some(shape.centre_height.unwrap_or(0.5 * height))
 }
 
 /// The probabilities of the paper's tree under a motion (Eqs. 8 to 12); none where they are not known.
@@ -191,7 +197,7 @@ pub struct FragilityColumns {
 }
 
 /// A point of the fragility curve of an object: the shares of the motions of an intensity.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct CurveRow {
     pub pga_g: Option<f64>,
     pub pgv_m_s: Option<f64>,
@@ -201,25 +207,26 @@ pub struct CurveRow {
 }
 
 impl CurveRow {
-    pub fn new(over: Peak, FragilityPoint { intensity, p }: &FragilityPoint) -> CurveRow {
-        CurveRow {
-            pga_g: (over == Peak::Pga).then_some(intensity / G_M_S2),
-            pgv_m_s: (over == Peak::Pgv).then_some(*intensity),
+    /// The points of an answer, one empty one if it has none.
+    pub fn of(answer: &Answer) -> Vec<CurveRow> {
+        let is_over = |peak: Peak| answer.fragility.over == Some(peak);
+        let rows = answer.points.iter().map(|FragilityPoint { intensity, p }| CurveRow {
+            pga_g: is_over(Peak::Pga).then_some(intensity / G_M_S2),
+            pgv_m_s: is_over(Peak::Pgv).then_some(*intensity),
             p_rocking: p.rocking,
             p_failure: p.failure,
             p_overturning: p.overturning,
-        }
+        });
+        let rows: Vec<CurveRow> = rows.collect();
+        if rows.is_empty() { vec![CurveRow::default()] } else { rows }
     }
 
-    pub fn point(&self) -> FragilityPoint {
-        FragilityPoint {
-            intensity: self.pga_g.map(|pga_g| pga_g * G_M_S2).or(self.pgv_m_s).unwrap_or_default(),
-            p: LimitStates {
-                rocking: self.p_rocking,
-                failure: self.p_failure,
-                overturning: self.p_overturning,
-            },
-        }
+    pub fn point(&self) -> Option<FragilityPoint> {
+        let (rocking, failure, overturning) = (self.p_rocking, self.p_failure, self.p_overturning);
+        Some(FragilityPoint {
+            intensity: self.pga_g.map(|pga_g| pga_g * G_M_S2).or(self.pgv_m_s)?,
+            p: LimitStates { rocking, failure, overturning },
+        })
     }
 }
 

@@ -73,7 +73,7 @@ pub fn words(marked: &str) -> String {
 
 /// The letters and digits of a marked text as the name of a file: `rack-2-csgm`.
 pub fn file_words(marked: &str) -> String {
-    let parts = marked.split(|letter: char| !letter.is_ascii_alphanumeric());
+    let parts = marked.split(|letter: char| !letter.is_alphanumeric());
     parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-").to_lowercase()
 }
 

@@ -101,7 +101,8 @@ impl Pair<'_> {
         let sizes = both.map(|object| object.size().replace(' ', "\u{a0}"));
         let mut changes: Vec<String> =
             [places, sizes].into_iter().filter_map(|pair| arrow("", pair)).collect();
-        changes.extend((!self.after.is_answered()).then(|| self.after.reason()));
+        let silent = [self.before, self.after].into_iter().find(|answer| !answer.is_answered());
+        changes.extend(silent.map(|answer| answer.reason()));
         if changes.is_empty() {
             let degrees = both.map(|object| digits(object.alpha_rad.map(f64::to_degrees)) + "°");
             let eta = both.map(|object| digits(object.eta));
@@ -134,7 +135,10 @@ fn figure(told: &[Pair], when: &str, target: Option<f64>) -> Figure {
 /// What has become of one object, or of all, and which are above the target still.
 fn sentence(pairs: &[Pair], changed: usize, when: &str, target: Option<f64>) -> String {
     if let [Pair { before, after, .. }] = pairs {
-        let [p, q] = [before, after].map(|answer| PERCENT.value(answer.p.p_overturning));
+        let [p, q] = [before, after].map(|answer| match answer.is_answered() {
+            true => PERCENT.value(answer.p.p_overturning),
+            false => "no answer".to_string(),
+        });
         let target = after.about_target().map_or(String::new(), |target| format!(" {target}"));
         let name = before.object.called();
         return format!("{name} overturns with a probability of {p} before and {q} after, {when}.{target}");
@@ -146,7 +150,9 @@ fn sentence(pairs: &[Pair], changed: usize, when: &str, target: Option<f64>) -> 
     let worst: Vec<String> = after.iter().map(|answer| with_number(answer)).collect();
     match target.map(|target| PERCENT.one(target)) {
         None => format!("{changed} The most likely to overturn {when} is now {}.", worst[0]),
-        Some(target) if worst.is_empty() => format!("{changed} All now meet the target of {target} {when}."),
+        Some(target) if worst.is_empty() => {
+            format!("{changed} None is now known to be above the target of {target} {when}.")
+        }
         Some(target) => {
             format!("{changed} Still above the target of {target} {when}: {}.", listed(&worst, NAMED))
         }

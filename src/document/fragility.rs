@@ -38,7 +38,7 @@ pub fn document(table: &AnswerTable) -> Document {
         title,
         place: format!("Fragility over {what}{site}"),
         lead: vec![lead],
-        facts: lognormal.into_iter().chain(facts(&answered, None)).collect(),
+        facts: lognormal.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         glossary: ANGLES.to_string(),
         tables: vec![rows],
         notes: doubts(&answered),

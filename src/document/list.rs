@@ -2,11 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use rockfrag_core::hazard::Hazard;
-
 use super::phrases::{ANGLES, Expected, facts};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, Variant};
+use crate::answer::{Answer, AnswerTable};
 use crate::chart::text::literal;
 use crate::figures::answers::{self, BANDS};
 use crate::figures::common::by;
@@ -17,7 +15,7 @@ const FILES: usize = 3;
 const NAMED: usize = 4;
 
 /// Of one table, or of several that were joined; sorted, the worst first.
-pub fn document(table: &AnswerTable, hazard: Option<&Hazard>) -> Document {
+pub fn document(table: &AnswerTable) -> Document {
     let Some(worst) = table.rows.first() else { return Document::default() };
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = worst.when().unwrap_or_default();
@@ -33,13 +31,13 @@ pub fn document(table: &AnswerTable, hazard: Option<&Hazard>) -> Document {
         _ if upstairs == answered.len() => "on floors".to_string(),
         _ => format!("{} on the ground, {upstairs} on floors", answered.len() - upstairs),
     };
-    let lead = [Some(worst_of(table, hazard)), worst.about_target(), Some(not_assessed(&table.rows))];
+    let lead = [Some(worst_of(table)), worst.about_target(), Some(not_assessed(&table.rows))];
     Document {
         title,
         place: format!("{} free-standing, {place}{}", count(answered.len()), table.hazards()),
         lead: lead.into_iter().flatten().filter(|sentence| !sentence.is_empty()).collect(),
         tiles: tiles(table, &when),
-        facts: same.into_iter().chain(facts(&answered, hazard)).collect(),
+        facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         glossary: ANGLES.to_string(),
         tables,
         notes: doubts(&answered),
@@ -49,11 +47,11 @@ pub fn document(table: &AnswerTable, hazard: Option<&Hazard>) -> Document {
 }
 
 /// The object that is the most likely to overturn, if one may.
-fn worst_of(table: &AnswerTable, hazard: Option<&Hazard>) -> String {
+fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let several = table.rows.iter().any(|answer| answer.file != worst.file);
     let file = if several { format!(" ({})", literal(&worst.file)) } else { String::new() };
-    match worst.how_often(hazard).strip_prefix("overturns ") {
+    match worst.how_often(table.hazard.as_ref()).strip_prefix("overturns ") {
         Some(often) => {
             let (name, place) = (worst.object.called(), worst.object.place());
             format!("{name}{file}, {place}, is the most likely to overturn: {often}.")
@@ -153,10 +151,10 @@ fn tables(answers: &[Answer], when: &str) -> (Vec<Table>, Option<String>) {
 }
 
 /// What would change the worst objects.
-fn changes(variants: &[Variant], when: &str) -> Option<Table> {
+fn changes(variants: &[Answer], when: &str) -> Option<Table> {
     let rows = variants.iter().map(|one| {
-        let p = one.p_overturning;
-        vec![literal(&one.structure), one.variant.clone(), OF_HUNDRED.value(p), OF_HUNDRED.span(p)]
+        let (p, words) = (one.p.p_overturning, one.variant.clone().unwrap_or_default());
+        vec![one.object.called(), words, OF_HUNDRED.value(p), OF_HUNDRED.span(p)]
     });
     let heads = ["object", "changed", &format!("overturns {when}, %"), "95 % limits"];
     (!variants.is_empty()).then(|| {

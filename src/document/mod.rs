@@ -7,7 +7,6 @@
 //! fragility  of the fragility of objects
 //! compare    of two tables of answers
 //! response   of a response over time, and the block as it moves
-//! results    of all tables of a folder
 //! text       a document for a terminal
 //! html       as a page
 //! workbook   a table as a workbook
@@ -23,11 +22,10 @@ pub mod response;
 mod text;
 mod workbook;
 
-use rockfrag_core::hazard::Site;
+use anyhow::Context;
 
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
-use crate::figures::answers::AtSite;
 pub use workbook::workbook;
 
 /// What is told of rows, from top to bottom. All texts are marked, see [`crate::chart::text`].
@@ -127,16 +125,14 @@ fn is_number(cell: &str) -> bool {
 }
 
 impl Document {
-    /// The document of answers: of one object, of several, or of fragilities. The site gives what is drawn
-    /// and said of its hazard.
-    pub fn of_answers(table: &AnswerTable, site: Option<&Site>, drawn: Option<&AtSite>) -> Document {
+    /// The document of answers: of one object, of several, or of fragilities.
+    pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-        let hazard = site.map(|site| &site.hazard);
         match &sorted.rows[..] {
             rows if rows.iter().any(|answer| answer.fragility.over.is_some()) => fragility::document(&sorted),
-            [one] => object::document(&sorted, one, hazard, drawn),
-            _ => list::document(&sorted, hazard),
+            [one] => object::document(&sorted, one),
+            _ => list::document(&sorted),
         }
     }
 
@@ -146,7 +142,11 @@ impl Document {
     }
 
     /// The figure that says most, by itself.
-    pub fn main_figure(&self) -> Figure {
-        self.figures.first().cloned().unwrap_or_default()
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn main_figure(&self) -> anyhow::Result<Figure> {
+        let figure = self.figures.iter().find(|figure| !figure.panels.is_empty());
+        figure.cloned().context("nothing to draw: expected an answer, or width and height of an object")
     }
 }

@@ -1,22 +1,17 @@
 //! The document of one object.
 
-use rockfrag_core::hazard::{Hazard, format_intensity};
+use rockfrag_core::hazard::format_intensity;
 
 use super::phrases::{ANGLES, State, facts};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, Variant};
+use crate::answer::{Answer, AnswerTable, Usual};
 use crate::chart::text::literal;
-use crate::figures::answers::{self, AtSite, Usual, years};
+use crate::figures::answers::{self, years};
 use crate::number::{PERCENT, RATE, significant};
 
-pub fn document(
-    table: &AnswerTable,
-    answer: &Answer,
-    hazard: Option<&Hazard>,
-    drawn: Option<&AtSite>,
-) -> Document {
+pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     let when = answer.when().unwrap_or_default();
-    let variants = table.variants_of(answer);
+    let (variants, hazard) = (table.variants_of(answer), table.hazard.as_ref());
     let is_rocking = answer.tree.p_nr.filter(|p_nr| *p_nr < 1.0);
     let uplift = is_rocking.map(|_| format!("It {}.", answer.uplift()));
     Document {
@@ -26,37 +21,36 @@ pub fn document(
             .into_iter()
             .flatten()
             .collect(),
-        tiles: tiles(&when, variants, drawn),
+        tiles: tiles(&when, variants, table),
         facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
         glossary: ANGLES.to_string(),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: answer.is_answered().then(|| numbers(&when, answer, variants)).into_iter().collect(),
-        figures: vec![answers::object(answer, variants, drawn)],
+        figures: vec![answers::object(answer, variants, table.at_site.as_ref())],
         ..Document::default()
     }
 }
 
 /// The object as it is; the change that helps most, nothing that is only measured; another floor; and the
 /// motion that overturns it.
-fn tiles(when: &str, variants: &[Variant], drawn: Option<&AtSite>) -> Vec<Tile> {
+fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
     let mut tiles = Vec::new();
-    let by_change: Vec<&[Variant]> = variants.chunk_by(|a, b| a.variant == b.variant).collect();
-    if let [[as_it_is], others @ ..] = &by_change[..] {
-        let p = |one: &Variant| one.p_overturning.value.unwrap_or(1.0);
-        let is_moved = |one: &Variant| one.floor_level != as_it_is.floor_level;
-        let objects = others.iter().filter(|change| change.len() == 1).map(|change| &change[0]);
-        let best = objects.clone().min_by(|a, b| p(a).total_cmp(&p(b)));
+    if let [as_it_is, others @ ..] = variants {
+        let p = |one: &Answer| one.p.p_overturning.value.unwrap_or(1.0);
+        let is_moved = |one: &Answer| one.object.floor_level != as_it_is.object.floor_level;
+        let changed = others.iter().filter(|one| !one.is_measured(as_it_is));
+        let best = changed.clone().min_by(|a, b| p(a).total_cmp(&p(b)));
         let best = best.filter(|best| p(best) < p(as_it_is));
-        let moved =
-            objects.clone().find(|change| is_moved(change) && best.is_none_or(|best| !is_moved(best)));
+        let moved = changed.clone().find(|one| is_moved(one) && best.is_none_or(|best| !is_moved(best)));
         let more = [format!(", {when}"), ", which helps most".to_string(), String::new()];
         for (change, more) in [Some(as_it_is), best, moved].into_iter().zip(more) {
-            let Some(Variant { variant, p_overturning, .. }) = change else { continue };
-            let limits = PERCENT.limits(*p_overturning, "95 % limits ");
+            let Some(Answer { variant: Some(variant), p, .. }) = change else { continue };
+            let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
             let words = format!("overturns: {variant}{more} {limits}");
-            tiles.push(Tile::new(PERCENT.value(*p_overturning), words));
+            tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
         }
     }
+    let drawn = table.at_site.as_ref();
     if let Some((drawn, fragility)) = drawn.and_then(|drawn| Some((drawn, drawn.fragility.as_ref()?))) {
         let usual = drawn.usual().next().map_or(String::new(), |Usual { intensity, years: period }| {
             let (intensity, symbol) = (significant(intensity, 2), drawn.peak.name_and_unit().2);
@@ -70,19 +64,15 @@ fn tiles(when: &str, variants: &[Variant], drawn: Option<&AtSite>) -> Vec<Tile> 
 }
 
 /// The answer, and what it is with one thing changed; under one motion there are no rates.
-fn numbers(when: &str, answer: &Answer, variants: &[Variant]) -> Table {
+fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
     let states = answer.states().into_iter().map(|State { name, p, per_year }| {
         let rate = answer.rates.years.map_or(String::new(), |_| RATE.value(per_year));
         vec![name, PERCENT.value(p), PERCENT.span(p), rate]
     });
-    let changes = variants.chunk_by(|a, b| a.variant == b.variant).skip(1).map(|same| {
-        let each = |cell: &dyn Fn(&Variant) -> String| same.iter().map(cell).collect::<Vec<_>>().join(", ");
-        let [values, limits, rates] = [
-            each(&|one| PERCENT.value(one.p_overturning)),
-            each(&|one| PERCENT.span(one.p_overturning)),
-            each(&|one| RATE.value(one.overturning_per_year)),
-        ];
-        vec![format!("overturns: {}", same[0].variant), values, limits, rates]
+    let changes = variants.iter().skip(1).map(|Answer { variant, p, rates, .. }| {
+        let (p, rate) = (p.p_overturning, RATE.value(rates.overturning_per_year));
+        let name = format!("overturns: {}", variant.as_deref().unwrap_or_default());
+        vec![name, PERCENT.value(p), PERCENT.span(p), rate]
     });
     Table::new(&["", when, "95 % limits", "rate a year"], states.chain(changes).collect())
 }

@@ -101,14 +101,17 @@ pub struct State {
 }
 
 impl Answer {
-    /// The exposure time, the motion or the peak: `in 50 years`, `at 0.5 g and 0.6 m/s`.
+    /// The exposure time, the motion or the peak: `in 50 years`, `at 0.5 g and 0.6 m/s`, `over PGA`.
     pub fn when(&self) -> Option<String> {
         let pga = self.tree.pga_m_s2.map(|pga| format!("{} g", plain(pga / G_M_S2)));
         let pgv = self.tree.pgv_m_s.map(|pgv| format!("{} m/s", plain(pgv)));
         let peaks: Vec<String> = [pga, pgv].into_iter().flatten().collect();
         match self.rates.years {
             Some(years) => Some(format!("in {} year{}", plain(years), if years == 1.0 { "" } else { "s" })),
-            None => (!peaks.is_empty()).then(|| format!("at {}", peaks.join(" and "))),
+            None if peaks.is_empty() => {
+                self.fragility.over.map(|over| format!("over {}", over.name_and_unit().0))
+            }
+            None => Some(format!("at {}", peaks.join(" and "))),
         }
     }
 
@@ -225,8 +228,7 @@ impl Answer {
 
     /// Why there is no answer.
     pub fn reason(&self) -> String {
-        let words = self.uncertainty.warnings.as_deref().and_then(|words| words.split(';').next());
-        literal(words.unwrap_or("no reason known"))
+        literal(self.uncertainty.warnings.as_deref().unwrap_or("no reason known"))
     }
 
     /// The largest part of the error, and what would narrow it.
@@ -266,8 +268,6 @@ fn with_unit(peak: Peak, intensity: f64) -> String {
 /// What answers rest on, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let Some(worst) = all.first() else { return Vec::new() };
-    let uncertain = [worst.largest_uncertainty(), limits_cover(all)];
-    let uncertain: Vec<String> = uncertain.into_iter().flatten().collect();
     let beyond = worst
         .rates
         .share_extrapolated
@@ -288,7 +288,7 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     });
     let valid: Vec<String> = [valid, building].into_iter().flatten().collect();
     let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
-    let lines = [Some(uncertain.join(" ")), beyond, model, Some(valid.join(" "))];
+    let lines = [worst.largest_uncertainty(), limits_cover(all), beyond, model, Some(valid.join(" "))];
     lines.into_iter().flatten().filter(|line| !line.is_empty()).collect()
 }
 

@@ -18,6 +18,10 @@ impl Document {
         let of_title = first.strip_prefix("It ").map(|rest| format!("{}: {rest}", words(&self.title)));
         lines.push(of_title.as_ref().unwrap_or(&first).trim_end_matches('.').to_string());
         lines.extend(self.whole_table().map(|table| table.text(out)));
+        let is_other = |table: &&Table| !table.caption.is_empty();
+        for table in self.tables.iter().skip(1).filter(is_other) {
+            lines.extend([words(&table.caption), table.text(None)]);
+        }
         lines.extend(lead);
         // What is of one thing stands in its table.
         let tiles = self.tiles.iter().filter(|_| of_title.is_none());

@@ -2,70 +2,24 @@
 //! lists of objects.
 
 use rockfrag_core::fragility::{LimitState, Peak};
-use rockfrag_core::hazard::{
-    Fragility, FragilityPoint, Hazard, HazardCurve, RateByIntensity, Site, exceedance,
-};
-use rockfrag_core::object::{RockingObject, UncertaintySource};
+use rockfrag_core::hazard::FragilityPoint;
+use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
-use crate::answer::{Answer, ObjectColumns, Variant};
+use crate::answer::{Answer, AtSite, ObjectColumns, Usual};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
 
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 150.0;
-/// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
-/// consider.
-const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
 /// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
 /// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
 pub const BANDS: [f64; 2] = [0.02, 0.1];
 /// The most objects of a list, and the most curves in one panel.
 const ROWS: usize = 60;
 const CURVES: usize = 6;
-/// Bins of intensity.
-const BINS: usize = 60;
-
-/// What is drawn of an object at a site: its fragility there, how often an intensity is exceeded, and where the
-/// rate of overturning comes from.
-pub struct AtSite {
-    pub peak: Peak,
-    curve: HazardCurve,
-    parts: RateByIntensity,
-    pub fragility: Option<Fragility>,
-}
-
-/// An intensity that comes once in so many years.
-pub struct Usual {
-    pub intensity: f64,
-    pub years: f64,
-}
-
-impl AtSite {
-    /// None for pairs of peaks that make no curve.
-    pub fn new(site: &Site, object: &RockingObject) -> Option<AtSite> {
-        let (peak, curve) = match &site.hazard {
-            Hazard::Curve(hazard) => (hazard.peak, hazard.curve.clone()),
-            Hazard::Joint(pairs) => {
-                (Peak::Pga, HazardCurve::new(exceedance(pairs, |pair| pair.peaks.pga_m_s2)).ok()?)
-            }
-        };
-        let parts = site.rate_by_intensity(object, BINS);
-        Some(AtSite { peak, curve, parts, fragility: site.fragility(object) })
-    }
-
-    /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
-    pub fn usual(&self) -> impl Iterator<Item = Usual> {
-        let [(_, often), (_, rarely)] = self.curve.ends();
-        let known = USUAL_YEARS.into_iter().filter(move |years| rarely < 1.0 / years && 1.0 / years <= often);
-        known.map(|years| {
-            let intensity = self.curve.intensity(1.0 / years) / self.peak.name_and_unit().1;
-            Usual { intensity, years }
-        })
-    }
-}
 
 /// How rare an intensity is: `475 years`.
 pub fn years(years: f64) -> String {
@@ -73,7 +27,7 @@ pub fn years(years: f64) -> String {
 }
 
 /// The figure of an object: what there is of its panels.
-pub fn object(answer: &Answer, variants: &[Variant], drawn: Option<&AtSite>) -> Figure {
+pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> Figure {
     let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
     let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
     panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, &answer.object, drawn)));
@@ -118,7 +72,7 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let rows = drawn.iter().map(|answer| {
         let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
         let name = answer.object.name_and_floor();
-        ProbabilityRow::new(&name, Ink::Step(band), bands[band], &[answer.p.p_overturning])
+        ProbabilityRow::new(&name, Ink::Step(band), bands[band], answer.p.p_overturning)
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let rest = match answers.len() - drawn.len() {
@@ -236,11 +190,10 @@ fn averaged(over: Peak) -> String {
     format!("averaged over the {} of such motions", other.name_and_unit().0)
 }
 
-fn variants_panel(variants: &[Variant], answer: &Answer) -> Panel {
-    let rows = variants.chunk_by(|a, b| a.variant == b.variant).enumerate().map(|(place, same)| {
+fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
+    let rows = variants.iter().enumerate().map(|(place, one)| {
         let ink = if place == 0 { Ink::Data(1) } else { Ink::Data(0) };
-        let p: Vec<Interval<Option<f64>>> = same.iter().map(|one| one.p_overturning).collect();
-        ProbabilityRow::new(&same[0].variant, ink, "", &p)
+        ProbabilityRow::new(one.variant.as_deref().unwrap_or_default(), ink, "", one.p.p_overturning)
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let when = answer.when().unwrap_or_default();
@@ -344,15 +297,13 @@ pub struct ProbabilityRow {
 }
 
 impl ProbabilityRow {
-    /// A row of probabilities in one colour, with their values at its end.
-    fn new(name: &str, ink: Ink, label: &'static str, all: &[Interval<Option<f64>>]) -> ProbabilityRow {
-        let words = all.iter().map(|p| match (p.value, p.high) {
-            (None, Some(high)) => format!("< {}", OF_HUNDRED.one(high)),
-            _ => OF_HUNDRED.value(*p),
-        });
-        let words = words.collect::<Vec<_>>().join(", ") + " %";
-        let values = all.iter().map(|&p| (p, ink, label)).collect();
-        ProbabilityRow { name: name.to_string(), values, words }
+    /// A row of one probability, with its value at its end.
+    fn new(name: &str, ink: Ink, label: &'static str, p: Interval<Option<f64>>) -> ProbabilityRow {
+        let words = match (p.value, p.high) {
+            (None, Some(high)) => format!("< {} %", OF_HUNDRED.one(high)),
+            _ => PERCENT.value(p),
+        };
+        ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words }
     }
 }
 

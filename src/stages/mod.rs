@@ -90,7 +90,7 @@ impl StageKind {
         }
         let mut required = self.command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
         if let Some(option) = required.find(|option| !given.contains_key(*option)) {
-            return Err(UsageError::because(format!("{option} is missing")));
+            return Err(UsageError::because(format!("--{option} is missing")));
         }
         let mut all = defaults(&self.command, folder);
         all.extend(given);

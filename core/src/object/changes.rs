@@ -71,12 +71,11 @@ impl Object {
             Some(_) => median + (end - median) / Z_95,
             None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
         });
-        let words = format!("restitution {}", etas.map(|eta| number::fixed(eta, 2)).join(", "));
         let changes = etas.map(|eta| {
             let mut object = self.clone();
             object.shape.eta = Some(Restitution::Number(eta));
             object.place.eta_sd = None;
-            Changed { words: words.clone(), object }
+            Changed { words: format!("restitution {}", number::fixed(eta, 2)), object }
         });
         changes.into()
     }

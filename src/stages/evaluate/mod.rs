@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
+use polars_core::prelude::DataFrame;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site};
 use rockfrag_core::motion::Peaks;
@@ -20,10 +21,9 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{StructureArgs, named};
-use crate::answer::{self, Answer, AnswerTable, Question, assess, variants, variants_beside};
+use crate::answer::{self, Answer, AnswerTable, AtSite, Question, assess, variants, variants_beside};
 use crate::chart::{DPI, png, svg};
 use crate::document::{Document, workbook};
-use crate::figures::answers::AtSite;
 use crate::inputs::{Rename, Renames, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
@@ -182,21 +182,21 @@ impl Stage for Evaluate {
         let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         warn(&rows, context);
         let (all, points) = (answer::table(&rows, &question)?, answer::points(&rows)?);
-        let mut table = AnswerTable { rows, variants: Vec::new(), made: vec![context.plan.made.clone()] };
-        let (mut site_of_rates, mut drawn) = (None, None);
+        let made = vec![context.plan.made.clone()];
+        let mut table = AnswerTable { rows, made, ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
             let alone = objects.first().filter(|_| is_page && objects.len() == 1);
             let most = if self.variants { WORST } else { usize::from(alone.is_some()) };
             let worst = worst(&table.rows, &objects, most);
             table.variants = worst.flat_map(|object| variants(object, site, *years, &models_of)).collect();
-            drawn = alone.and_then(|object| AtSite::new(site, &models.rocking_object(object).ok()?.0));
-            site_of_rates = Some(site);
+            table.at_site = alone.and_then(|object| AtSite::new(site, &models_of(object).ok()?.0));
+            table.hazard = Some(site.hazard.clone());
         }
-        let document = Document::of_answers(&table, site_of_rates, drawn.as_ref());
+        let document = Document::of_answers(&table);
         let text = document.text(self.out.as_deref());
         if let [beside, _] = &self.outputs()[..] {
-            context.write(beside, &table.variants, &text)?;
+            write_table(beside, &[answer::table(&table.variants, &question)?], &text, context)?;
         }
         let rows = if matches!(question, Question::Curve { .. }) { points } else { all.clone() };
         self.write(&[rows], &text, context, &document)?;
@@ -308,7 +308,7 @@ impl Evaluate {
 
     /// Returns a text, or rows of one schema in the form that is asked for.
     fn in_format(&self, rows: &[RecordBatch], text: String) -> anyhow::Result<String> {
-        if self.format == Format::Text { Ok(text) } else { shown(rows, self.format) }
+        if self.format == Format::Text { Ok(text) } else { frame::show(&framed(rows)?, self.format) }
     }
 
     /// Writes rows of one schema, or a page or the main figure of them, by how the name of the file ends.
@@ -321,20 +321,22 @@ impl Evaluate {
     ) -> anyhow::Result<()> {
         let Some(out) = self.outputs().pop() else { return Ok(()) };
         let content = match &*ending(&out) {
-            "parquet" => {
-                let mut writer = context.create(&out, &rows[0].schema())?;
-                rows.iter().try_for_each(|rows| writer.append(rows))?;
-                return Ok(context.finish(writer, text)?);
-            }
-            "csv" => shown(rows, Format::Csv)?.into_bytes(),
-            "json" => shown(rows, Format::Json)?.into_bytes(),
-            "xlsx" => workbook(rows)?,
+            "parquet" => return write_table(&out, rows, text, context),
+            "csv" => frame::show(&framed(rows)?, Format::Csv)?.into_bytes(),
+            "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
+            "xlsx" => workbook(&framed(rows)?)?,
             "html" => document.html()?.into_bytes(),
-            "svg" => svg(&document.main_figure()).into_bytes(),
-            _ => png(&svg(&document.main_figure()), DPI)?,
+            "svg" => svg(&document.main_figure()?).into_bytes(),
+            _ => png(&svg(&document.main_figure()?), DPI)?,
         };
         context.write_file(&out, &content)
     }
+}
+
+fn write_table(out: &Path, rows: &[RecordBatch], text: &str, context: &Context) -> anyhow::Result<()> {
+    let mut writer = context.create(out, &rows[0].schema())?;
+    rows.iter().try_for_each(|rows| writer.append(rows))?;
+    Ok(context.finish(writer, text)?)
 }
 
 fn ending(path: &Path) -> String {
@@ -366,11 +368,11 @@ fn warn(answers: &[Answer], context: &Context) {
     }
 }
 
-/// Shows rows of one schema.
-fn shown(rows: &[RecordBatch], format: Format) -> anyhow::Result<String> {
-    let mut whole = frame::from_batch(&rows[0])?;
-    for more in &rows[1..] {
-        whole.vstack_mut(&frame::from_batch(more)?)?;
+/// Rows of one schema as a frame.
+fn framed(rows: &[RecordBatch]) -> anyhow::Result<DataFrame> {
+    let mut whole = DataFrame::default();
+    for rows in rows {
+        frame::append(&mut whole, frame::from_batch(rows)?)?;
     }
-    frame::show(&whole, format)
+    Ok(whole)
 }

@@ -49,7 +49,7 @@ fit-pro: Overturning of what rocks follows the paper's lognormal curve of one me
 ida: Each motion is scaled until it overturns the structure; a lognormal distribution of these intensities \
 has the median.
 validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
-evaluate: Annual rates integrate the probabilities of the universal surface over the hazard of the site.";
+evaluate: Probabilities are those of the model; annual rates integrate them over the hazard of the site.";
 
 /// The page of all tables, and all their figures, of which the page shows some.
 pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
@@ -75,14 +75,21 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
     let more = if is_client { Vec::new() } else { more };
+    let mut tests = tests(tables)?;
+    if head.figures.is_empty() && head.tables.is_empty() {
+        head.tables.append(&mut tests);
+    }
     let mut sections = vec![
         Section { figures: more, ..Section::new("More figures") },
         Section { paragraphs: method.collect(), ..Section::new("Method") },
-        Section { paragraphs: warnings, tables: tests(tables)?, ..Section::new("Tests and fits") },
+        Section { paragraphs: warnings, tables: tests, ..Section::new("Tests and fits") },
         Section { tables: vec![files(tables)], ..Section::new("Files") },
     ];
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     head.facts.extend(facts(tables));
+    if !tables.groups.is_empty() {
+        head.glossary = ANGLES.to_string();
+    }
     head.figures.extend(seen);
     Ok((Document { sections, ..head }, all))
 }
@@ -123,15 +130,14 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
 fn head(tables: &Tables) -> anyhow::Result<Document> {
-    let Tables { answers, compared, traces, fragilities, groups, .. } = tables;
-    let shown = |tables: &[AnswerTable]| Document::of_answers(&AnswerTable::joined(tables), None, None);
+    let Tables { answers, compared, traces, groups, .. } = tables;
     let before_and_after = match &answers[..] {
         [before, after] if tables.are_files => compare::document(before, after),
         _ => None,
     };
     let mut head = match before_and_after {
         Some(document) => document,
-        None if !answers.is_empty() => shown(answers),
+        None if !answers.is_empty() => Document::of_answers(&AnswerTable::joined(answers)),
         None if !compared.is_empty() => Document {
             title: "The paper's fragility curves, reproduced".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
@@ -140,7 +146,6 @@ fn head(tables: &Tables) -> anyhow::Result<Document> {
             ..Document::default()
         },
         None if !traces.is_empty() => return Ok(response::document(traces)),
-        None if !fragilities.is_empty() => return Ok(shown(fragilities)),
         None => {
             let outcomes = outcomes(tables)?;
             Document {
@@ -148,14 +153,13 @@ fn head(tables: &Tables) -> anyhow::Result<Document> {
                     true => "Fits and motions".to_string(),
                     false => "What rocks and what overturns".to_string(),
                 },
-                lead: vec![overturned(groups)],
+                lead: overturned(groups).into_iter().collect(),
                 tables: if outcomes.rows.is_empty() { Vec::new() } else { vec![outcomes] },
                 ..Document::default()
             }
         }
     };
     head.figures.extend(response::figures(traces));
-    head.figures.extend(shown(fragilities).figures);
     Ok(head)
 }
 
@@ -174,7 +178,7 @@ fn facts(tables: &Tables) -> Vec<String> {
         all.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", called(same[0])));
     }
     if !all.is_empty() {
-        facts.extend([format!("Structures: {}.", listed(&all, MOST_NAMED)), ANGLES.to_string()]);
+        facts.push(format!("Structures: {}.", listed(&all, MOST_NAMED)));
     }
     facts
 }
@@ -215,13 +219,13 @@ fn published_planes(compared: &[Comparison]) -> Table {
     )
 }
 
-fn overturned(groups: &[Cases]) -> String {
+fn overturned(groups: &[Cases]) -> Option<String> {
     let mut sentences = Vec::new();
     for cases in groups.iter().take(MOST_NAMED) {
         let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
         sentences.push(format!("{events} of {all} motions overturn {}", name(cases)));
     }
-    sentences.join("; ") + "."
+    (!sentences.is_empty()).then(|| sentences.join("; ") + ".")
 }
 
 /// What came of each structure and suite, and the median that overturns it: of its capacities, else of the

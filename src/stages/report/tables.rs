@@ -126,9 +126,7 @@ pub struct Tables {
     pub groups: Vec<Cases>,
     pub fits: Fits,
     pub compared: Vec<Comparison>,
-    /// Answers under one motion or at a site.
     pub answers: Vec<AnswerTable>,
-    pub fragilities: Vec<AnswerTable>,
     pub traces: Vec<Trace>,
     /// What is not shown, and why.
     pub left_out: Vec<String>,
@@ -170,9 +168,8 @@ impl Tables {
         for item in &tables.items {
             match item.kind {
                 Kind::Answers => {
-                    let table = AnswerTable::read(&item.path, item.made.clone().unwrap_or_default())?;
-                    let is_curve = table.rows.iter().any(|answer| answer.fragility.over.is_some());
-                    if is_curve { &mut tables.fragilities } else { &mut tables.answers }.push(table);
+                    let made = item.made.clone().unwrap_or_default();
+                    tables.answers.push(AnswerTable::read(&item.path, made)?);
                 }
                 Kind::Traces => tables.traces.extend(read_traces(&item.path)?),
                 Kind::Other | Kind::Probabilities => {
@@ -186,21 +183,14 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Leaves out fragilities over another peak than the first, and probabilities in another time or under
-    /// another motion.
+    /// Leaves out what is in another time, under another motion or over another peak than the first answers.
     fn leave_out_incomparable(&mut self) {
-        let left_out = &mut self.left_out;
-        let over = |table: &AnswerTable| table.rows.iter().find_map(|answer| answer.fragility.over);
-        let first = self.fragilities.iter().find_map(over);
-        for other in self.fragilities.extract_if(.., |table| over(table) != first) {
-            left_out.push(format!("{} is not shown: its fragility is over another peak.", other.file()));
-        }
         // Where no object has an answer there is no time.
         let when = |table: &AnswerTable| table.rows.iter().find_map(Answer::when);
         let first = self.answers.iter().find_map(when).unwrap_or_default();
         for other in self.answers.extract_if(.., |table| when(table).is_some_and(|when| when != first)) {
             let (file, when) = (other.file(), when(&other).unwrap_or_default());
-            left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
+            self.left_out.push(format!("{file} is not shown: it is {when}, not {first}."));
         }
     }
 

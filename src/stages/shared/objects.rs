@@ -162,5 +162,8 @@ pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
 
 /// Makes an error of why there is no answer for an object.
 pub fn named(object: &Object, reason: &impl std::fmt::Display) -> anyhow::Error {
-    UsageError::because(format!("structure '{}': {reason}", object.name))
+    UsageError::because(match object.name.as_str() {
+        UNNAMED => reason.to_string(),
+        name => format!("structure '{name}': {reason}"),
+    })
 }
