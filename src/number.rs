@@ -5,6 +5,7 @@ use std::path::Path;
 
 pub use rockfrag_core::number::*;
 use rockfrag_core::statistics::Interval;
+use unicode_width::UnicodeWidthStr;
 
 /// How the numbers of a kind are written, and their unit.
 #[derive(Debug, Clone, Copy)]
@@ -79,15 +80,14 @@ pub fn aligned(rows: &[Vec<String>], is_number: impl Fn(usize) -> bool) -> Strin
     let rows: Vec<Vec<Cow<str>>> =
         rows.iter().map(|row| row.iter().map(|cell| shown(cell, LONGEST_TEXT)).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.width()).max();
+    let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
     let mut text = String::new();
     for row in &rows {
-        let cell = |(column, cell): (usize, &Cow<str>)| match is_number(column) {
-            true => format!("{cell:>0$}", widths[column]),
-            false => format!("{cell:0$}", widths[column]),
+        let cell = |(column, cell): (usize, &Cow<str>)| {
+            // Some letters are two columns of a terminal wide.
+            let room = " ".repeat(widths[column] - cell.width());
+            if is_number(column) { room + cell } else { cell.to_string() + &room }
         };
         let cells: Vec<String> = row.iter().enumerate().map(cell).collect();
         text += &format!("{}\n", cells.join("  ").trim_end());

@@ -263,12 +263,13 @@ impl AnswerTable {
         self.made.first()?.input("hazard")
     }
 
-    /// The hazards, after a place: `; hazard: pga.csv`.
-    pub fn hazards(&self) -> String {
+    /// What answers are for, after a place: `; hazard: pga.csv`.
+    pub fn conditions(&self) -> String {
+        let over = self.rows.iter().find_map(|answer| answer.fragility.over);
         let mut hazards: Vec<String> = self.made.iter().filter_map(|made| made.names("hazard")).collect();
         hazards.dedup();
         match &hazards[..] {
-            [] => String::new(),
+            [] => over.map_or(String::new(), |_| "; for generic sites".to_string()),
             files => format!("; hazard: {}", literal(&files.join("; "))),
         }
     }

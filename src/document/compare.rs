@@ -14,6 +14,8 @@ use crate::number::{self, OF_HUNDRED, PERCENT, TWO_DIGITS, counted, listed};
 /// Objects that are named in a sentence and in a line.
 const NAMED: usize = 4;
 const MANY: usize = 20;
+/// The most that are drawn.
+const DRAWN: usize = 60;
 
 /// An object in two tables.
 struct Pair<'a> {
@@ -29,8 +31,9 @@ pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
     let pairs = pairs(&before.rows, &after.rows, is_same);
     let first = pairs.first()?;
     let (when, target) = (first.after.when().or(first.before.when())?, target(before).or(target(after)));
-    let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).hazards();
+    let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let velocity = if is_same { "" } else { " PGV/PGA is not shared, as the hazards differ." };
+    let has_ratio = pairs.iter().any(|pair| pair.ratio.value.is_some());
     let cancels = format!("The limits of a ratio leave out uncertainty that both rates share.{velocity}");
     let answers: Vec<&Answer> = pairs.iter().map(|pair| pair.after).collect();
     let [file_before, file_after] = [before, after].map(AnswerTable::file);
@@ -45,7 +48,7 @@ pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
         place: format!("Before: {file_before}; after: {file_after}{hazards}"),
         lead: vec![sentence(&pairs, changed, &when, target)],
         tiles: tiles(before, after, &when, target),
-        facts: [Some(cancels), limits_cover(&answers)].into_iter().flatten().collect(),
+        facts: has_ratio.then_some(cancels).into_iter().chain(limits_cover(&answers)).collect(),
         tables: vec![table(told, &when)],
         notes: others(before, after, &pairs),
         figures: vec![figure(told, &when, target)],
@@ -118,7 +121,7 @@ fn arrow(name: &str, [old, new]: [String; 2]) -> Option<String> {
 
 /// Before and after in one row.
 fn figure(told: &[Pair], when: &str, target: Option<f64>) -> Figure {
-    let rows = told.iter().map(|pair| {
+    let rows = told.iter().take(DRAWN).map(|pair| {
         let sides = [(pair.before, Ink::Muted, "before"), (pair.after, Ink::Data(1), "after")];
         let values = sides.map(|(answer, ink, label)| (answer.p.p_overturning, ink, label)).into();
         let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
@@ -126,8 +129,8 @@ fn figure(told: &[Pair], when: &str, target: Option<f64>) -> Figure {
     });
     let panel = probabilities("", when, &rows.collect::<Vec<_>>(), target);
     let caption = format!(
-        "Probability of overturning {when} before and after, with 95 % limits; at the right the ratio of the \
-         rates, after over before."
+        "Probability of overturning {when} before and after, with 95 % limits; at the right the ratio of \
+         annual rates, after over before."
     );
     Figure::new("compared", "Before and after", 1, 0.0, vec![panel]).explained(caption)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::phrases::{ANGLES, Expected, facts};
+use super::phrases::{ANGLES, Expected, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable};
 use crate::chart::text::literal;
@@ -19,7 +19,10 @@ pub fn document(table: &AnswerTable) -> Document {
     let Some(worst) = table.rows.first() else { return Document::default() };
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = worst.when().unwrap_or_default();
-    let title = format!("{}: how likely they are to overturn", counted(table.rows.len(), "object"));
+    let over = table.rows.iter().find_map(|answer| answer.fragility.over);
+    let what =
+        if over.is_some() { "how strong a motion overturns them" } else { "how likely they are to overturn" };
+    let title = format!("{}: {what}", counted(table.rows.len(), "object"));
     let (mut tables, same) = tables(&table.rows, &when);
     if answered.is_empty() {
         return Document { title, lead: vec![not_assessed(&table.rows)], tables, ..Document::default() };
@@ -34,14 +37,17 @@ pub fn document(table: &AnswerTable) -> Document {
     let lead = [Some(worst_of(table)), worst.about_target(), Some(not_assessed(&table.rows))];
     Document {
         title,
-        place: format!("{} free-standing, {place}{}", count(answered.len()), table.hazards()),
+        place: format!("{} free-standing, {place}{}", count(answered.len()), table.conditions()),
         lead: lead.into_iter().flatten().filter(|sentence| !sentence.is_empty()).collect(),
-        tiles: tiles(table, &when),
+        tiles: if over.is_some() { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         glossary: ANGLES.to_string(),
         tables,
         notes: doubts(&answered),
-        figures: vec![answers::list(&answered, &when, worst.rates.target)],
+        figures: vec![match over {
+            Some(over) => answers::fragilities(&answered, over),
+            None => answers::list(&answered, &when, worst.rates.target),
+        }],
         ..Document::default()
     }
 }
@@ -51,11 +57,11 @@ fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let several = table.rows.iter().any(|answer| answer.file != worst.file);
     let file = if several { format!(" ({})", literal(&worst.file)) } else { String::new() };
-    match worst.how_often(table.hazard.as_ref()).strip_prefix("overturns ") {
-        Some(often) => {
-            let (name, place) = (worst.object.called(), worst.object.place());
-            format!("{name}{file}, {place}, is the most likely to overturn: {often}.")
-        }
+    let name = format!("{}{file}, {},", worst.object.called(), worst.object.place());
+    let how_often = worst.how_often(table.hazard.as_ref());
+    match how_often.strip_prefix("overturns ") {
+        Some(often) => format!("{name} is the most likely to overturn: {often}."),
+        None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None if table.rows.iter().any(|answer| answer.p.p_rocking > Some(0.0)) => {
             "Nothing overturns.".to_string()
         }
@@ -105,14 +111,21 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
 type Cell = fn(&Answer) -> String;
 
 /// Columns beside a figure, and those that stand below it; of those in the time of exposure there is an @.
-const BESIDE: [(&str, Cell); 5] = [
+const BESIDE: [(&str, Cell); 9] = [
     ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
+    ("half overturn at", |answer| of_fragility(answer, 0)),
     ("95 % limits", limits),
+    ("16 %", |answer| of_fragility(answer, 2)),
+    ("84 %", |answer| of_fragility(answer, 3)),
+    ("beta", |answer| of_fragility(answer, 4)),
     ("place", |answer| answer.object.short_place()),
     ("file", |answer| literal(&answer.file)),
     ("base for the target", base),
 ];
-const BELOW: [(&str, Cell); 7] = [
+const BELOW: [(&str, Cell); 8] = [
+    ("half rock too far, or overturn at", |Answer { fragility, .. }| {
+        fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
+    }),
     ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
     ("rocks too far @, %", |answer| answered(answer, OF_HUNDRED.value(answer.p.p_failure))),
     ("friction needed", friction),
@@ -167,8 +180,16 @@ fn answered(answer: &Answer, cell: String) -> String {
     if answer.is_answered() { cell } else { String::new() }
 }
 
+/// A cell of the intensities that overturn an object.
+fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
+    fragility.over.map_or(String::new(), |over| intensity_cells(over, &fragility.overturning)[cell].clone())
+}
+
 /// The limits, or the range without a value.
 fn limits(answer: &Answer) -> String {
+    if answer.fragility.over.is_some() {
+        return of_fragility(answer, 1);
+    }
     let p = answer.p.p_overturning;
     answered(answer, if p.value.is_some() { OF_HUNDRED.span(p) } else { OF_HUNDRED.value(p) })
 }

@@ -4,7 +4,6 @@
 //! phrases    every sentence about an answer
 //! object     the document of one object
 //! list       of several
-//! fragility  of the fragility of objects
 //! compare    of two tables of answers
 //! response   of a response over time, and the block as it moves
 //! text       a document for a terminal
@@ -13,7 +12,6 @@
 //! ```
 
 pub mod compare;
-mod fragility;
 mod html;
 mod list;
 mod object;
@@ -125,12 +123,11 @@ fn is_number(cell: &str) -> bool {
 }
 
 impl Document {
-    /// The document of answers: of one object, of several, or of fragilities.
+    /// The document of answers: of one object or of several.
     pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
         match &sorted.rows[..] {
-            rows if rows.iter().any(|answer| answer.fragility.over.is_some()) => fragility::document(&sorted),
             [one] => object::document(&sorted, one),
             _ => list::document(&sorted),
         }

@@ -1,8 +1,6 @@
 //! The document of one object.
 
-use rockfrag_core::hazard::format_intensity;
-
-use super::phrases::{ANGLES, State, facts};
+use super::phrases::{ANGLES, State, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable, Usual};
 use crate::chart::text::literal;
@@ -16,7 +14,7 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     let uplift = is_rocking.map(|_| format!("It {}.", answer.uplift()));
     Document {
         title: answer.object.title(),
-        place: format!("Stands {}{}", answer.object.place_in_building(), table.hazards()),
+        place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),
         lead: [Some(format!("It {}.", answer.how_often(hazard))), answer.about_target()]
             .into_iter()
             .flatten()
@@ -26,7 +24,10 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
         glossary: ANGLES.to_string(),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: answer.is_answered().then(|| numbers(&when, answer, variants)).into_iter().collect(),
-        figures: vec![answers::object(answer, variants, table.at_site.as_ref())],
+        figures: vec![match answer.fragility.over {
+            Some(over) => answers::fragilities(&[answer], over),
+            None => answers::object(answer, variants, table.at_site.as_ref()),
+        }],
         ..Document::default()
     }
 }
@@ -58,13 +59,25 @@ fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
         });
         let words =
             format!("{} at which half of the motions overturn it{usual}", fragility.over.name_and_unit().0);
-        tiles.push(Tile::new(format_intensity(fragility.over, fragility.overturning.theta.value), words));
+        let unit = fragility.over.name_and_unit().1;
+        let half = fragility.overturning.theta.value.map(|theta| theta / unit);
+        tiles.push(Tile::new(intensity(fragility.over, half), words));
     }
     tiles
 }
 
-/// The answer, and what it is with one thing changed; under one motion there are no rates.
+/// The answer, and what it is with one thing changed; under one motion there are no rates, over a peak
+/// intensities.
 fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
+    if let Some(over) = answer.fragility.over {
+        let [failure, overturning] = [&answer.fragility.failure, &answer.fragility.overturning];
+        let row =
+            |State { name, .. }: &State, of| [vec![name.clone()], intensity_cells(over, of).into()].concat();
+        let [_, too_far, overturns] = &answer.states();
+        let half = format!("half at a {} of", over.name_and_unit().0);
+        let heads = ["", &half, "95 % limits", "16 %", "84 %", "beta"];
+        return Table::new(&heads, vec![row(too_far, failure), row(overturns, overturning)]);
+    }
     let states = answer.states().into_iter().map(|State { name, p, per_year }| {
         let rate = answer.rates.years.map_or(String::new(), |_| RATE.value(per_year));
         vec![name, PERCENT.value(p), PERCENT.span(p), rate]

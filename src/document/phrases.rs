@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{Bases, Hazard, PeakHazard, SLENDERNESSES, SearchEnd};
+use rockfrag_core::hazard::{Bases, Hazard, Lognormal, PeakHazard, SLENDERNESSES, SearchEnd, strongest};
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
@@ -136,6 +136,14 @@ impl Answer {
     pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
         let limits = PERCENT.limits(p, "95 % limits ");
+        if let Some(over) = self.fragility.over {
+            let [half, limits, ..] = intensity_cells(over, &self.fragility.overturning);
+            let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
+            return format!(
+                "is overturned by half of the motions at a {} of {half}{limits}",
+                over.name_and_unit().0
+            );
+        }
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
             (None, _) if !self.rocks() => self.uplift(),
@@ -265,6 +273,23 @@ fn with_unit(peak: Peak, intensity: f64) -> String {
     format!("{} {symbol}", significant(intensity / unit, 3))
 }
 
+/// An intensity with its unit; one beyond all records without a number.
+pub fn intensity(over: Peak, intensity: Option<f64>) -> String {
+    let (_, unit, symbol) = over.name_and_unit();
+    match intensity {
+        Some(value) => format!("{} {symbol}", significant(value, 2)),
+        None => format!("> {} {symbol}", plain(strongest(over) / unit)),
+    }
+}
+
+/// The intensity of one half, its limits, those of 16 and 84 %, and the dispersion.
+pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: &Lognormal) -> [String; 5] {
+    let [low, high] = [theta.low, theta.high].map(|limit| intensity(over, limit));
+    let limits = theta.low.map_or(String::new(), |_| format!("{low} to {high}"));
+    let [half, at_16, at_84] = [theta, at_16, at_84].map(|at| intensity(over, at.value));
+    [half, limits, at_16, at_84, beta.map_or(String::new(), |beta| significant(beta, 2))]
+}
+
 /// What answers rest on, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let Some(worst) = all.first() else { return Vec::new() };
@@ -288,8 +313,17 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     });
     let valid: Vec<String> = [valid, building].into_iter().flatten().collect();
     let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
-    let lines = [worst.largest_uncertainty(), limits_cover(all), beyond, model, Some(valid.join(" "))];
-    lines.into_iter().flatten().filter(|line| !line.is_empty()).collect()
+    let lognormal = match all {
+        [Answer { fragility, .. }] => fragility.overturning.beta.zip(fragility.overturning.largest_error),
+        _ => None,
+    };
+    let lognormal = lognormal.map(|(beta, error)| {
+        let [beta, error] = [beta, error].map(|value| significant(value, 2));
+        format!("Overturning is lognormal with beta {beta}, within {error}.")
+    });
+    let uncertain = [worst.largest_uncertainty(), limits_cover(all), lognormal, beyond];
+    let lines = uncertain.into_iter().chain([model, Some(valid.join(" "))]);
+    lines.flatten().filter(|line| !line.is_empty()).collect()
 }
 
 /// What predicts; of objects that are fitted each to its own responses, what is the same.

@@ -8,7 +8,6 @@ use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
 use crate::fragility::{GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection};
 use crate::motion::Peaks;
-use crate::number::{plain, significant};
 use crate::object::{LowHigh, RockingObject};
 use crate::statistics::numerics::{bisect_first_true, equal_ratios};
 use crate::statistics::{Interval, least_squares, normal};
@@ -194,15 +193,6 @@ impl Lognormal {
         let beta = 1.0 / line.fit.coefficients[1];
         let errors = x.iter().zip(&p).map(|(x, p)| (normal::cdf((x - median.ln()) / beta) - p).abs());
         Lognormal { beta: Some(beta), largest_error: Some(errors.fold(0.0, f64::max)), ..lognormal }
-    }
-}
-
-/// With its unit, such as `0.42 g`; `> 4.5 g` without an intensity, which then exceeds all records.
-pub fn format_intensity(over: Peak, intensity: Option<f64>) -> String {
-    let (_, unit, symbol) = over.name_and_unit();
-    match intensity {
-        Some(value) => format!("{} {symbol}", significant(value / unit, 2)),
-        None => format!("> {} {symbol}", plain(strongest(over) / unit)),
     }
 }
 

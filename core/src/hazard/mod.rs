@@ -28,7 +28,7 @@ mod target;
 
 pub use budget::Budget;
 pub use curve::{HazardCurve, HazardError};
-pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal, format_intensity};
+pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal};
 pub use ground_motion::{GroundMotion, MotionProbabilities};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};

@@ -61,11 +61,13 @@ pub fn evaluate(
         )));
     }
     let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
-    expect_units(&batches)?;
+    let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
+    // A typical motion shows a wrong unit.
+    validate_medians(peaks.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem))?;
     let mut known = HashMap::new();
     let mut evaluated = Vec::new();
     let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
-    for batch in &batches {
+    for (batch, peaks) in batches.iter().zip(&peaks) {
         let names = vec!["structure".into(); batch.rows.num_rows()];
         let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
         for structure in &structures {
@@ -75,7 +77,7 @@ pub fn evaluate(
             }
         }
         let rocking_object = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
-        evaluated.push(with_probabilities(batch, rocking_object, call.magnitude, context)?);
+        evaluated.push(with_probabilities(batch, peaks, rocking_object, call.magnitude, context)?);
         bar.advance(batch.rows.num_rows())?;
     }
     match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
@@ -94,11 +96,11 @@ fn bits(structure: &Structure) -> [u64; 3] {
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn with_probabilities<'a>(
     batch: &Batch,
+    given: &[Peaks],
     rocking_object: impl Fn(usize) -> &'a (RockingObject, Vec<Warning>) + Sync,
     magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
-    let given = peaks(batch)?;
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let (rocking_object, about_model) = rocking_object(row);
@@ -114,17 +116,17 @@ fn with_probabilities<'a>(
             vs30_m_s: None,
         };
         let (tree, _, budget) = TreeColumns::new(&motion, rocking_object);
-        (tree, UncertaintyColumns::new(&warnings, &budget), warnings)
+        (tree, UncertaintyColumns::new(&warnings, &budget))
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
-    let (trees, doubts, warnings): (Vec<_>, Vec<_>, Vec<_>) = rows.into_iter().collect();
-    for (row, warnings) in warnings.into_iter().enumerate() {
+    let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    for (row, uncertainty) in uncertainties.iter().enumerate().filter(|(_, of)| of.warnings.is_some()) {
         let place = format!("row {}", batch.first_row + row + 1);
-        context.warn(warnings.into_iter().map(|warning| (warning, place.clone())).collect());
+        context.warn(uncertainty.warnings().into_iter().map(|warning| (warning, place.clone())).collect());
     }
     let own = rows::side_by_side(&[
         rows::batch::<TreeColumns>(&trees)?,
-        rows::batch::<UncertaintyColumns>(&doubts)?,
+        rows::batch::<UncertaintyColumns>(&uncertainties)?,
     ])?;
     let fields = batch.rows.schema().fields().clone();
     let mut kept: Vec<usize> = (0..fields.len()).collect();
@@ -144,24 +146,12 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
     let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
     let (name, unit) =
         intensities::column_of_peak(&names, wanted).map_err(|error| error.in_file(&batch.path))?;
-    let mut values = Vec::new();
-    for (row, value) in batch.numbers(name)?.into_iter().enumerate() {
-        match value.map(|value| value * unit) {
-            None => return Err(batch.value_error(row, name, "no value").into()),
-            Some(value) if value < 0.0 => {
-                return Err(batch.value_error(row, name, "expected 0 or more").into());
-            }
-            Some(value) => values.push(value),
-        }
-    }
-    Ok(values)
-}
-
-/// Refuses a table whose typical motion shows a wrong unit.
-fn expect_units(batches: &[Batch]) -> anyhow::Result<()> {
-    let all = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
-    let path = batches.first().map_or(Path::new(""), |batch| &*batch.path);
-    validate_medians(all.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem).into())
+    let values = batch.numbers(name)?.into_iter().enumerate().map(|(row, value)| {
+        let value = value.ok_or_else(|| batch.value_error(row, name, "no value"))? * unit;
+        anyhow::ensure!(value >= 0.0, batch.value_error(row, name, "expected 0 or more"));
+        Ok(value)
+    });
+    values.collect()
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.
