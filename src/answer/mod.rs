@@ -269,7 +269,7 @@ impl AnswerTable {
         let mut hazards: Vec<String> = self.made.iter().filter_map(|made| made.names("hazard")).collect();
         hazards.dedup();
         match &hazards[..] {
-            [] => over.map_or(String::new(), |_| "; for generic sites".to_string()),
+            [] => over.map_or(String::new(), |_| "; at generic sites".to_string()),
             files => format!("; hazard: {}", literal(&files.join("; "))),
         }
     }

@@ -135,7 +135,8 @@ impl Answer {
     /// How likely it is to overturn, with limits or bounds: the sentence that begins with the object.
     pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
-        let limits = PERCENT.limits(p, "95 % limits ");
+        let after_space = |limits: String| if limits.is_empty() { limits } else { format!(" {limits}") };
+        let limits = after_space(PERCENT.limits(p, "95 % limits "));
         if let Some(over) = self.fragility.over {
             let [half, limits, ..] = intensity_cells(over, &self.fragility.overturning);
             let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
@@ -147,16 +148,12 @@ impl Answer {
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
             (None, _) if !self.rocks() => self.uplift(),
-            (None, _) => format!("overturns with a probability of {} {when} {limits}", PERCENT.value(p)),
+            (None, _) => format!("overturns with a probability of {} {when}{limits}", PERCENT.value(p)),
             (_, Interval { value: Some(0.0), .. }) => {
                 "does not overturn: nothing of the hazard uplifts it".to_string()
             }
             (_, Interval { value: Some(rate), .. }) => {
-                format!(
-                    "overturns once in {} years; {} {when} {limits}",
-                    period(1.0 / rate),
-                    PERCENT.value(p)
-                )
+                format!("overturns once in {} years; {} {when}{limits}", period(1.0 / rate), PERCENT.value(p))
             }
             (_, bounds @ Interval { low: Some(_), high: Some(_), .. }) => {
                 let end = match hazard {
