@@ -176,35 +176,33 @@ impl FragilityColumns {
     }
 }
 
-#[derive(Serialize, Deserialize)]
-struct VariantColumn {
-    variant: Option<String>,
-}
-
 /// The answers as a table, without the columns of other questions.
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
     let objects = rows::batch(answers.iter().map(|answer| &answer.object))?;
     let states = || rows::batch(answers.iter().map(|answer| &answer.p));
     let mut parts = match question {
-        Question::Motion(_) => vec![rows::batch(answers.iter().map(|answer| &answer.tree))?, states()?],
-        Question::Hazard { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.rates))?, states()?],
-        Question::Curve { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.fragility))?],
+        Question::Motion(_) => {
+            vec![objects, rows::batch(answers.iter().map(|answer| &answer.tree))?, states()?]
+        }
+        Question::Hazard { .. } => {
+            vec![objects, rows::batch(answers.iter().map(|answer| &answer.rates))?, states()?]
+        }
+        Question::Curve { .. } => vec![objects, rows::batch(answers.iter().map(|answer| &answer.fragility))?],
     };
-    parts.insert(0, objects);
-    if answers.iter().any(|answer| answer.variant.is_some()) {
-        parts.insert(
-            0,
-            rows::batch(
-                answers
-                    .iter()
-                    .map(|Answer { variant, .. }| VariantColumn { variant: variant.clone() })
-                    .collect::<Vec<_>>()
-                    .iter(),
-            )?,
-        );
-    }
     parts.push(rows::batch(answers.iter().map(|answer| &answer.uncertainty))?);
     rows::side_by_side(&parts)
+}
+
+/// What is changed of an object.
+#[derive(Serialize, Deserialize)]
+struct VariantColumn {
+    variant: Option<String>,
+}
+
+/// Variants as a table, each named by what is changed.
+pub fn variant_table(variants: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
+    let names = variants.iter().map(|answer| VariantColumn { variant: answer.variant.clone() });
+    rows::side_by_side(&[rows::batch(&names.collect::<Vec<_>>())?, table(variants, question)?])
 }
 
 /// The points of the fragilities as a table, each with the columns of its answer; a row without a point for

@@ -181,7 +181,7 @@ impl Stage for Evaluate {
         let models_of = |object: &Object| models.rocking_object(object);
         let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         warn(&rows, context);
-        let (all, points) = (answer::table(&rows, &question)?, answer::points(&rows)?);
+        let all = answer::table(&rows, &question)?;
         let made = vec![context.plan.made.clone()];
         let mut table = AnswerTable { rows, made, ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
@@ -196,9 +196,12 @@ impl Stage for Evaluate {
         let document = Document::of_answers(&table);
         let text = document.text(self.out.as_deref());
         if let [beside, _] = &self.outputs()[..] {
-            write_table(beside, &[answer::table(&table.variants, &question)?], &text, context)?;
+            write_table(beside, &[answer::variant_table(&table.variants, &question)?], &text, context)?;
         }
-        let rows = if matches!(question, Question::Curve { .. }) { points } else { all.clone() };
+        let rows = match question {
+            Question::Curve { .. } => answer::points(&table.rows)?,
+            _ => all.clone(),
+        };
         self.write(&[rows], &text, context, &document)?;
         self.in_format(&[all], text)
     }
