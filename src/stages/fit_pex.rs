@@ -6,18 +6,14 @@ use std::str::FromStr;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::{
-    Calibration, DemandFit, DemandModel, Predictors, fit_demand, sd_of_one_plane,
-};
+use rockfrag_core::fragility::{Calibration, DemandFit, Predictors, fit_demand};
 use rockfrag_core::paper;
-use rockfrag_core::statistics::FitStatus;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
+use super::shared::fits::{by_score, text, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
-use crate::number::significant;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -107,24 +103,26 @@ impl Stage for FitPex {
         let mut groups = responses::read_with(&self.input, &columns)?;
         let bar = context.bar(groups.len());
         let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
-        let (mut fits, mut calibrations, mut planes, mut laws) = (vec![], vec![], vec![], vec![]);
+        let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            let its = fit_demand(cases, transition, self.confidence, &self.pairs, self.all);
+            fits.extend(fit_demand(cases, transition, self.confidence, &self.pairs, self.all));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
-            planes.extend(planes_line(&its, sd_of_one_plane(cases)));
-            laws.extend(self.law_lines(&its));
-            fits.extend(its);
             bar.advance(1)?;
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let calibration = part(&self.out, "calibration");
-        let mut summary = calibrations_text(&calibrations, ["rock safely", "exceed"], &calibration);
-        summary += &format!("\n{PLANES}\n{}", text(&PLANE_HEADINGS, planes, 2..7, &self.out));
-        if !laws.is_empty() {
-            summary += &format!("\n{LAWS}\n{}", text(&LAW_HEADINGS, laws, 3..7, &self.out));
+        let mut best_first: Vec<&DemandFit> = fits.iter().collect();
+        for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
+            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
         }
+        let summary = format!(
+            "cases, events, and events that the surface as shipped expects\n{}\n\
+             planes (paper) below and above the transition, and laws; beta is the sd of ln demand\n{}",
+            text(&calibrations, "suite structure limit_state n n_events expected", &calibration)?,
+            text(best_first, COLUMNS, &self.out)?
+        );
         context.warn(warnings(&calibrations));
         context.write(&calibration, &calibrations, &summary)?;
         context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
@@ -133,50 +131,4 @@ impl Stage for FitPex {
     }
 }
 
-const PLANES: &str = "planes (paper), below and above the transition; sd of ln demand, also of one plane in \
-    ln(ln IM4) and ln IM3";
-const PLANE_HEADINGS: [&str; 8] =
-    ["suite", "structure", "transition", "R2 below", "R2 above", "sd", "sd of one plane", "verdict"];
-const LAWS: &str = "power laws over all cases, and the planes; log score of held-out cells or earthquakes";
-const LAW_HEADINGS: [&str; 8] =
-    ["suite", "structure", "measure", "R2", "beta", "zeta", "log score", "verdict"];
-
-fn shown(number: Option<f64>) -> String {
-    number.map_or("-".to_string(), |number| significant(number, 4))
-}
-
-/// The paper's planes of a structure, with the residual standard deviation of both and of one plane in their
-/// place.
-fn planes_line(fits: &[DemandFit], sd_of_one: Option<f64>) -> Option<Vec<String>> {
-    let mut planes = fits.iter().filter(|fit| fit.model == DemandModel::Biplanar);
-    let below = planes.clone().find(|fit| fit.range_high.is_some())?;
-    let above = planes.find(|fit| fit.range_low.is_some())?;
-    let numbers = [below.range_high, below.r2, above.r2, below.sd_with(above), sd_of_one];
-    let verdict = verdict(if below.status == FitStatus::Ok { above.status } else { below.status });
-    let names = [suite_name(&below.suite), below.structure.clone()];
-    Some(names.into_iter().chain(numbers.map(shown)).chain([verdict]).collect())
-}
-
-impl FitPex {
-    /// The fits of the pairs, and the two planes beside them, by their score, the best first.
-    fn law_lines(&self, fits: &[DemandFit]) -> Vec<Vec<String>> {
-        let is_shown = |fit: &&DemandFit| match fit.model {
-            DemandModel::Biplanar => fit.range_high.is_some() && !self.pairs.is_empty(),
-            _ => self.pairs.contains(&fit.predictors()),
-        };
-        let mut fits: Vec<&DemandFit> = fits.iter().filter(is_shown).collect();
-        fits.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-        let lines = fits.into_iter().map(|fit| {
-            let zeta = fit.beta.map(|beta| beta / fit.coefficients[1]);
-            let (planes, numbers) = match fit.model {
-                DemandModel::Biplanar => (", two planes", [fit.r2_overall, None, None]),
-                _ => ("", [fit.r2, fit.beta, zeta]),
-            };
-            let measure = format!("{}{planes}", fit.predictors());
-            let names = [suite_name(&fit.suite), fit.structure.clone(), measure].into_iter();
-            let ends = [score(fit.held_out_log_score), verdict(fit.status)];
-            names.chain(numbers.map(shown)).chain(ends).collect()
-        });
-        lines.collect()
-    }
-}
+const COLUMNS: &str = "suite structure model im_x im_y range_low n r2 beta held_out_log_score status";

@@ -4,17 +4,18 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::{Calibration, CurveFit, Event, Measure, Parameter, Predictors, fit_curves};
+use rockfrag_core::fragility::{
+    Calibration, CurveFit, Event, Parameter, ParameterRow, Predictors, fit_curves,
+};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fit_tables::{by_score, calibrations_text, score, suite_name, text, verdict, warnings};
+use super::shared::fits::{by_score, text, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::{observed, responses};
-use crate::number::THREE_DIGITS;
+use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, part};
-use crate::pipeline::{Stage, UsageError};
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -30,9 +31,6 @@ pub struct FitPro {
     /// Fits to write, with NAME.parameters.parquet and NAME.calibration.parquet beside
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
     out: PathBuf,
-    /// Event of the probability: overturning (given rocking) or rocking (of all motions)
-    #[arg(long, default_value = "overturning")]
-    event: Event,
     /// Measures, and pairs of them for hybrid curves, besides IM4 and IM5; or columns of --motions
     #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',', default_value = "im4:im3_inv")]
     pairs: Vec<Predictors>,
@@ -58,70 +56,51 @@ impl Stage for FitPro {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        match self.event {
-            Event::Overturning | Event::Rocking => MotionColumns::check(&self.pairs, self.motions.as_deref()),
-            other => Err(UsageError::because(format!("event is {other}; expected overturning or rocking"))),
-        }
+        MotionColumns::check(&self.pairs, self.motions.as_deref())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let calibration = part(&self.out, "calibration");
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
-        let summary = if observed::is_list(&self.input)? {
+        if observed::is_list(&self.input)? {
             // What stood and what fell gives no curve.
             let (outcomes, unused) = observed::read(&self.input)?;
             context.warn(unused);
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
-            calibrations_text(&calibrations, ["rocked", "fell"], &calibration)
         } else {
-            let is_overturning = self.event == Event::Overturning;
             let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
             let groups = responses::read_with(&self.input, &columns)?;
             let bar = context.bar(groups.len());
             for cases in &groups {
-                fits.extend(fit_curves(cases, self.event, &self.pairs, self.all));
-                // The surface gives the probability of overturning, not that of rocking.
-                calibrations.extend(is_overturning.then(|| Calibration::fit(cases, None)));
+                fits.extend(fit_curves(cases, Event::Overturning, &self.pairs, self.all));
+                calibrations.push(Calibration::fit(cases, None));
                 bar.advance(1)?;
             }
-            let calibrated = || calibrations_text(&calibrations, ["rock", "overturn"], &calibration) + "\n";
-            is_overturning.then(calibrated).unwrap_or_default() + &self.curves_text(&fits)
-        };
+        }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
+        let mut best_first: Vec<&CurveFit> = fits.iter().collect();
+        for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
+            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
+        }
+        let is_printed = |row: &&ParameterRow| matches!(row.parameter, Parameter::Theta | Parameter::Beta);
+        let medians = parameters.iter().filter(is_printed);
+        let [calibration_out, parameters_out] =
+            ["calibration", "parameters"].map(|name| part(&self.out, name));
+        let mut summary = "cases, events, and events that the surface as shipped expects\n".to_string();
+        summary += &text(&calibrations, "suite structure n n_events expected", &calibration_out)?;
+        if !fits.is_empty() {
+            summary += "\nlognormal curves (paper); log score of held-out cells or earthquakes\n";
+            summary += &text(best_first, CURVE_COLUMNS, &self.out)?;
+            summary +=
+                &format!("\nmedian theta and dispersion beta, with {} % limits\n", 100.0 * self.confidence);
+            summary += &text(medians, PARAMETER_COLUMNS, &parameters_out)?;
+        }
         context.warn(warnings(&calibrations));
-        context.write(&calibration, &calibrations, &summary)?;
-        context.write(&part(&self.out, "parameters"), &parameters, &summary)?;
+        context.write(&calibration_out, &calibrations, &summary)?;
+        context.write(&parameters_out, &parameters, &summary)?;
         context.write(&self.out, &fits, &summary)?;
         Ok(summary)
     }
 }
 
-impl FitPro {
-    /// The curves of IM5 and of the pairs, those of a structure by their score, the best first.
-    fn curves_text(&self, fits: &[CurveFit]) -> String {
-        let is_asked = |fit: &&CurveFit| {
-            let predictors = fit.predictors();
-            predictors == Predictors::one(Measure::Im5) || self.pairs.contains(&predictors)
-        };
-        let mut curves: Vec<&CurveFit> = fits.iter().filter(is_asked).collect();
-        for its in curves.chunk_by_mut(|a, b| a.group() == b.group()) {
-            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-        }
-        let lines = curves.into_iter().map(|fit| {
-            let parameters = fit.parameters(self.confidence);
-            let [median, dispersion] = [Parameter::Theta, Parameter::Beta].map(|wanted| {
-                let row = parameters.iter().find(|row| row.parameter == wanted);
-                row.map_or("-".to_string(), |row| THREE_DIGITS.both(row.estimate().into(), ""))
-            });
-            let names = [suite_name(&fit.suite), fit.structure.clone(), fit.predictors().to_string()];
-            let numbers = [median, dispersion, score(fit.held_out_log_score), verdict(fit.status)];
-            names.into_iter().chain(numbers).collect()
-        });
-        let headings = ["suite", "structure", "measure", "median", "dispersion", "log score", "verdict"];
-        let lines = text(&headings, lines.collect(), 5..6, &self.out);
-        format!(
-            "lognormal curves (paper), with {} % limits; log score of held-out cells or earthquakes\n{lines}",
-            100.0 * self.confidence
-        )
-    }
-}
+const CURVE_COLUMNS: &str = "suite structure im_x im_y held_out_log_score status";
+const PARAMETER_COLUMNS: &str = "suite structure im_x im_y parameter value low high";

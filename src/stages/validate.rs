@@ -9,16 +9,15 @@ use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::{Deserialize, Serialize};
 
+use super::shared::fits::text;
 use super::shared::model_args::ModelArgs;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::Rule;
 use crate::pipeline::paths::{Read, part};
-use crate::table::frame;
 use crate::table::keys::key_of;
 use crate::table::provenance::Provenance;
-use crate::table::rows;
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -38,6 +37,7 @@ pub struct Validate {
     fits: ModelArgs,
 }
 
+const COLUMNS: &str = "suite structure event model n observed expected expected_error log_score brier";
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
@@ -80,7 +80,7 @@ impl Stage for Validate {
         if scores.is_empty() {
             anyhow::bail!("{}: no structure rocks; expected responses with rocking", self.input.display());
         }
-        let summary = summary(&scores)?
+        let summary = text(&scores, COLUMNS, &self.out)?
             + if self.are_own()? { "These are the responses that were fitted.\n" } else { "" };
         context.write::<ReliabilityBin>(&part(&self.out, "reliability"), &bins, &summary)?;
         context.write::<Validation>(&self.out, &scores, &summary)?;
@@ -136,11 +136,4 @@ fn validate(
     let warning =
         (outside && event == Event::Failure).then(|| (Warning::Extrapolated, cases.structure.name.clone()));
     (forecasts.validate(), forecasts.reliability(), warning.into_iter().collect())
-}
-
-/// A line a suite, structure and event.
-fn summary(scores: &[Validation]) -> anyhow::Result<String> {
-    let frame = frame::from_batch(&rows::batch(scores)?)?;
-    const COLUMNS: &str = "suite structure event model n observed expected expected_error log_score brier";
-    Ok(frame::text(&frame.select(COLUMNS.split(' '))?))
 }

@@ -47,14 +47,6 @@ fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
     DemandFit::new(cases, model, &measures, EVERYWHERE)
 }
 
-/// The residual standard deviation of one plane ln Dm = ln a + b1 ln(ln IM4) + b2 ln IM3 over all cases above
-/// uplift, to compare with the paper's two planes: demand falls to 0 at IM4 = 1, which no power of IM4 does.
-pub fn sd_of_one_plane(cases: &Cases) -> Option<f64> {
-    let Sample { ln_im, y, .. } = demands(cases, &PLANE, &(1.0 + f64::EPSILON..f64::INFINITY));
-    let ln_ln_im4: Vec<f64> = ln_im[0].iter().map(|ln_im4| ln_im4.ln()).collect();
-    least_squares(&[&ln_ln_im4, &ln_im[1]], &y).ok().map(|plane| plane.residual_sd())
-}
-
 /// Fits two planes, one below and one from the transition on, an IM4 = PGA/(g tan alpha) (Table II).
 pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
     let mut planes = [0.0..transition, transition..f64::INFINITY]
@@ -295,12 +287,6 @@ impl DemandFit {
     fn squares(&self) -> Option<(f64, f64)> {
         let rss = self.beta?.powi(2) * self.residual_degrees();
         Some((rss, rss / (1.0 - self.r2?)))
-    }
-
-    /// The pooled residual standard deviation of two fits.
-    pub fn sd_with(&self, other: &DemandFit) -> Option<f64> {
-        let degrees = self.residual_degrees() + other.residual_degrees();
-        Some(((self.squares()?.0 + other.squares()?.0) / degrees).sqrt())
     }
 
     pub fn holds_at(&self, im4: f64) -> bool {

@@ -1,6 +1,6 @@
 //! What several stages have: objects and models as options, and what they read: motions, responses.
 
-pub mod fit_tables;
+pub mod fits;
 pub mod model_args;
 pub mod motion_columns;
 pub mod motions;

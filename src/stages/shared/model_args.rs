@@ -20,7 +20,6 @@ use crate::number::listed;
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
-use crate::stages::shared::fit_tables::suite_name;
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
 use crate::table::rows::{self, Row};
@@ -215,7 +214,7 @@ impl Models {
         {
             return Ok(first);
         }
-        let mut suites: Vec<String> = rows.iter().map(|row| suite_name(&row.suite)).collect();
+        let mut suites: Vec<&str> = rows.iter().map(|row| row.suite.as_deref().unwrap_or("-")).collect();
         suites.sort_unstable();
         suites.dedup();
         let given = self.args.suite.map_or(String::new(), |kind| format!(" (it is {kind})"));
