@@ -17,11 +17,11 @@ use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::{Deserialize, Serialize};
 
+use super::shared::fits::text;
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
-use crate::number::{THREE_DIGITS, counted, fixed, name, significant};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{MOST_LINES, Rule, first_lines, number};
+use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::{Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
@@ -151,7 +151,7 @@ impl Stage for Ida {
         let groups = groups.iter().map(|rows| rows.iter().map(|&row| &scanned[row]).collect::<Vec<_>>());
         let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));
-        let summary = summary(&fits, &self.out);
+        let summary = summary(&fits, &fragility_file)?;
         let capacities: Vec<CapacityRow> = scanned.into_iter().map(|case| case.capacity).collect();
         context.finish(stripes, &summary)?;
         context.write(&fragility_file, &fits, &summary)?;
@@ -256,18 +256,6 @@ fn half_overturn_at(levels: &[f64], cases: &[&Scanned]) -> Option<f64> {
 }
 
 impl ScaledMeasure {
-    /// Its name and unit, as they are printed.
-    fn name_and_unit(self) -> (&'static str, &'static str) {
-        match self {
-            ScaledMeasure::Scale => ("scale factor", ""),
-            ScaledMeasure::Pga => ("PGA", " g"),
-            ScaledMeasure::Pgv => ("PGV", " m/s"),
-            ScaledMeasure::Im4 => ("IM4", ""),
-            ScaledMeasure::Im5 => ("IM5", ""),
-            ScaledMeasure::Im6 => ("IM6", ""),
-        }
-    }
-
     /// The measure of a motion as it is; `None` if it has none, or the ground does not move.
     fn unscaled(self, measures: &Measures, structure: &Structure) -> Option<f64> {
         let dimensionless = measures.dimensionless(structure);
@@ -319,33 +307,15 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     early.chain(late.map(|row| (Warning::ScanStartsLate, row.structure.clone()))).collect()
 }
 
-/// A line a structure: where half of the motions overturn it, and the median of the lowest intensities that
-/// do; of many structures, the weakest.
-fn summary(fits: &[CapacityFitRow], out: &Path) -> String {
+/// Where half of the motions overturn each structure, the weakest first, and the distribution of the lowest
+/// intensities that do.
+fn summary(fits: &[CapacityFitRow], out: &Path) -> anyhow::Result<String> {
     let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
-    if fits.len() > MOST_LINES {
-        let found_at =
-            |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
-        fits.sort_by(|a, b| found_at(a).total_cmp(&found_at(b)));
-    }
-    first_lines(&fits.iter().map(|row| line(row)).collect::<String>(), 0, out)
-}
-
-fn line(row: &CapacityFitRow) -> String {
-    let suite = row.suite.as_deref().map_or(String::new(), |suite| format!(" ({})", name(suite)));
-    let (measure, unit) = row.measure.name_and_unit();
-    let half = match row.half_overturn_at {
-        Some(at) => format!("half of the motions overturn it at {measure} {}{unit}", significant(at, 3)),
-        None if 2 * row.n_below >= row.n => "half of the motions overturn it at the first intensity".into(),
-        None => {
-            let motions = counted(row.n as usize, "motion");
-            format!("{} of {motions} never overturn it, half of them at no intensity", row.n_safe)
-        }
-    };
-    let lowest = row.theta.value.zip(row.beta.value).map_or(String::new(), |(theta, beta)| {
-        let limits = THREE_DIGITS.limits(row.theta, "95 % limits ");
-        let (theta, beta) = (significant(theta, 3), fixed(beta, 2));
-        format!("; lowest that overturns, median {theta}{unit} {limits}, dispersion {beta}")
-    });
-    format!("{}{suite}: {half}{lowest}\n", name(&row.structure))
+    let found_at = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
+    fits.sort_by(|a, b| found_at(a).total_cmp(&found_at(b)));
+    text(
+        fits,
+        "suite structure measure n n_safe n_below half_overturn_at theta theta_low theta_high beta",
+        out,
+    )
 }

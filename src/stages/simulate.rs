@@ -1,5 +1,6 @@
 //! simulate: every structure through every motion.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -12,10 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
-use crate::number;
+use crate::number::{self, counted, name};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{MOST_LINES, Rule, first_lines};
+use crate::pipeline::options::{Rule, first_lines};
 use crate::pipeline::paths::{Read, out_of_partition, part};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
@@ -28,9 +29,6 @@ const CHUNK: usize = 32;
 /// Quiet time after a traced record in which free rocking shows, s.
 const TRACE_TAIL_S: f64 = 10.0;
 const ALL: &str = "all";
-/// Motions that are named if they overturn a structure.
-const NAMED: usize = 8;
-
 /// What is said where no structure is given.
 const ASSUMED: &str = "frame and electrical-equipment of the paper; --width and --height for your own\n";
 
@@ -95,17 +93,13 @@ impl Stage for Simulate {
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
         let create_traces = || context.create(&trace_file, &rows::schema::<TraceRow>());
         let mut traces = (!self.trace.is_empty()).then(create_traces).transpose()?;
-        let mut overturning = vec![Overturning::default(); objects.len()];
+        let mut overturning = vec![0; objects.len()];
         process_in_order(
             &context.bar(motions.rows()),
             motions::parts(&motions, is_motion_column, CHUNK),
             |some| self.respond(some, &objects, &second),
             |some| {
-                for (structure, motion) in some.overturned {
-                    let Overturning { count, named } = &mut overturning[structure];
-                    *count += 1;
-                    named.extend((*count <= NAMED).then_some(motion));
-                }
+                some.overturned.into_iter().for_each(|structure| overturning[structure] += 1);
                 context.warn(some.warnings);
                 traces.iter_mut().try_for_each(|traces| traces.append(&some.traces))?;
                 Ok(writer.append(&some.rows)?)
@@ -122,19 +116,12 @@ impl Stage for Simulate {
     }
 }
 
-/// The motions that overturn a structure: how many, and the first of them.
-#[derive(Clone, Default)]
-struct Overturning {
-    count: usize,
-    named: Vec<String>,
-}
-
 struct Responded {
     rows: RecordBatch,
     traces: RecordBatch,
     warnings: Warnings,
-    /// Indices of structures, and motions that overturn them.
-    overturned: Vec<(usize, String)>,
+    /// Indices of structures, one for each motion that overturns them.
+    overturned: Vec<usize>,
 }
 
 impl Simulate {
@@ -178,7 +165,7 @@ impl Simulate {
             let is_traced = self.trace.iter().any(|traced| *traced == ALL || *traced == motion.motion_id);
             for (index, (structure, response)) in structures(motion).zip(&mut responses).enumerate() {
                 if response.outcome == Outcome::Overturned {
-                    overturned.push((index, motion.motion_id.clone()));
+                    overturned.push(index);
                 }
                 rows.push(measures.response_row(motion, structure, response));
                 if is_traced {
@@ -220,23 +207,13 @@ fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> Vec
     rows.collect()
 }
 
-/// One line per structure, with the motions that overturn it; of many structures, those that most overturn.
-fn summary(objects: &[Vec<Structure>], overturning: &[Overturning], motions: usize, out: &Path) -> String {
+/// How many motions overturn each structure, the weakest first.
+fn summary(objects: &[Vec<Structure>], overturning: &[usize], motions: usize, out: &Path) -> String {
     let mut all: Vec<_> = objects.iter().zip(overturning).collect();
-    if all.len() > MOST_LINES {
-        all.sort_by_key(|(_, overturning)| std::cmp::Reverse(overturning.count));
-    }
-    let motions = number::counted(motions, "motion");
-    let mut lines = String::new();
-    for (directions, Overturning { count, named }) in all {
-        let name = number::name(&directions[0].name);
-        let overturn = if *count == 1 { "overturns" } else { "overturn" };
-        let named: Vec<_> = named.iter().map(|id| number::name(id)).collect();
-        let named = match count {
-            1..=NAMED => format!(" ({})", named.join(", ")),
-            _ => String::new(),
-        };
-        lines += &format!("{name}: {} of {motions} {overturn} it{named}\n", number::count(*count));
-    }
-    first_lines(&lines, 0, out)
+    all.sort_by_key(|(_, count)| Reverse(**count));
+    let motions = counted(motions, "motion");
+    let lines = all.into_iter().map(|(directions, count)| {
+        format!("{}: {} of {motions} overturn it\n", name(&directions[0].name), number::count(*count))
+    });
+    first_lines(&lines.collect::<String>(), 0, out)
 }
