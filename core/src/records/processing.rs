@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::implausibility::{Implausibility, implausibility, incompleteness};
 use super::pulses::{FittedPulse, PulseIndicator, Verdict, strongest_direction};
 use super::rotation::{HorizontalPair, Orientation, Parts, RotD};
-use super::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
+use super::signal::{Baseline, high_pass, resample, resampled_length};
 use super::{Origin, RecordedMotion};
 use crate::motion::measures::peak;
 use crate::motion::pulse::largest_velocity;
@@ -42,8 +42,6 @@ pub enum ProcessingError {
         "{samples} samples at a time step of {dt_s} s; expected 2 to {LONGEST_MOTION}: another --resample?"
     )]
     Resampled { samples: f64, dt_s: f64 },
-    #[error("the motion is zero throughout; it cannot be scaled to a peak")]
-    Zero,
     #[error(
         "PGA {pga_g:.1} g and PGV {pgv_m_s:.1} m/s when scaled by {scale}; none as strong was ever recorded \
          (--accept-implausible imports it anyway)"
@@ -141,7 +139,8 @@ pub struct Processing {
     pub resample_s: Option<f64>,
     /// Direction of pairs; none imports components one by one.
     pub direction: Option<Orientation>,
-    pub scaling: Scaling,
+    /// Each gives a motion.
+    pub factors: Vec<f64>,
     pub pulses: PulseSearch,
     /// Whether implausible motions are imported, with a warning, or are errors.
     pub accept_implausible: bool,
@@ -152,7 +151,7 @@ impl Processing {
     /// Processes one component into a motion for each scale factor; `rotd` columns are none.
     ///
     /// # Errors
-    /// If it is implausible, or too short, too long or zero for what is asked.
+    /// If it is implausible, or too short or too long for what is asked.
     pub fn import(&self, record: NamedRecord) -> Result<Vec<ImportedMotion>, ProcessingError> {
         self.scaled(self.corrected(record)?, None)
     }
@@ -238,16 +237,12 @@ impl Processing {
     ) -> Result<Vec<ImportedMotion>, ProcessingError> {
         let NamedRecord { motion_id, source_file, source_blake3, motion, doubts } = record;
         let dt_s = motion.dt_s;
-        let factors = self.scaling.factors(&motion.acceleration_m_s2, dt_s);
-        if factors.is_empty() {
-            return Err(ProcessingError::Zero);
-        }
         let (found, fitted) = self.pulse_of(&motion);
         let Origin { earthquake, station, component, .. } = &motion.origin;
         let names: Vec<&str> =
             [earthquake, station, component].into_iter().flatten().map(String::as_str).collect();
         let mut motions = Vec::new();
-        for &scale in &factors {
+        for &scale in &self.factors {
             let scaled = motion.acceleration_m_s2.iter().map(|a| scale * a);
             let (acceleration_m_s2, measures) = self.plan.measure_written(scaled, dt_s);
             let (pga_g, pgv_m_s) = (measures.pga_m_s2 / G_M_S2, measures.pgv_m_s);
@@ -256,7 +251,7 @@ impl Processing {
                 return Err(ProcessingError::Scaled { scale, pga_g, pgv_m_s });
             }
             motions.push(ImportedMotion {
-                motion_id: match factors.len() {
+                motion_id: match self.factors.len() {
                     1 => motion_id.clone(),
                     _ => format!("{motion_id} x{scale}"),
                 },

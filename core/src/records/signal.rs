@@ -1,9 +1,8 @@
-//! Processing of recorded accelerations: baseline, high-pass, time step, scale.
+//! Processing of recorded accelerations: baseline, high-pass, time step.
 
 use std::f64::consts::PI;
 
 use crate::motion::fourier::{even_smooth_at_least, invert, transform};
-use crate::motion::measures::{peak, velocity};
 use crate::spelling::unknown_word;
 
 /// Order n of the high-pass, in each direction.
@@ -105,26 +104,4 @@ fn kaiser(x: f64) -> f64 {
 /// Computes the modified Bessel function I0 by its power series, last term first.
 fn bessel_i0(x: f64) -> f64 {
     (1..40).rev().fold(1.0, |sum, k| 1.0 + 0.25 * x * x / f64::from(k * k) * sum)
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub enum Scaling {
-    /// By each factor: one motion each.
-    Factors(Vec<f64>),
-    /// To a peak acceleration, m/s2.
-    Pga(f64),
-    /// To a peak velocity, m/s.
-    Pgv(f64),
-}
-
-impl Scaling {
-    /// Empty without a peak to scale.
-    pub fn factors(&self, acceleration: &[f64], dt_s: f64) -> Vec<f64> {
-        let factor = match self {
-            Scaling::Factors(factors) => return factors.clone(),
-            Scaling::Pga(target) => target / peak(acceleration),
-            Scaling::Pgv(target) => target / peak(&velocity(acceleration, dt_s)),
-        };
-        if factor.is_finite() { vec![factor] } else { Vec::new() }
-    }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use rockfrag_core::motion::measures::{peak, velocity};
+use rockfrag_core::motion::measures::peak;
 use rockfrag_core::records::rotation::{HorizontalPair, Parts, pairs};
-use rockfrag_core::records::signal::{Baseline, Scaling, high_pass, resample, resampled_length};
+use rockfrag_core::records::signal::{Baseline, high_pass, resample, resampled_length};
 use rockfrag_core::records::{Origin, RecordedMotion};
 use rockfrag_core::units::Unit;
 
@@ -111,14 +111,4 @@ fn components_of_one_station_at_right_angles_are_a_pair() {
     let origins = components.map(origin);
     let found = pairs(&origins.each_ref().map(|origin| (origin, DT)));
     assert_eq!(found, [[0, 3], [1, 5]]);
-}
-
-#[test]
-fn motions_are_scaled_by_factors_or_to_peaks() {
-    let samples = motion(400);
-    let pgv = peak(&velocity(&samples, DT));
-    assert_eq!(Scaling::Factors(vec![0.5, 2.0]).factors(&samples, DT), [0.5, 2.0]);
-    near(&Scaling::Pga(1.5).factors(&samples, DT), [1.5 / peak(&samples)], 1e-12);
-    near(&Scaling::Pgv(0.4).factors(&samples, DT), [0.4 / pgv], 1e-12);
-    assert!(Scaling::Pga(1.0).factors(&[0.0; 9], DT).is_empty());
 }

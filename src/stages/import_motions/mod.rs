@@ -12,8 +12,8 @@ use clap::ValueHint::{AnyPath, FilePath};
 use rockfrag_core::motion::MeasurePlan;
 use rockfrag_core::records::processing::{ImportedMotion, Processing, PulseSearch};
 use rockfrag_core::records::rotation::Orientation;
-use rockfrag_core::records::signal::{Baseline, Scaling};
-use rockfrag_core::units::{G_M_S2, Unit};
+use rockfrag_core::records::signal::Baseline;
+use rockfrag_core::units::Unit;
 use rockfrag_core::warning::Warning;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -23,7 +23,7 @@ use self::summary::Summary;
 use crate::inputs::About;
 use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, Steps, number, periods, steps};
+use crate::pipeline::options::{Steps, number, periods, steps};
 use crate::pipeline::paths::Read;
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
@@ -78,13 +78,6 @@ pub struct ImportMotions {
     #[arg(long, value_name = "F,...",
           value_parser = steps(f64::MIN_POSITIVE..=f64::MAX, "expected factors above 0"))]
     scale: Option<Steps>,
-    /// Scale each motion to this PGA, g
-    #[arg(long, value_name = "G",
-          value_parser = number(1e-9..=100.0, "a PGA above 0 g"))]
-    scale_pga: Option<f64>,
-    /// Scale each motion to this PGV, m/s
-    #[arg(long, value_name = "M/S", value_parser = number(1e-9..=100.0, "a PGV above 0 m/s"))]
-    scale_pgv: Option<f64>,
     /// Velocity pulses: find (Baker 2007, then a fit of Eq. 1, the velocity) or skip
     #[arg(long, default_value = "find")]
     pulses: PulseSearch,
@@ -114,13 +107,6 @@ fn unit<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Unit>, D::E
 }
 
 impl Stage for ImportMotions {
-    fn rules() -> Vec<Rule> {
-        vec![
-            Rule::Either(&["scale"], &["scale-pga", "scale-pgv"]),
-            Rule::Either(&["scale-pga"], &["scale-pgv"]),
-        ]
-    }
-
     fn inputs(&self) -> Vec<Read> {
         let records = Read::new("files", self.files.iter());
         let about = Read::new("about", self.about.iter());
@@ -191,19 +177,13 @@ fn batch(some: &[ImportedMotion], plan: &MeasurePlan) -> anyhow::Result<RecordBa
 
 impl ImportMotions {
     fn processing(&self) -> Processing {
-        let scaling = match (&self.scale, self.scale_pga, self.scale_pgv) {
-            (Some(factors), ..) => Scaling::Factors(factors.0.clone()),
-            (_, Some(pga_g), _) => Scaling::Pga(pga_g * G_M_S2),
-            (_, _, Some(pgv_m_s)) => Scaling::Pgv(pgv_m_s),
-            _ => Scaling::Factors(vec![1.0]),
-        };
         let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         Processing {
             baseline: self.baseline,
             high_pass_hz: self.high_pass,
             resample_s: self.resample,
             direction: self.rotate,
-            scaling,
+            factors: self.scale.as_ref().map_or(vec![1.0], |steps| steps.0.clone()),
             pulses: self.pulses,
             accept_implausible: self.accept_implausible,
             plan: MeasurePlan { housner: self.housner, sa_periods_s },

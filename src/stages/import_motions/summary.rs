@@ -1,6 +1,6 @@
 //! What was imported, in words.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
 use anyhow::bail;
 use rockfrag_core::records::processing::ImportedMotion;
@@ -43,17 +43,14 @@ impl Summary {
         }
     }
 
-    /// Refuses a call without motions, or of which two have one name or record, or one that does not keep going
-    /// beside what is wrong.
+    /// Refuses a call without motions, or of which two are one record, or one that does not keep going beside
+    /// what is wrong.
     pub fn expect_motions(&self, keep_going: bool) -> anyhow::Result<()> {
-        let (mut ids, mut files) = (HashSet::new(), HashMap::new());
-        for ImportedMotion { motion_id: id, source_file: path, source_blake3, .. } in &self.motions {
+        let mut files = HashMap::new();
+        for ImportedMotion { source_file: path, source_blake3, .. } in &self.motions {
             let first = *files.entry(source_blake3).or_insert(path);
             if first != path {
                 bail!("{path}: the same record as {first}; leave out one");
-            }
-            if !ids.insert(id) {
-                bail!("{path}: two motions are called '{id}'; rename the file");
             }
         }
         let (is_empty, left_out) = (self.motions.is_empty(), self.left_out());
