@@ -100,7 +100,7 @@ impl Stage for FitPex {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
-        let mut groups = responses::read_with(&self.input, &columns)?;
+        let mut groups = responses::read(&self.input, &columns)?;
         let bar = context.bar(groups.len());
         let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());

@@ -68,7 +68,7 @@ impl Stage for FitPro {
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
         } else {
             let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
-            let groups = responses::read_with(&self.input, &columns)?;
+            let groups = responses::read(&self.input, &columns)?;
             let bar = context.bar(groups.len());
             for cases in &groups {
                 fits.extend(fit_curves(cases, Event::Overturning, &self.pairs, self.all));

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::fits::text;
 use super::shared::model_args::ModelArgs;
+use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -58,7 +59,7 @@ impl Stage for Validate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let groups = responses::read(&self.input)?;
+        let groups = responses::read(&self.input, &MotionColumns::default())?;
         let mut models = self.fits.read()?;
         let bar = context.bar(groups.len());
         let (mut scores, mut bins) = (Vec::new(), Vec::new());

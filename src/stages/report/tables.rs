@@ -11,6 +11,7 @@ use rockfrag_core::studies::comparison::Comparison;
 use crate::answer::{Answer, AnswerTable};
 use crate::document::response::Trace;
 use crate::figures::Fits;
+use crate::stages::shared::motion_columns::MotionColumns;
 use crate::stages::shared::responses;
 use crate::table::TableError;
 use crate::table::file::{self, ParquetTable};
@@ -149,7 +150,8 @@ impl Tables {
             tables.items.extend(items);
         }
         tables.leave_out_strangers();
-        let groups = tables.of(Kind::Responses).map(|item| responses::read(&item.path));
+        let groups =
+            tables.of(Kind::Responses).map(|item| responses::read(&item.path, &MotionColumns::default()));
         tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
         if tables.groups.len() > 2 {
             tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));

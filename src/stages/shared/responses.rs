@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use rayon::prelude::*;
-use rockfrag_core::fragility::{Case, Cases, Cluster, Group, MOST_CASES, Measure};
+use rockfrag_core::fragility::{Case, Cases, Cluster, Group, MOST_CASES};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::rocking::{Outcome, Structure};
 
@@ -13,25 +13,16 @@ use crate::number::counted;
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
-use crate::table::responses::OutcomeWord;
+use crate::table::responses::{OutcomeWord, ResponseRow};
 use crate::table::{frame, rows};
 
-/// What is read of a response besides the measures of Eq. 13.
-const COLUMNS: &str =
-    "suite motion_id structure p_rad_s alpha_rad eta outcome edp mw re_km earthquake pga_m_s2 pgv_m_s";
-
-/// Reads the responses in a file or folder, grouped by suite and structure in the order in which these first
-/// come.
-pub fn read(path: &Path) -> anyhow::Result<Vec<Cases>> {
-    read_with(path, &MotionColumns::default())
-}
-
-/// Reads responses with columns of their motions.
-pub fn read_with(path: &Path, motions: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
+/// Reads the responses in a file or folder, with columns of their motions, grouped by suite and structure in
+/// the order in which these first come.
+pub fn read(path: &Path, motions: &MotionColumns) -> anyhow::Result<Vec<Cases>> {
     let table = ParquetTable::open(path)?;
     let (mut all, mut hashes) = (Vec::new(), Vec::new());
-    let is_measure = |name: &str| Measure::SCALAR.iter().any(|measure| measure.as_str() == name);
-    for batch in table.batches(|name| is_measure(name) || COLUMNS.split(' ').any(|one| one == name)) {
+    let columns = rows::schema::<ResponseRow>();
+    for batch in table.batches(|name| columns.index_of(name).is_ok()) {
         add(&mut all, &mut hashes, &batch?, motions)?;
     }
     if all.is_empty() {
@@ -113,17 +104,14 @@ fn outcomes(batch: &Batch) -> Result<Vec<Outcome>, TableError> {
 
 /// Checks that a row has the p, alpha and eta that its structure has in the rows before.
 fn expect_same(batch: &Batch, row: usize, found: &Structure, known: &Structure) -> Result<(), TableError> {
-    let parameters = [
-        ("p_rad_s", found.p_rad_s, known.p_rad_s),
-        ("alpha_rad", found.alpha_rad, known.alpha_rad),
-        ("eta", found.eta, known.eta),
-    ];
-    let other = parameters.into_iter().find(|(_, found, known)| found != known);
-    other.map_or(Ok(()), |(column, found, expected)| {
-        let name = &known.name;
-        let problem = format!(
-            "{found}; structure '{name}' has {expected} in another row: give each structure its own name"
-        );
-        Err(batch.value_error(row, column, problem))
-    })
+    let parameters = |of: &Structure| [("p_rad_s", of.p_rad_s), ("alpha_rad", of.alpha_rad), ("eta", of.eta)];
+    let mut both = parameters(found).into_iter().zip(parameters(known));
+    let Some(((column, found), (_, expected))) = both.find(|(found, known)| found != known) else {
+        return Ok(());
+    };
+    let problem = format!(
+        "{found}; structure '{}' has {expected} in another row: give each structure its own name",
+        known.name
+    );
+    Err(batch.value_error(row, column, problem))
 }
