@@ -2,14 +2,11 @@
 //! planes (Eqs. 14 to 18).
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Calibration, DemandFit, Predictors, fit_demand};
-use rockfrag_core::paper;
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::shared::fits::{by_score, text, warnings};
 use super::shared::motion_columns::MotionColumns;
@@ -37,9 +34,10 @@ pub struct FitPex {
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
           value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
     limit_state: Vec<f64>,
-    /// IM4 at which the planes meet: a number, or found (least residual)
-    #[arg(long, value_name = "IM4", default_value = "1.3")]
-    transition: Transition,
+    /// IM4 at which the planes meet; the column transition_found has that of the least residual
+    #[arg(long, value_name = "IM4", default_value = "1.3",
+          value_parser = number(1.0_f64.next_up()..=100.0, "an IM4 above 1, such as 1.3"))]
+    transition: f64,
     /// Lower bound on demands, as a solver of finite tolerance imposes
     #[arg(long, value_name = "DEMAND", default_value = "0",
           value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
@@ -59,32 +57,6 @@ pub struct FitPex {
     motions: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum Transition {
-    Found,
-    #[serde(untagged)]
-    At(f64),
-}
-
-impl FromStr for Transition {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Transition, String> {
-        match text.parse() {
-            Ok(im4) if im4 > 1.0 => Ok(Transition::At(im4)),
-            _ if text == "found" => Ok(Transition::Found),
-            _ => Err(format!("expected an IM4 above 1, such as {}, or found", paper::TRANSITION)),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Transition {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Transition, D::Error> {
-        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
-    }
-}
-
 impl Stage for FitPex {
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&self.input]), Read::new("motions", self.motions.iter())]
@@ -102,11 +74,10 @@ impl Stage for FitPex {
         let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;
         let mut groups = responses::read(&self.input, &columns)?;
         let bar = context.bar(groups.len());
-        let transition = if let Transition::At(im4) = self.transition { Some(im4) } else { None };
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, transition, self.confidence, &self.pairs, self.all));
+            fits.extend(fit_demand(cases, Some(self.transition), self.confidence, &self.pairs, self.all));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
             bar.advance(1)?;
