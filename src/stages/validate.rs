@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Case, Cases, Event, Model, MotionKind, Tau};
+use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::{Forecasts, ReliabilityBin, Validation};
-use rockfrag_core::warning::{Warning, Warnings};
+use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use super::shared::fits::text;
@@ -17,8 +18,6 @@ use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::Rule;
 use crate::pipeline::paths::{Read, part};
-use crate::table::keys::key_of;
-use crate::table::provenance::Provenance;
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -68,73 +67,56 @@ impl Stage for Validate {
             let kind = MotionKind::from_suite(cases.suite.as_deref());
             models.args.suite = self.fits.suite.or(Some(kind));
             let (model, warnings) = models.model(&cases.structure)?;
-            let warnings = warnings.into_iter().map(|warning| (warning, cases.structure.name.clone()));
-            context.warn(warnings.collect());
-            for event in EVENTS {
-                let (score, reliability, outside) = validate(cases, &model, event, self.fits.limit_state);
-                scores.extend(score);
-                bins.extend(reliability);
-                context.warn(outside);
+            let is_outside = |case: &Case| {
+                let warnings = model.warnings(&cases.structure, &case.measures);
+                case.outcome != Outcome::NoRocking && warnings.contains(&Warning::Extrapolated)
+            };
+            let outside = cases.all.iter().any(is_outside).then_some(Warning::Extrapolated);
+            let warnings = warnings.into_iter().chain(outside);
+            context.warn(warnings.map(|warning| (warning, cases.structure.name.clone())).collect());
+            let predicted: Vec<_> = cases.all.iter().map(|case| predict(&model, cases, case)).collect();
+            for (place, event) in EVENTS.into_iter().enumerate() {
+                let known = cases.all.iter().zip(&predicted).filter_map(|(case, p)| {
+                    let happened = event.happened(case.outcome, self.fits.limit_state)?;
+                    Some(((p[place]?, happened), case.cluster))
+                });
+                let (known, clusters): (Vec<_>, Vec<u32>) = known.unzip();
+                let (probabilities, happened): (Vec<f64>, Vec<bool>) = known.into_iter().unzip();
+                let forecasts = Forecasts {
+                    suite: cases.suite.as_deref(),
+                    structure: &cases.structure.name,
+                    event,
+                    model: word(&model),
+                    probabilities: &probabilities,
+                    happened: &happened,
+                    clusters: &clusters,
+                };
+                scores.extend(forecasts.validate());
+                bins.extend(forecasts.reliability());
             }
             bar.advance(1)?;
         }
         if scores.is_empty() {
             anyhow::bail!("{}: no structure rocks; expected responses with rocking", self.input.display());
         }
-        let summary = text(&scores, COLUMNS, &self.out)?
-            + if self.are_own()? { "These are the responses that were fitted.\n" } else { "" };
+        let summary = text(&scores, COLUMNS, &self.out)?;
         context.write::<ReliabilityBin>(&part(&self.out, "reliability"), &bins, &summary)?;
         context.write::<Validation>(&self.out, &scores, &summary)?;
         Ok(summary)
     }
 }
 
-impl Validate {
-    /// Whether the fits were made from these responses.
-    fn are_own(&self) -> anyhow::Result<bool> {
-        let Some(folder) = &self.fits.fits else { return Ok(false) };
-        let made = Provenance::read(&folder.join("pro.calibration.parquet"))?;
-        Ok(made.and_then(|made| made.input("in")) == Some(key_of(&self.input)?))
-    }
+/// The probabilities of the events given rocking.
+fn predict(model: &Model, Cases { structure, .. }: &Cases, case: &Case) -> [Option<f64>; 3] {
+    let given = model.probabilities(structure, &case.measures, case.mw, Tau::Averaged).given_rocking;
+    let of_events = given.map(|given| [Some(given.p_ro), given.p_ex, given.p_failure]);
+    of_events.unwrap_or_default().map(|p| p.map(|p| p.value))
 }
 
-/// Scores and reliability of one event; nothing of one without a case.
-fn validate(
-    cases: &Cases,
-    model: &Model,
-    event: Event,
-    limit_state: f64,
-) -> (Option<Validation>, Vec<ReliabilityBin>, Warnings) {
-    let (mut probabilities, mut happened, mut clusters) = (Vec::new(), Vec::new(), Vec::new());
-    let mut outside = false;
-    for Case { outcome, measures, mw, cluster, .. } in &cases.all {
-        let Some(has_happened) = event.happened(*outcome, limit_state) else { continue };
-        let predicted = model.probabilities(&cases.structure, measures, *mw, Tau::Averaged).given_rocking;
-        let p = predicted.and_then(|given| match event {
-            Event::Overturning => Some(given.p_ro),
-            Event::Exceeding => given.p_ex,
-            Event::Rocking | Event::Failure => given.p_failure,
-        });
-        let Some(p) = p else { continue };
-        outside |= model.warnings(&cases.structure, measures).contains(&Warning::Extrapolated);
-        probabilities.push(p.value);
-        happened.push(has_happened);
-        clusters.push(*cluster);
+fn word(model: &Model) -> &'static str {
+    match model {
+        Model::Surface { overturning, .. } if overturning.n == 0 => "surface",
+        Model::Surface { .. } => "calibrated",
+        Model::Paper { .. } => "paper",
     }
-    let forecasts = Forecasts {
-        suite: cases.suite.as_deref(),
-        structure: &cases.structure.name,
-        event,
-        model: match model {
-            Model::Surface { overturning, .. } if overturning.n == 0 => "surface",
-            Model::Surface { .. } => "calibrated",
-            Model::Paper { .. } => "paper",
-        },
-        probabilities: &probabilities,
-        happened: &happened,
-        clusters: &clusters,
-    };
-    let warning =
-        (outside && event == Event::Failure).then(|| (Warning::Extrapolated, cases.structure.name.clone()));
-    (forecasts.validate(), forecasts.reliability(), warning.into_iter().collect())
 }
