@@ -70,10 +70,10 @@ pub struct Ida {
     structures: StructureArgs,
 }
 
-/// What a stripe has besides the response: the intensity, and the share of those up to the next that
-/// overturn.
+/// A response at an intensity, and the share of those up to the next that overturn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct StripeRow {
+    response: ResponseRow,
     measure: ScaledMeasure,
     intensity: f64,
     scale: f64,
@@ -134,7 +134,7 @@ impl Stage for Ida {
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = motions::open(&self.input, None)?;
         let [stripes_file, fragility_file] = ["stripes", "fragility"].map(|name| part(&self.out, name));
-        let mut stripes = context.create(&stripes_file, &side_by_side(&[], &[])?.schema())?;
+        let mut stripes = context.create(&stripes_file, &rows::schema::<StripeRow>())?;
         let mut scanned = Vec::new();
         process_in_order(
             &context.bar(motions.rows()),
@@ -163,27 +163,27 @@ impl Stage for Ida {
 impl Ida {
     /// Scans each structure under each of some motions.
     fn analyse(&self, scan: &Scan, structures: &[&Structure], some: Sampled) -> anyhow::Result<Analysed> {
+        let measure = self.measure;
         let (mut cases, mut warned) = (Vec::new(), Warnings::default());
         for motion in &some.motions {
             let record = motion.record()?;
             let measures = Measures::new(motion, &record);
             warned.extend(warnings(motion, &record));
             for &structure in structures {
-                let unscaled = self.measure.unscaled(&measures, structure).ok_or_else(|| {
+                let unscaled = measure.unscaled(&measures, structure).ok_or_else(|| {
                     let problem = "above 0 to scale; leave the motion out, or take --measure scale";
-                    motion.value_error(&format!("no {} {problem}", self.measure))
+                    motion.value_error(&format!("no {measure} {problem}"))
                 })?;
                 cases.push(SingleRecordIda { motion, measures, structure, unscaled });
             }
         }
         let responses = scan.run(cases.len(), |points| respond(&cases, points))?;
-        let (mut rows, mut stripes, mut scanned) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut stripes, mut scanned) = (Vec::new(), Vec::new());
         for (SingleRecordIda { motion, measures, structure, unscaled, .. }, responses) in
             cases.iter().zip(&responses)
         {
-            let at_levels = responses
-                .iter()
-                .filter(|at| scan.levels.binary_search_by(|level| level.total_cmp(&at.intensity)).is_ok());
+            let is_level = |at: &&ScanResponse| scan.levels.contains(&at.intensity);
+            let at_levels = responses.iter().filter(is_level);
             let MotionRow { motion_id, suite, earthquake, mw, re_km, .. } = motion;
             let capacity = CapacityRow {
                 motion_id: motion_id.clone(),
@@ -192,22 +192,20 @@ impl Ida {
                 mw: *mw,
                 re_km: *re_km,
                 structure: structure.name.clone(),
-                measure: self.measure,
+                measure,
                 unscaled: *unscaled,
                 found: scan.capacity(responses),
             };
-            scanned.push(Scanned {
-                capacity,
-                overturns: at_levels.clone().map(ScanResponse::overturns).collect(),
-            });
+            let overturns = at_levels.clone().map(ScanResponse::overturns).collect();
+            scanned.push(Scanned { capacity, overturns });
             let shares = scan.overturning_shares(responses).into_iter().map(Some).chain([None]);
             for (&ScanResponse { intensity, response }, overturning_above) in at_levels.zip(shares) {
                 let scale = intensity / unscaled;
-                rows.push(measures.scaled(scale).response_row(motion, structure, response));
-                stripes.push(StripeRow { measure: self.measure, intensity, scale, overturning_above });
+                let response = measures.scaled(scale).response_row(motion, structure, response);
+                stripes.push(StripeRow { response, measure, intensity, scale, overturning_above });
             }
         }
-        Ok(Analysed { stripes: side_by_side(&rows, &stripes)?, scanned, warnings: warned })
+        Ok(Analysed { stripes: rows::batch(&stripes)?, scanned, warnings: warned })
     }
 
     /// The lognormal distribution of the capacities of a suite and structure.
@@ -269,11 +267,6 @@ impl ScaledMeasure {
         };
         value.filter(|&value| value > 0.0)
     }
-}
-
-/// Responses and what stripes have besides, side by side.
-fn side_by_side(responses: &[ResponseRow], stripes: &[StripeRow]) -> anyhow::Result<RecordBatch> {
-    rows::side_by_side(&[rows::batch(responses)?, rows::batch(stripes)?])
 }
 
 /// Simulates scaled copies of motions, as many at once as fit.
