@@ -12,7 +12,8 @@ use rockfrag_core::studies::comparison::{Comparison, compare};
 use serde::{Deserialize, Serialize};
 
 use super::default_options;
-use crate::number::{aligned, counted, fixed};
+use super::shared::fits::text;
+use crate::number::{counted, fixed};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
@@ -35,7 +36,7 @@ pub struct ComparePaper {
     /// Comparison to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "paper.parquet")]
     out: PathBuf,
-    /// Print every number, not only the planes of Table II and the worked example
+    /// Print every number, not only those that differ from those of this run
     #[arg(long)]
     #[serde(skip_serializing)]
     all: bool,
@@ -68,14 +69,16 @@ impl Stage for ComparePaper {
 
 impl ComparePaper {
     fn text(&self, verdict: &str, compared: &[Comparison]) -> anyhow::Result<String> {
+        let differs = |row: &&Comparison| row.z.is_some_and(|z| z.abs() >= AGREES);
         let rows = match self.all {
             true => frame::text(&frame::from_batch(&rows::batch(compared)?)?),
-            false => planes(compared) + &example(compared),
+            false => text(compared.iter().filter(differs), COLUMNS, &self.out)?,
         };
         Ok(verdict.to_string() + &rows)
     }
 }
 
+const COLUMNS: &str = "quantity place suite structure published ours z";
 /// Within this many standard deviations over seeds a published number agrees with that of the run.
 const AGREES: f64 = 2.0;
 
@@ -96,19 +99,14 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
     }
 }
 
-/// What structures of the paper's names have other parameters.
+/// Which of the paper's structures have no fits.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let differences =
-        paper::structures().into_iter().flat_map(|Structure { name, p_rad_s, alpha_rad, eta }| {
-            let Some(fit) = demand.iter().find(|fit| fit.structure == name) else {
-                return vec![format!("no fits of {name}")];
-            };
-            let parameters =
-                [("p", fit.p_rad_s, p_rad_s), ("alpha", fit.alpha_rad, alpha_rad), ("eta", fit.eta, eta)];
-            let other = parameters.into_iter().filter(|(_, now, then)| now != then);
-            other.map(|(parameter, now, then)| format!("{name} has {parameter} {now}, not {then}")).collect()
-        });
-    differences.collect()
+    let is_fitted = |Structure { name, p_rad_s, alpha_rad, eta }: &Structure| {
+        let mut its = demand.iter().filter(|fit| fit.structure == *name);
+        its.any(|fit| (fit.p_rad_s, fit.alpha_rad, fit.eta) == (*p_rad_s, *alpha_rad, *eta))
+    };
+    let others = paper::structures().into_iter().filter(|structure| !is_fitted(structure));
+    others.map(|structure| format!("no fits of its {}", structure.name)).collect()
 }
 
 /// Options that do not change what is compared.
@@ -153,24 +151,10 @@ pub fn table_two(compared: &[Comparison]) -> impl Iterator<Item = [String; 7]> {
     })
 }
 
-fn planes(compared: &[Comparison]) -> String {
-    let heading = ["Table II: published / this run (z)", "ln a", "b1", "b2", "R2"].map(str::to_string);
-    let mut lines = vec![heading.to_vec()];
-    lines
-        .extend(table_two(compared).map(|plane| [vec![plane[..3].join(", ")], plane[3..].to_vec()].concat()));
-    aligned(&lines, |_| false)
-}
-
 /// A number as published, of this run, and how far they are apart.
 fn both(row: &Comparison) -> String {
     let [published, ours] =
         [row.published, row.ours].map(|value| value.map_or("-".to_string(), |value| fixed(value, 2)));
     let z = row.z.map_or(String::new(), |z| format!(" ({z:+.1})"));
     format!("{published} / {ours}{z}")
-}
-
-fn example(compared: &[Comparison]) -> String {
-    let rows = compared.iter().filter(|row| row.quantity == "example_p_ro");
-    let rows: Vec<String> = rows.map(|row| format!("{} {}", row.structure, both(row))).collect();
-    format!("worked example, P_ro: {}\n", rows.join(", "))
 }
