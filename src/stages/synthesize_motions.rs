@@ -124,15 +124,14 @@ impl Stage for SynthesizeMotions {
         let idle: Mutex<Vec<Synthesizer>> = Mutex::default();
         let mut writer = context.create(&self.outputs()[0], &batch(&[], &plan)?.schema())?;
         let bar = context.bar(table.rows());
-        let scenarios = rows::stream::<Scenario>(&table)?.flat_map(|read| match read {
-            Ok(some) => together(&some, &model).map(Ok).collect(),
-            Err(error) => vec![Err(error.into())],
+        let scenarios = rows::stream::<Scenario>(&table)?.flat_map(|read| {
+            let parts = read.map_err(Into::into).and_then(|some| together(&some, &model));
+            parts.map_or_else(|error| vec![Err(error)], |parts| parts.into_iter().map(Ok).collect())
         });
         pipelined(
             scenarios,
             |some| {
                 bar.advance(some.len())?;
-                some.iter().try_for_each(|scenario| expect_short(&model, scenario))?;
                 let kept = idle.lock().ok().and_then(|mut idle| idle.pop());
                 let mut synthesizer = kept.unwrap_or_else(|| Synthesizer::new(model.clone(), suites));
                 let motions = some.iter().flat_map(|one| synthesize(one, suites, &plan, &mut synthesizer));
@@ -150,27 +149,17 @@ impl Stage for SynthesizeMotions {
 }
 
 /// Parts scenarios into those whose motions fit into memory together, some for each thread.
-fn together(some: &[Scenario], model: &MotionModel) -> impl Iterator<Item = Vec<Vec<Scenario>>> {
-    let (mut count, mut held) = (0, 0);
-    let fits_with_next = move |scenario: &Scenario, _: &Scenario| {
-        (count, held) = (count + 1, held + model.sample_count(scenario));
-        let fits = count < AT_ONCE && held < MOST_SAMPLES;
-        (count, held) = if fits { (count, held) } else { (0, 0) };
-        fits
-    };
-    some.chunk_by(fits_with_next).map(|some| some.chunks(CHUNK).map(<[_]>::to_vec).collect())
-}
-
-fn expect_short(model: &MotionModel, scenario: &Scenario) -> anyhow::Result<()> {
-    let samples = model.sample_count(scenario);
+fn together(some: &[Scenario], model: &MotionModel) -> anyhow::Result<Vec<Vec<Vec<Scenario>>>> {
+    let lengths = some.iter().map(|scenario| (model.sample_count(scenario), scenario.scenario_id));
+    let (longest, scenario) = lengths.max().unwrap_or_default();
     anyhow::ensure!(
-        samples <= LONGEST_MOTION,
-        "scenario {}: a motion of {} samples; expected {} at most: choose a larger --dt",
-        scenario.scenario_id,
-        count(samples),
+        longest <= LONGEST_MOTION,
+        "scenario {scenario}: a motion of {} samples; expected {} at most: choose a larger --dt",
+        count(longest),
         count(LONGEST_MOTION)
     );
-    Ok(())
+    let together = some.chunks((MOST_SAMPLES / longest.max(1)).min(AT_ONCE));
+    Ok(together.map(|some| some.chunks(CHUNK).map(<[_]>::to_vec).collect()).collect())
 }
 
 fn site(name: &Path) -> anyhow::Result<SiteAmplification> {
