@@ -1,9 +1,9 @@
 //! The options that select a model, the fits that they name, and the model of a structure.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 use clap::Args;
 use clap::ValueHint::DirPath;
 use rockfrag_core::fragility::{
@@ -157,11 +157,8 @@ impl Models {
         let (name, mut known) = (self.args.name.as_ref(), HashSet::new());
         let mut rows: Vec<&Calibration> = self.overturning.iter().collect();
         rows.retain(|row| name.is_none_or(|name| *name == row.structure) && known.insert(&row.structure));
-        match (rows.is_empty(), name) {
-            (false, _) => Ok(rows.into_iter().map(structure_of).collect()),
-            (true, Some(name)) => Err(self.not_fitted(name)),
-            (true, None) => Err(UsageError::because(self.problem("no fits of overturning; run fit-pro"))),
-        }
+        ensure!(!rows.is_empty(), self.not_fitted(name.map_or("", String::as_str)));
+        Ok(rows.into_iter().map(structure_of).collect())
     }
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
@@ -177,10 +174,7 @@ impl Models {
     }
 
     fn not_fitted(&self, name: &str) -> anyhow::Error {
-        let mut names: Vec<&str> = self.overturning.iter().map(|row| row.structure.as_str()).collect();
-        names.sort_unstable();
-        names.dedup();
-        let known = listed(&names, 8);
+        let known = distinct(self.overturning.iter().map(|row| row.structure.as_str()));
         let problem = format!("no structure like '{name}'; expected one of {known} by --name");
         UsageError::because(self.problem(&problem))
     }
@@ -214,11 +208,9 @@ impl Models {
         {
             return Ok(first);
         }
-        let mut suites: Vec<&str> = rows.iter().map(|row| row.suite.as_deref().unwrap_or("-")).collect();
-        suites.sort_unstable();
-        suites.dedup();
+        let suites = distinct(rows.iter().map(|row| row.suite.as_deref().unwrap_or("-")));
         let given = self.args.suite.map_or(String::new(), |kind| format!(" (it is {kind})"));
-        let problem = format!("fits of {}; expected --suite with one of them{given}", suites.join(", "));
+        let problem = format!("fits of {suites}; expected --suite with one of them{given}");
         Err(UsageError::because(self.problem(&problem)))
     }
 
@@ -232,19 +224,17 @@ impl Models {
         let is_beside = |row: &&Calibration| {
             row.group() == overturning.group() && row.ratio_given_pga == overturning.ratio_given_pga
         };
-        let mut fitted = Vec::new();
-        for row in self.exceeding.iter().filter(is_beside) {
-            match row.limit_state {
-                Some(other) if (other - limit_state).abs() <= 1e-9 * limit_state => return Ok(row.clone()),
-                other => fitted.extend(other),
-            }
-        }
-        fitted.push(limit_state);
-        bail!(self.problem(&format!(
-            "no P_ex of '{}' for this limit state and the responses of P_ro; run fit-pex --limit-state {}",
-            overturning.structure,
-            listed(&fitted, usize::MAX).replace(", ", ",")
-        )))
+        let is_asked = |row: &&Calibration| {
+            row.limit_state.is_some_and(|other| (other - limit_state).abs() <= 1e-9 * limit_state)
+        };
+        let row = self.exceeding.iter().filter(is_beside).find(is_asked).cloned();
+        row.with_context(|| {
+            self.problem(&format!(
+                "no P_ex of '{}' for this limit state and the responses of P_ro; run fit-pex --limit-state \
+                 {limit_state} on these",
+                overturning.structure
+            ))
+        })
     }
 
     /// The paper's curve of the hybrid measure of its worked example; where that has no fit, of IM5.
@@ -259,6 +249,11 @@ impl Models {
             self.problem(&problem)
         })
     }
+}
+
+/// Texts in their order, each once.
+fn distinct<'a>(texts: impl Iterator<Item = &'a str>) -> String {
+    listed(&texts.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>(), 8)
 }
 
 fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
