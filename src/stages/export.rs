@@ -117,9 +117,8 @@ impl Stage for Export {
         for (file, content) in files.iter().zip(contents) {
             context.write_file(file, content.as_bytes())?;
         }
-        let (file, number, over) = (number::path(&files[files.len() - 1]), model.functions.len(), self.over);
-        let most = model.functions.iter().map(|function| function.levels.len()).max().unwrap_or(0);
-        Ok(format!("{file}: {number} structure(s) over {over}, up to {most} levels each\n"))
+        let functions = number::counted(model.functions.len(), "structure");
+        Ok(format!("{}: {functions} over {}\n", number::path(&files[files.len() - 1]), self.over))
     }
 }
 

@@ -11,7 +11,6 @@ use rockfrag_core::object::Field;
 use serde::{Deserialize, Serialize};
 
 use super::shared::motions::process_in_order;
-use super::shared::objects::field;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
@@ -40,10 +39,10 @@ pub struct FloorMotions {
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "floor.parquet")]
     out: PathBuf,
     /// First period of the building, s
-    #[arg(long, value_name = "S", value_parser = field(Field::Period))]
+    #[arg(long, value_name = "S", value_parser = |text: &str| Field::Period.parse_value(text))]
     period: f64,
     /// Height of the floor over that of the roof, 0 to 1
-    #[arg(long, value_name = "Z", value_parser = field(Field::Level))]
+    #[arg(long, value_name = "Z", value_parser = |text: &str| Field::Level.parse_value(text))]
     level: f64,
     /// Damping ratio of the modes
     #[arg(long, value_name = "RATIO", default_value = "0.05",

@@ -27,8 +27,6 @@ pub struct Importer {
     pub reading: ReadOptions,
     pub processing: Processing,
     pub about: About,
-    /// Whether vertical components are imported too.
-    pub vertical: bool,
 }
 
 /// A file, or one in an archive.
@@ -160,7 +158,7 @@ impl Importer {
                 return Err(NotImported::LeftOut("borehole component"));
             }
             // A column that was chosen is imported.
-            if records::is_vertical(origin) && !self.vertical && self.reading.column.is_none() {
+            if records::is_vertical(origin) && self.reading.column.is_none() {
                 return Err(NotImported::LeftOut("vertical component"));
             }
             let samples = motion.acceleration_m_s2.len();

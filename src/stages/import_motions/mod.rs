@@ -91,9 +91,6 @@ pub struct ImportMotions {
     /// distance, earthquake), or PEER's search results or flatfile
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
     about: Option<PathBuf>,
-    /// Import vertical components too
-    #[arg(long)]
-    vertical: bool,
     /// Import physically implausible motions
     #[arg(long)]
     accept_implausible: bool,
@@ -126,7 +123,7 @@ impl Stage for ImportMotions {
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = context.plan.made.inputs.get("files").into_iter().flatten();
         let files = importer::named(files.map(|file| file.path.clone()).collect());
-        let mut importer = Importer { files, reading, processing, about, vertical: self.vertical };
+        let mut importer = Importer { files, reading, processing, about };
         let mut writer = context.create(&self.out, &batch(&[], &importer.processing.plan)?.schema())?;
         if let Some(path) = &self.about {
             let about = resolved(path);

@@ -56,7 +56,7 @@ impl Summary {
         let (is_empty, left_out) = (self.motions.is_empty(), self.left_out());
         if is_empty && self.refused.is_empty() {
             let found = if left_out.is_empty() { "no component" } else { &left_out };
-            bail!("{found}; expected horizontal ones at the surface (--vertical imports vertical ones)");
+            bail!("{found}; expected horizontal ones at the surface");
         }
         if is_empty || !self.refused.is_empty() && !keep_going {
             let others = if is_empty { "" } else { " (--keep-going imports the others)" };

@@ -17,11 +17,6 @@ use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
 
-/// Returns a parser of a number that may be known of an object.
-pub fn field(field: Field) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| field.parse_value(text)
-}
-
 /// Adds the fields of an object to the options of a stage.
 pub fn with_fields(stage: Command) -> Command {
     let has = |option: &str| stage.get_arguments().any(|arg| arg.get_id() == option);
@@ -35,7 +30,7 @@ pub fn with_fields(stage: Command) -> Command {
         Some(if of == Field::Eta {
             arg.value_parser(value_parser!(Restitution))
         } else {
-            arg.value_parser(field(of))
+            arg.value_parser(move |text: &str| of.parse_value(text))
         })
     }))
 }
