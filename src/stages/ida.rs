@@ -1,7 +1,7 @@
 //! ida: every structure under every motion at rising intensity.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
 use clap::Args;
@@ -9,8 +9,7 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
 use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
-    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
-    simulate_all,
+    CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
 };
 use rockfrag_core::statistics::FitStatus;
 use rockfrag_core::units::G_M_S2;
@@ -36,6 +35,10 @@ const MOTIONS: usize = 8;
 const ANALYSES: usize = 480;
 /// Scaled samples that are held at once, or those of one motion.
 const MOST_SAMPLES: usize = 1 << 20;
+
+/// What is printed of each structure.
+const COLUMNS: &str =
+    "suite structure measure n n_safe n_below half_overturn_at theta theta_low theta_high beta";
 
 /// Scale motions until they overturn each structure (incremental dynamic analysis)
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -80,21 +83,18 @@ struct StripeRow {
     overturning_above: Option<f64>,
 }
 
-/// What came of some motions.
 struct Analysed {
     stripes: RecordBatch,
     scanned: Vec<Scanned>,
     warnings: Warnings,
 }
 
-/// What came of a structure under a motion.
 struct Scanned {
     capacity: CapacityRow,
     /// Whether the structure overturns at each level.
     overturns: Vec<bool>,
 }
 
-/// A structure under a motion.
 struct SingleRecordIda<'a> {
     motion: &'a MotionRow,
     measures: Measures,
@@ -151,7 +151,10 @@ impl Stage for Ida {
         let groups = groups.iter().map(|rows| rows.iter().map(|&row| &scanned[row]).collect::<Vec<_>>());
         let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));
-        let summary = summary(&fits, &fragility_file)?;
+        let mut weakest_first: Vec<&CapacityFitRow> = fits.iter().collect();
+        let half = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
+        weakest_first.sort_by(|a, b| half(a).total_cmp(&half(b)));
+        let summary = text(weakest_first, COLUMNS, &fragility_file)?;
         let capacities: Vec<CapacityRow> = scanned.into_iter().map(|case| case.capacity).collect();
         context.finish(stripes, &summary)?;
         context.write(&fragility_file, &fits, &summary)?;
@@ -208,13 +211,11 @@ impl Ida {
         Ok(Analysed { stripes: rows::batch(&stripes)?, scanned, warnings: warned })
     }
 
-    /// The lognormal distribution of the capacities of a suite and structure.
     fn fit(&self, levels: &[f64], cases: &[&Scanned]) -> CapacityFitRow {
-        let known = cases.iter().map(|case| match case.capacity.found {
-            Capacity { status: CapacityStatus::Overturns, overturning: Some(at), .. } => {
-                KnownCapacity::At(at)
-            }
-            Capacity { status: CapacityStatus::Below, .. } => KnownCapacity::Below(self.from),
+        let found = cases.iter().map(|case| &case.capacity.found);
+        let known = found.clone().map(|found| match (found.status, found.overturning) {
+            (CapacityStatus::Overturns, Some(at)) => KnownCapacity::At(at),
+            (CapacityStatus::Below, _) => KnownCapacity::Below(self.from),
             _ => KnownCapacity::Above(self.to),
         });
         // Clusters as in fits: by earthquake, else by magnitude and distance; what shares nothing is its own.
@@ -225,7 +226,7 @@ impl Ida {
         });
         let fit = fit_capacities(&known.collect::<Vec<_>>(), &clusters.collect::<Vec<_>>());
         let [n_safe, n_below] = [CapacityStatus::Safe, CapacityStatus::Below]
-            .map(|status| cases.iter().filter(|case| case.capacity.found.status == status).count() as i64);
+            .map(|status| found.clone().filter(|found| found.status == status).count() as i64);
         let first = &cases[0].capacity;
         CapacityFitRow {
             suite: first.suite.clone(),
@@ -298,17 +299,4 @@ fn ends_early(fits: &[CapacityFitRow]) -> Warnings {
     let late = fits.iter().filter(|row| 2 * row.n_below >= row.n);
     let early = early.map(|row| (Warning::ScanEndsEarly, row.structure.clone()));
     early.chain(late.map(|row| (Warning::ScanStartsLate, row.structure.clone()))).collect()
-}
-
-/// Where half of the motions overturn each structure, the weakest first, and the distribution of the lowest
-/// intensities that do.
-fn summary(fits: &[CapacityFitRow], out: &Path) -> anyhow::Result<String> {
-    let mut fits: Vec<&CapacityFitRow> = fits.iter().collect();
-    let found_at = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
-    fits.sort_by(|a, b| found_at(a).total_cmp(&found_at(b)));
-    text(
-        fits,
-        "suite structure measure n n_safe n_below half_overturn_at theta theta_low theta_high beta",
-        out,
-    )
 }

@@ -115,7 +115,17 @@ impl Stage for ImportMotions {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let processing = self.processing();
+        let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
+        let processing = Processing {
+            baseline: self.baseline,
+            high_pass_hz: self.high_pass,
+            resample_s: self.resample,
+            direction: self.rotate,
+            factors: self.scale.as_ref().map_or(vec![1.0], |steps| steps.0.clone()),
+            pulses: self.pulses,
+            accept_implausible: self.accept_implausible,
+            plan: MeasurePlan { housner: self.housner, sa_periods_s },
+        };
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
         let about = about.map_err(|error| UsageError::because(error.to_string()))?;
         context.warn(about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone())).collect());
@@ -170,20 +180,4 @@ fn warnings(motion: &ImportedMotion) -> impl Iterator<Item = (Warning, String)> 
 fn batch(some: &[ImportedMotion], plan: &MeasurePlan) -> anyhow::Result<RecordBatch> {
     let sampled = some.iter().map(|motion| (&motion.measures, motion.acceleration_m_s2.as_slice()));
     motions::batch(&[rows::batch(some)?], &plan.sa_periods_s, sampled)
-}
-
-impl ImportMotions {
-    fn processing(&self) -> Processing {
-        let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
-        Processing {
-            baseline: self.baseline,
-            high_pass_hz: self.high_pass,
-            resample_s: self.resample,
-            direction: self.rotate,
-            factors: self.scale.as_ref().map_or(vec![1.0], |steps| steps.0.clone()),
-            pulses: self.pulses,
-            accept_implausible: self.accept_implausible,
-            plan: MeasurePlan { housner: self.housner, sa_periods_s },
-        }
-    }
 }

@@ -25,7 +25,6 @@ pub struct Summary {
     motions: Vec<ImportedMotion>,
     /// How many components of each kind were left out.
     left_out: BTreeMap<&'static str, usize>,
-    /// What is wrong with others.
     pub refused: Vec<String>,
 }
 

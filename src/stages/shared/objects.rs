@@ -37,10 +37,6 @@ pub fn with_fields(stage: Command) -> Command {
 
 const PAPER: &str = "paper";
 
-fn is_paper(list: &Path) -> bool {
-    list == Path::new(PAPER)
-}
-
 #[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(next_help_heading = "Structure")]
@@ -120,14 +116,15 @@ impl StructureArgs {
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
     /// nothing of them.
     pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
+        let is_paper = self.structures.as_deref() == Some(Path::new(PAPER));
         let (mut all, unused) = match &self.structures {
-            Some(list) if !is_paper(list) => {
+            Some(list) if !is_paper => {
                 let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };
                 objects::read(list, renames, &defaults)?
             }
             _ => (self.structure.clone(), Warnings::default()),
         };
-        if self.structures.as_deref().is_some_and(is_paper) {
+        if is_paper {
             let paper = paper::structures().into_iter();
             all.extend(paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))));
         }
@@ -155,7 +152,6 @@ pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
     Ok(structures)
 }
 
-/// Makes an error of why there is no answer for an object.
 pub fn named(object: &Object, reason: &impl std::fmt::Display) -> anyhow::Error {
     UsageError::because(match object.name.as_str() {
         UNNAMED => reason.to_string(),
