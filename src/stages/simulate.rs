@@ -183,7 +183,6 @@ impl Simulate {
     }
 }
 
-/// The response of a structure over time to a motion, and the motion.
 fn trace_rows(motion: &MotionRow, record: &Record, structure: &Structure) -> Vec<TraceRow> {
     let points = trace(structure, record, TRACE_TAIL_S).1;
     let ground = record.ground_at(points.iter().map(|point| point.time_s));

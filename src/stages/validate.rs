@@ -106,7 +106,6 @@ impl Stage for Validate {
     }
 }
 
-/// The probabilities of the events given rocking.
 fn predict(model: &Model, Cases { structure, .. }: &Cases, case: &Case) -> [Option<f64>; 3] {
     let given = model.probabilities(structure, &case.measures, case.mw, Tau::Averaged).given_rocking;
     let of_events = given.map(|given| [Some(given.p_ro), given.p_ex, given.p_failure]);

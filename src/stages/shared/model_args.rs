@@ -29,9 +29,7 @@ use crate::table::rows::{self, Row};
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<ModelName>)]
 pub enum ModelName {
-    /// The universal surface, calibrated where there are fits.
     Calibrated,
-    /// The two planes and the lognormal curve of the paper.
     Paper,
 }
 
@@ -251,7 +249,6 @@ impl Models {
     }
 }
 
-/// Texts in their order, each once.
 fn distinct<'a>(texts: impl Iterator<Item = &'a str>) -> String {
     listed(&texts.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>(), 8)
 }

@@ -79,7 +79,6 @@ impl Measures {
         IntensityMeasures::new(structure, self.peaks, self.tp_s, self.tm_s)
     }
 
-    /// The row of the response of a structure to the motion.
     pub fn response_row(&self, motion: &MotionRow, structure: &Structure, response: Response) -> ResponseRow {
         ResponseRow {
             motion_id: motion.motion_id.clone(),
