@@ -145,11 +145,11 @@ fn an_option_stated_at_its_default_changes_nothing() {
 fn options_of_what_is_printed_change_no_table() {
     let folder = small_run();
     let compare = "compare-paper --pex out/pex.parquet --pro out/pro.parquet --out out/paper.parquet";
-    let (table_two, _) = succeed(folder.path(), compare);
+    let (differing, _) = succeed(folder.path(), compare);
     let (all, told) = succeed(folder.path(), &format!("{compare} --all"));
-    assert!(told.contains("up to date") && all.lines().count() > table_two.lines().count(), "{told}");
+    assert!(told.contains("up to date") && all.lines().count() > differing.lines().count(), "{told}");
     assert_eq!(all, succeed(folder.path(), &format!("{compare} --all --force")).0);
-    assert_eq!(succeed(folder.path(), compare).0, table_two);
+    assert_eq!(succeed(folder.path(), compare).0, differing);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The files of a call: which are read, in which pairs, and what is done to each.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -45,19 +45,15 @@ pub enum Work {
     Pair([(File, usize); 2]),
 }
 
-/// Names files without their ending where no other has the same, else with it (K-NET tells components by the
-/// ending), else by their path.
+/// Names files without their ending where no other has the same (K-NET tells components by the ending), else
+/// by their path.
 pub fn named(paths: Vec<PathBuf>) -> Vec<File> {
     let mut counts: HashMap<String, usize> = HashMap::new();
-    for path in &paths {
-        let both: HashSet<String> = [path.file_stem(), path.file_name()].map(text).into();
-        both.into_iter().for_each(|name| *counts.entry(name).or_insert(0) += 1);
-    }
+    paths.iter().for_each(|path| *counts.entry(text(path.file_stem())).or_default() += 1);
     let below = names_below(&paths);
     let files = paths.into_iter().zip(below).map(|(path, below)| {
-        let names = [path.file_stem(), path.file_name()].map(text);
-        let unique = names.into_iter().find(|name| counts.get(name) == Some(&1));
-        File { name: unique.unwrap_or(below.clone()), below, path }
+        let stem = text(path.file_stem());
+        File { name: if counts[&stem] == 1 { stem } else { below.clone() }, below, path }
     });
     files.collect()
 }
