@@ -19,7 +19,6 @@ pub const PERCENT: Style = Style { number: in_percent, unit: " %" };
 pub const OF_HUNDRED: Style = Style { number: in_percent, unit: "" };
 pub const RATE: Style = Style { number: rate, unit: "" };
 pub const TWO_DIGITS: Style = Style { number: |value| significant(value, 2), unit: "" };
-pub const THREE_DIGITS: Style = Style { number: |value| significant(value, 3), unit: "" };
 
 fn in_percent(p: f64) -> String {
     match 100.0 * p {
