@@ -41,7 +41,7 @@ pub struct Function {
 
 /// Makes an id for each name, without the signs that have a meaning in these programs: names that are told
 /// apart by these alone get numbers.
-pub fn distinct_ids(names: &[&str]) -> Vec<String> {
+pub fn distinct_ids<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut ids: Vec<String> = Vec::new();
     for name in names {
         let id = format!("rockfrag_{}", name.replace(|sign: char| !sign.is_ascii_alphanumeric(), "_"));

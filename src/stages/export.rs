@@ -89,8 +89,7 @@ impl Stage for Export {
         let models = self.model.read()?;
         let (objects, unused) = self.objects()?;
         context.warn(unused);
-        let names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
-        let ids = distinct_ids(&names);
+        let ids = distinct_ids(objects.iter().map(|object| object.name.as_str()));
         let bar = context.bar(objects.len());
         let functions = objects.iter().zip(&ids).map(|(object, id)| {
             bar.advance(1)?;

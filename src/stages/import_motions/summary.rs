@@ -6,11 +6,8 @@ use anyhow::bail;
 use rockfrag_core::records::processing::ImportedMotion;
 use rockfrag_core::units::G_M_S2;
 
-use crate::number::{count, counted, fixed, listed};
+use crate::number::{count, counted, fixed};
 use crate::pipeline::options::SeveralErrors;
-
-/// Kinds of files that the summary names.
-const NAMED: usize = 10;
 
 /// Why a component is not imported: what it is, or in words what is wrong with it.
 pub enum NotImported {
@@ -79,7 +76,7 @@ impl Summary {
         format!(
             "{} ({}), {} with a pulse, {} with a magnitude{left_out}\nPGA {} g, PGV {} m/s\n",
             counted(self.motions.len(), "motion"),
-            listed(&kinds, NAMED),
+            kinds.join(", "),
             count(self.motions.iter().filter(|motion| motion.pulse.tp_s.is_some()).count()),
             count(self.motions.iter().filter(|motion| motion.origin.mw.is_some()).count()),
             range(self.motions.iter().map(|motion| motion.measures.pga_m_s2 / G_M_S2)),

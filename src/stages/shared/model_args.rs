@@ -207,8 +207,7 @@ impl Models {
             return Ok(first);
         }
         let suites = distinct(rows.iter().map(|row| row.suite.as_deref().unwrap_or("-")));
-        let given = self.args.suite.map_or(String::new(), |kind| format!(" (it is {kind})"));
-        let problem = format!("fits of {suites}; expected --suite with one of them{given}");
+        let problem = format!("fits of {suites}; expected --suite with one of them");
         Err(UsageError::because(self.problem(&problem)))
     }
 
