@@ -26,8 +26,7 @@ impl Batch {
     /// Returns the numbers of a column, each in the range of its quantity; `None` for null, for NaN, which
     /// some programs write for null, and if the column is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, TableError> {
-        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
-        let numbers = numbers(column).ok_or_else(|| self.other_type(name, column, "a number"))?;
+        let numbers = self.column(name, numbers, "a number")?;
         let (range, expected) = range_of_column(name);
         let outside = |(_, number): &(usize, &Option<f64>)| number.is_some_and(|one| !range.contains(&one));
         if let Some((row, Some(found))) = numbers.iter().enumerate().find(outside) {
@@ -42,8 +41,7 @@ impl Batch {
 
     /// Returns the integers of a column, `None` for null and if the column is missing.
     pub fn counts<T: TryFrom<i128> + Clone>(&self, name: &str) -> Result<Vec<Option<T>>, TableError> {
-        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
-        let whole = integers(column).ok_or_else(|| self.other_type(name, column, "whole numbers"))?;
+        let whole = self.column(name, integers, "whole numbers")?;
         let counts = whole.iter().enumerate().map(|(row, number)| {
             number.map(T::try_from).transpose().map_err(|_| {
                 let found = number.unwrap_or_default();
@@ -55,12 +53,7 @@ impl Batch {
 
     /// Returns the texts of a column (integers as texts), `None` for null and if the column is missing.
     pub fn texts(&self, name: &str) -> Result<Vec<Option<Cow<'_, str>>>, TableError> {
-        let Some(column) = self.rows.column_by_name(name) else { return Ok(self.missing()) };
-        if let Some(texts) = column.as_string_opt::<i32>() {
-            return Ok(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
-        }
-        let whole = integers(column).ok_or_else(|| self.other_type(name, column, "text"))?;
-        Ok(whole.into_iter().map(|number| Some(Cow::Owned(number?.to_string()))).collect())
+        self.column(name, texts, "text")
     }
 
     pub fn required_texts(&self, name: &str) -> Result<Vec<Cow<'_, str>>, TableError> {
@@ -115,8 +108,16 @@ impl Batch {
         known.map(|(row, value)| value.ok_or_else(|| self.null_error(row, name))).collect()
     }
 
-    fn missing<T: Clone>(&self) -> Vec<Option<T>> {
-        vec![None; self.rows.num_rows()]
+    fn column<'a, T: Clone>(
+        &'a self,
+        name: &str,
+        read: fn(&'a ArrayRef) -> Option<Vec<Option<T>>>,
+        expected: &str,
+    ) -> Result<Vec<Option<T>>, TableError> {
+        match self.rows.column_by_name(name) {
+            Some(column) => read(column).ok_or_else(|| self.other_type(name, column, expected)),
+            None => Ok(vec![None; self.rows.num_rows()]),
+        }
     }
 
     pub fn null_error(&self, row: usize, column: &str) -> TableError {
@@ -150,6 +151,14 @@ pub fn numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
 
 fn known<T: ArrowPrimitiveType<Native: Into<f64>>>(column: &PrimitiveArray<T>) -> Vec<Option<f64>> {
     column.iter().map(|value| value.map(Into::into).filter(|value: &f64| !value.is_nan())).collect()
+}
+
+/// Returns a column of texts, or of integers as texts; `None` for other types.
+pub fn texts(column: &ArrayRef) -> Option<Vec<Option<Cow<'_, str>>>> {
+    if let Some(texts) = column.as_string_opt::<i32>() {
+        return Some(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
+    }
+    Some(integers(column)?.into_iter().map(|number| Some(Cow::Owned(number?.to_string()))).collect())
 }
 
 /// Returns a column of integers of any size; `None` for other types.

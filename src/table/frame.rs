@@ -9,7 +9,7 @@ use polars_ops::prelude::{DataFrameJoinOps, JoinArgs, JoinType, MaintainOrderJoi
 use rockfrag_core::fragility::Group;
 use rockfrag_core::spelling::unknown_word;
 
-use super::columns::{integers, numbers};
+use super::columns::{integers, numbers, texts};
 use super::file::ParquetTable;
 use crate::number::{aligned, fixed, significant};
 use crate::source::guarded;
@@ -27,20 +27,14 @@ pub enum Format {
 
 /// Reads a table; a list is shown by its length.
 pub fn read(table: &ParquetTable) -> anyhow::Result<DataFrame> {
-    let mut whole = from_batch(&RecordBatch::new_empty(table.schema().clone()))?;
+    let mut whole = DataFrame::default();
     for batch in table.batches(|_| true) {
-        append(&mut whole, from_batch(&batch?.rows)?)?;
+        whole.vstack_mut_owned(from_batch(&batch?.rows)?)?;
+    }
+    if whole.width() == 0 {
+        whole = from_batch(&RecordBatch::new_empty(table.schema().clone()))?;
     }
     Ok(whole)
-}
-
-/// Appends rows to a frame, to an empty one of any columns.
-pub fn append(whole: &mut DataFrame, rows: DataFrame) -> PolarsResult<()> {
-    if whole.height() == 0 {
-        *whole = rows;
-        return Ok(());
-    }
-    whole.vstack_mut_owned(rows).map(drop)
 }
 
 pub fn from_batch(rows: &RecordBatch) -> PolarsResult<DataFrame> {
@@ -75,19 +69,15 @@ fn with_threads<T>(call: impl FnOnce() -> PolarsResult<T>) -> anyhow::Result<T> 
 
 fn column(name: &str, array: &ArrayRef) -> Column {
     let name = name.into();
-    if let Some(texts) = array.as_string_opt::<i32>() {
-        Column::new(name, texts.iter().collect::<Vec<_>>())
-    } else if let Some(flags) = array.as_boolean_opt() {
+    let count = |value: &Option<i128>| value.map(i64::try_from).transpose().ok();
+    let counts = |whole: Vec<Option<i128>>| whole.iter().map(count).collect::<Option<Vec<_>>>();
+    if let Some(flags) = array.as_boolean_opt() {
         Column::new(name, flags.iter().collect::<Vec<_>>())
-    } else if let Some(whole) = integers(array) {
-        match whole.iter().map(|value| value.map(i64::try_from).transpose()).collect::<Result<Vec<_>, _>>() {
-            Ok(counts) => Column::new(name, counts),
-            // Names such as hashes.
-            Err(_) => {
-                let names = whole.iter().map(|value| value.map(|value| value.to_string()));
-                Column::new(name, names.collect::<Vec<_>>())
-            }
-        }
+    } else if let Some(counts) = integers(array).and_then(counts) {
+        Column::new(name, counts)
+    } else if let Some(texts) = texts(array) {
+        // Names, or integers as large as hashes.
+        Column::new(name, texts)
     } else if let Some(values) = numbers(array) {
         let finite = values.into_iter().map(|value| value.filter(|value| value.is_finite()));
         Column::new(name, finite.collect::<Vec<_>>())
@@ -117,15 +107,18 @@ pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
 
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.
 pub fn text(frame: &DataFrame) -> String {
-    let cell = |column: &Column, row| match column.get(row) {
-        Ok(AnyValue::Int64(count)) => fixed(count as f64, 0),
-        Ok(AnyValue::Float64(number)) => significant(number, 4),
-        Ok(AnyValue::Null) | Err(_) => "-".to_string(),
-        Ok(other) => other.str_value().into_owned(),
-    };
-    let names = frame.get_column_names().into_iter().map(|name| name.to_string());
-    let rows =
-        (0..frame.height()).map(|row| frame.columns().iter().map(|column| cell(column, row)).collect());
-    let lines: Vec<Vec<String>> = std::iter::once(names.collect()).chain(rows).collect();
+    let lines = cells(frame, |value| match value {
+        AnyValue::Int64(count) => fixed(count as f64, 0),
+        AnyValue::Float64(number) => significant(number, 4),
+        AnyValue::Null => "-".to_string(),
+        other => other.str_value().into_owned(),
+    });
     aligned(&lines, |column| frame.columns()[column].dtype() != &DataType::String)
+}
+
+/// The names of columns, and the rows below them.
+pub fn cells(frame: &DataFrame, cell: impl Fn(AnyValue) -> String) -> Vec<Vec<String>> {
+    let names = frame.columns().iter().map(|column| column.name().to_string()).collect();
+    let rows = (0..frame.height()).flat_map(|row| frame.get_row(row));
+    std::iter::once(names).chain(rows.map(|row| row.0.into_iter().map(&cell).collect())).collect()
 }

@@ -375,7 +375,7 @@ fn warn(answers: &[Answer], context: &Context) {
 fn framed(rows: &[RecordBatch]) -> anyhow::Result<DataFrame> {
     let mut whole = DataFrame::default();
     for rows in rows {
-        frame::append(&mut whole, frame::from_batch(rows)?)?;
+        whole.vstack_mut_owned(frame::from_batch(rows)?)?;
     }
     Ok(whole)
 }

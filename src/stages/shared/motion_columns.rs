@@ -81,7 +81,7 @@ impl MotionColumns {
                 let values = batch.numbers(name)?.into_iter().map(|value| value.unwrap_or(f64::NAN));
                 columns.push(Column::new(name.into(), values.collect::<Vec<_>>()));
             }
-            frame::append(&mut read.motions, DataFrame::new(batch.rows.num_rows(), columns)?)?;
+            read.motions.vstack_mut_owned(DataFrame::new(batch.rows.num_rows(), columns)?)?;
         }
         if read.motions.height() == 0 {
             return Err(TableError::table(path, "no motions; expected at least one").into());
