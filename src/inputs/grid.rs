@@ -56,13 +56,21 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            return Grid::new(rows_of_sheet(&workbook::cells(&bytes, sheet)?), None);
+            let sheet = workbook::cells(&bytes, sheet)?;
+            let first = sheet.start().map_or(1, |(row, _)| row as usize + 1);
+            return Grid::new(rows_of_cells(first, sheet.rows()), None);
         }
         let text = decode(&bytes)?;
         let lines: Vec<&str> =
             text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a', '\0'])).collect();
         let separator = separator(&lines);
         Grid::new(rows_of_text(&lines, separator)?, Some(separator))
+    }
+
+    /// Takes a table whose cells have points for decimals, as those of a workbook.
+    pub fn from_cells(rows: &[Vec<String>]) -> Result<Grid> {
+        expect_few_cells(rows.iter().map(Vec::len).sum())?;
+        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), None)
     }
 
     /// Parts headings, units and comments from rows. No `separator` stands between cells of a workbook.
@@ -214,9 +222,8 @@ fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>> {
     Ok(rows.collect())
 }
 
-fn rows_of_sheet(sheet: &calamine::Range<String>) -> Vec<RawRow> {
-    let first = sheet.start().map_or(1, |(row, _)| row as usize + 1);
-    let rows = (first..).zip(sheet.rows()).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+fn rows_of_cells<'a>(first: usize, rows: impl Iterator<Item = &'a [String]>) -> Vec<RawRow> {
+    let rows = (first..).zip(rows).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
     rows.map(|(line, cells)| RawRow { line, is_comment: false, cells: cells.iter().collect() }).collect()
 }
 

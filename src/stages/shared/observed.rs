@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Context, bail};
+use polars_core::prelude::AnyValue;
 use rockfrag_core::fragility::ObservedOutcome;
 use rockfrag_core::object::structure_warnings;
 use rockfrag_core::warning::{Warning, Warnings};
@@ -13,7 +14,7 @@ use crate::inputs::objects::{self, ListDefaults};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
 use crate::table::file::{ParquetTable, is_table};
-use crate::table::frame::{self, Format};
+use crate::table::frame;
 
 /// Whether a file holds outcomes, not responses, which have demands.
 pub fn is_list(path: &Path) -> anyhow::Result<bool> {
@@ -28,12 +29,17 @@ fn is_text(path: &Path) -> bool {
 pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let grid = match is_text(path) {
         true => Grid::read(path),
-        false => {
-            let text = frame::show(&frame::read(&ParquetTable::open(path)?)?, Format::Csv)?;
-            Grid::parse(text.as_bytes(), None)
-        }
+        false => Grid::from_cells(&frame::cells(&frame::read(&ParquetTable::open(path)?)?, in_full)),
     };
     grid.map_err(Into::into).and_then(|grid| outcomes(&grid)).with_context(|| path.display().to_string())
+}
+
+fn in_full(value: AnyValue) -> String {
+    match value {
+        AnyValue::Null => String::new(),
+        AnyValue::Float64(number) => number.to_string(),
+        other => other.str_value().into_owned(),
+    }
 }
 
 fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
