@@ -1,11 +1,10 @@
 //! Structs as rows of a table: the struct is the schema, the dictionary has unit and meaning.
 
 use std::any::TypeId;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use arrow_array::cast::AsArray;
 use arrow_array::{
     Array, ArrayRef, Float64Array, Int32Array, Int64Array, RecordBatch, StringArray, StructArray,
     new_null_array,
@@ -32,7 +31,7 @@ type Layout = (Vec<FieldRef>, SchemaRef);
 
 /// Returns the layout of a row, which is found once: that takes as long as some motions.
 fn layout<R: Row>() -> Layout {
-    static KNOWN: LazyLock<Mutex<HashMap<TypeId, Layout>>> = LazyLock::new(Mutex::default);
+    static KNOWN: Mutex<BTreeMap<TypeId, Layout>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     known.entry(TypeId::of::<R>()).or_insert_with(find_layout::<R>).clone()
 }
@@ -44,10 +43,11 @@ fn find_layout<R: Row>() -> Layout {
         .enums_without_data_as_strings(true);
     let fields = Vec::<FieldRef>::from_type::<R>(options).expect("rows are flat structs");
     let fields: Vec<FieldRef> = fields.iter().map(with_texts).collect();
-    let columns = fields.iter().flat_map(columns);
-    let columns = columns.map(|column| dictionary::with_meaning(column.as_ref().clone()));
-    let schema = Schema::new(columns.collect::<Vec<_>>());
-    (fields, Arc::new(schema))
+    let flat = RecordBatch::new_empty(Arc::new(Schema::new(fields.clone()))).normalize(".", None);
+    let schema = flat.expect("structs are flattened").schema();
+    let named = |field: &FieldRef| field.as_ref().clone().with_name(column_name(field.name()));
+    let columns = schema.fields().iter().map(|field| dictionary::with_meaning(named(field)));
+    (fields, Arc::new(Schema::new(columns.collect::<Vec<_>>())))
 }
 
 /// Takes the words of enums for texts.
@@ -60,18 +60,16 @@ fn with_texts(field: &FieldRef) -> FieldRef {
     Arc::new(field.as_ref().clone().with_data_type(data_type))
 }
 
-fn columns(field: &FieldRef) -> Vec<FieldRef> {
-    let DataType::Struct(parts) = field.data_type() else { return vec![field.clone()] };
-    let columns = parts.iter().flat_map(|part| {
-        let name = match part.name().as_str() {
-            "value" => field.name().clone(),
-            limit @ ("low" | "high") => format!("{}_{limit}", field.name()),
-            end if end.starts_with('_') => format!("{}{end}", field.name()),
-            other => other.to_string(),
-        };
-        columns(&Arc::new(part.as_ref().clone().with_name(name)))
+/// The name of a column by the fields that lead to it, with points between.
+fn column_name(fields: &str) -> String {
+    let parts = fields.split('.').map(str::to_string);
+    let name = parts.reduce(|outer, part| match part.as_str() {
+        "value" => outer,
+        "low" | "high" => format!("{outer}_{part}"),
+        _ if part.starts_with('_') => outer + &part,
+        _ => part,
     });
-    columns.collect()
+    name.unwrap_or_default()
 }
 
 /// Returns the schema of a row, with unit and meaning.
@@ -82,15 +80,8 @@ pub fn schema<R: Row>() -> SchemaRef {
 pub fn batch<'a, R: Row + 'a>(rows: impl IntoIterator<Item = &'a R>) -> anyhow::Result<RecordBatch> {
     let rows: Vec<&R> = rows.into_iter().collect();
     let (fields, schema) = layout::<R>();
-    let arrays = serde_arrow::to_arrow(&fields, &rows)?;
-    Ok(RecordBatch::try_new(schema, arrays.iter().flat_map(taken_apart).collect())?)
-}
-
-fn taken_apart(array: &ArrayRef) -> Vec<ArrayRef> {
-    match array.as_struct_opt() {
-        Some(parts) => parts.columns().iter().flat_map(taken_apart).collect(),
-        None => vec![array.clone()],
-    }
+    let flat = serde_arrow::to_record_batch(&fields, &rows)?.normalize(".", None)?;
+    Ok(RecordBatch::try_new(schema, flat.columns().to_vec())?)
 }
 
 fn put_together(field: &FieldRef, columns: &mut impl Iterator<Item = ArrayRef>) -> ArrayRef {
