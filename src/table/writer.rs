@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
-use arrow_schema::{DataType, Field, SchemaRef};
+use arrow_schema::{DataType, SchemaRef};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding, ZstdLevel};
 use parquet::file::metadata::KeyValue;
@@ -210,38 +210,31 @@ fn remove_strays(target: &Path) {
     }
 }
 
-/// Returns the name of the items of a column of samples.
-fn samples(field: &Field) -> Option<&str> {
-    match field.data_type() {
-        DataType::List(item) if item.data_type() == &DataType::Float32 => Some(item.name()),
-        _ => None,
-    }
-}
-
 /// Returns the compression of the columns: no dictionary of numbers, which rarely repeat; samples split by
 /// bytes.
 fn properties(schema: &SchemaRef) -> WriterProperties {
     let zstd = Compression::ZSTD(ZstdLevel::try_new(1).unwrap_or_default());
-    let has_samples = schema.fields().iter().any(|field| samples(field).is_some());
     let mut properties = WriterProperties::builder()
         .set_created_by(CREATED_BY.to_string())
         .set_compression(zstd)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true)
         .set_max_row_group_bytes(Some(MOST_BYTES_IN_GROUP))
-        .set_max_row_group_row_count(Some(if has_samples { MOTIONS_IN_GROUP } else { ROWS_IN_GROUP }));
+        .set_max_row_group_row_count(Some(ROWS_IN_GROUP));
     for field in schema.fields() {
-        if field.data_type() == &DataType::Float64 {
-            properties =
-                properties.set_column_dictionary_enabled(ColumnPath::from(field.name().as_str()), false);
-        }
-        if let Some(item) = samples(field) {
-            let path = ColumnPath::new(vec![field.name().clone(), "list".to_string(), item.to_string()]);
-            properties = properties
-                .set_column_dictionary_enabled(path.clone(), false)
-                .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)
-                .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
-        }
+        let name = field.name().as_str();
+        properties = match field.data_type() {
+            DataType::Float64 => properties.set_column_dictionary_enabled(name.into(), false),
+            DataType::List(item) if item.data_type() == &DataType::Float32 => {
+                let path = ColumnPath::new([name, "list", item.name()].map(str::to_string).to_vec());
+                properties
+                    .set_max_row_group_row_count(Some(MOTIONS_IN_GROUP))
+                    .set_column_dictionary_enabled(path.clone(), false)
+                    .set_column_statistics_enabled(path.clone(), EnabledStatistics::None)
+                    .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT)
+            }
+            _ => properties,
+        };
     }
     properties.build()
 }
