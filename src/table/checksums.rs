@@ -9,7 +9,7 @@ use std::path::Path;
 use parquet::arrow::ProjectionMask;
 use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, RowGroupMetaData};
 
-use super::provenance::is_ours;
+use super::provenance::own_entry;
 
 /// Key of the checksums among the key-value metadata.
 const KEY: &str = "rockfrag_checksums";
@@ -40,16 +40,12 @@ pub fn expect_undamaged(
     group: usize,
     wanted: &ProjectionMask,
 ) -> Result<()> {
-    let footer = metadata.file_metadata();
-    let pairs = footer.key_value_metadata().filter(|_| is_ours(footer)).into_iter().flatten();
-    let Some(checksums) = pairs.filter(|pair| pair.key == KEY).find_map(|pair| pair.value.as_ref()) else {
-        return Ok(());
-    };
+    let Some(checksums) = own_entry(metadata, KEY) else { return Ok(()) };
     let columns = metadata.row_group(group).columns();
     for (leaf, column) in columns.iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf)) {
         let found = checksum(file, column)?;
         let first = DIGITS * (group * columns.len() + leaf);
-        if checksums.get(first..first + DIGITS) != Some(&found) {
+        if checksums.get(first..first + DIGITS) != Some(found.as_str()) {
             let (name, group) = (column.column_path().parts()[0].as_str(), group + 1);
             let damage = format!("column '{name}' of row group {group} is damaged: make the file again");
             return Err(Error::other(damage));

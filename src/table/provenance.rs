@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-use parquet::file::metadata::{FileMetaData, KeyValue, ParquetMetaData};
+use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -38,9 +38,11 @@ pub struct Provenance {
     pub warnings: Warnings,
 }
 
-/// Whether no other program has written the table since.
-pub fn is_ours(footer: &FileMetaData) -> bool {
-    footer.created_by().is_some_and(|program| program.starts_with("rockfrag "))
+/// Returns what rockfrag put into a footer under a key; none if another program has written the table since.
+pub fn own_entry<'a>(metadata: &'a ParquetMetaData, key: &str) -> Option<&'a str> {
+    let footer = metadata.file_metadata();
+    footer.created_by().filter(|program| program.starts_with("rockfrag "))?;
+    footer.key_value_metadata()?.iter().find(|pair| pair.key == key)?.value.as_deref()
 }
 
 /// A file that is read.
@@ -127,17 +129,10 @@ impl Provenance {
         Some(names.collect::<Vec<_>>().join(", "))
     }
 
-    /// Reads the provenance in a footer; `None` if another program wrote it.
+    /// Reads the provenance in a footer, of another version stage, version and summary at least; `None` if
+    /// another program wrote it.
     pub fn from_footer(metadata: &ParquetMetaData) -> Option<Provenance> {
-        let footer = metadata.file_metadata();
-        let pairs = footer.key_value_metadata().filter(|_| is_ours(footer))?;
-        let pair = pairs.iter().find(|pair| pair.key == KEY)?;
-        Provenance::from_json(pair.value.as_ref()?)
-    }
-
-    /// Reads JSON; of another version it has stage, version and summary at least.
-    fn from_json(json: &str) -> Option<Provenance> {
-        let value: Value = serde_json::from_str(json).ok()?;
+        let value: Value = serde_json::from_str(own_entry(metadata, KEY)?).ok()?;
         let [stage, version, summary] =
             ["stage", "version", "summary"].map(|name| value[name].as_str().unwrap_or_default().to_string());
         let known = serde_json::from_value(value).ok();
