@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use arrow_array::RecordBatch;
-use arrow_schema::Schema;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::motion::{Floor, MeasurePlan, MotionMeasures, Suite};
@@ -17,7 +16,6 @@ use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, out_of_partition};
 use crate::table::TableError;
 use crate::table::columns::Batch;
-use crate::table::dictionary;
 use crate::table::file::Partition;
 use crate::table::motions::{ACCELERATION, Sampled, batch, open, parts, spectral_period_s};
 use crate::table::rows;
@@ -117,7 +115,7 @@ impl FloorMotions {
     }
 }
 
-/// All columns that are neither the suite nor samples nor measures of them, with unit and meaning.
+/// All columns that are neither the suite nor samples nor measures of them.
 fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
     let (schema, measures) = (rows.schema(), rows::schema::<MotionMeasures>());
     let is_other = |&at: &usize| {
@@ -126,8 +124,5 @@ fn others(rows: &RecordBatch) -> anyhow::Result<RecordBatch> {
             && measures.index_of(name).is_err()
     };
     let kept: Vec<usize> = (0..schema.fields().len()).filter(is_other).collect();
-    let rows = rows.project(&kept)?;
-    let schema = rows.schema();
-    let fields = schema.fields().iter().map(|field| dictionary::with_meaning(field.as_ref().clone()));
-    Ok(rows.with_schema(Schema::new(fields.collect::<Vec<_>>()).into())?)
+    Ok(rows.project(&kept)?)
 }

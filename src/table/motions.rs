@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use arrow_array::builder::{Float32Builder, ListBuilder};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch};
-use arrow_schema::{DataType, Field, Schema};
+use arrow_schema::{DataType, Field};
 use rockfrag_core::motion::MotionMeasures;
 use rockfrag_core::records::Origin;
 use rockfrag_core::records::rotation::pairs;
@@ -16,7 +16,6 @@ use serde::{Deserialize, Serialize};
 
 use super::TableError;
 use super::columns::Batch;
-use super::dictionary;
 use super::file::{ParquetTable, Partition, RowGroup};
 use super::rows::{self, side_by_side};
 
@@ -157,24 +156,18 @@ pub fn batch<'a>(
     periods_s: &[f64],
     motions: impl Iterator<Item = (&'a MotionMeasures, &'a [f32])> + Clone,
 ) -> anyhow::Result<RecordBatch> {
-    let mut fields: Vec<Field> = Vec::new();
-    let mut columns: Vec<ArrayRef> = Vec::new();
-    for (place, period) in periods_s.iter().enumerate() {
-        let field = Field::new(spectral_column(*period), DataType::Float64, true);
-        fields.push(dictionary::with_meaning(field));
-        let sa = motions.clone().map(|(measures, _)| measures.sa_m_s2[place]);
-        columns.push(Arc::new(Float64Array::from_iter(sa)));
-    }
-    let item = Arc::new(Field::new("item", DataType::Float32, false));
-    let mut lists = ListBuilder::new(Float32Builder::new()).with_field(item.clone());
-    for (_, samples) in motions {
+    let item = Field::new("item", DataType::Float32, false);
+    let mut lists = ListBuilder::new(Float32Builder::new()).with_field(item);
+    for (_, samples) in motions.clone() {
         lists.values().append_slice(samples);
         lists.append(true);
     }
-    fields.push(dictionary::with_meaning(Field::new(ACCELERATION, DataType::List(item), false)));
-    columns.push(Arc::new(lists.finish()));
-    let made = RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?;
-    side_by_side(&[known, &[made]].concat())
+    let spectral = periods_s.iter().enumerate().map(|(place, period)| {
+        let sa = motions.clone().map(|(measures, _)| measures.sa_m_s2[place]);
+        (spectral_column(*period), Arc::new(Float64Array::from_iter(sa)) as ArrayRef, true)
+    });
+    let columns = spectral.chain([(ACCELERATION.to_string(), Arc::new(lists.finish()) as ArrayRef, false)]);
+    side_by_side(&[known, &[RecordBatch::try_from_iter_with_nullable(columns)?]].concat())
 }
 
 /// Returns the column name of the spectral acceleration at a period (s): `sa_0p50_m_s2`.

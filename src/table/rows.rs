@@ -141,10 +141,11 @@ fn checked(batch: &Batch, column: &Field) -> Result<ArrayRef, TableError> {
     }
 }
 
-/// Joins the columns of batches of equal length.
+/// Joins the columns of batches of equal length, with unit and meaning.
 pub fn side_by_side(batches: &[RecordBatch]) -> anyhow::Result<RecordBatch> {
     let schemas: Vec<SchemaRef> = batches.iter().map(RecordBatch::schema).collect();
-    let fields: Vec<FieldRef> = schemas.iter().flat_map(|schema| schema.fields().iter().cloned()).collect();
+    let fields = schemas.iter().flat_map(|schema| schema.fields());
+    let fields: Vec<Field> = fields.map(|field| dictionary::with_meaning(field.as_ref().clone())).collect();
     let columns = batches.iter().flat_map(|batch| batch.columns().iter().cloned()).collect();
     Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?)
 }
