@@ -22,7 +22,7 @@ use super::TableError;
 use super::checksums::expect_undamaged;
 use super::columns::Batch;
 use super::provenance::Provenance;
-use crate::source::{self, is_pipe};
+use crate::source;
 
 /// Largest size of the wanted columns of a row group: larger ones are damaged, or exceed the memory.
 const MOST_BYTES: i64 = 4 << 30;
@@ -41,10 +41,9 @@ impl FromStr for Partition {
 
     fn from_str(text: &str) -> Result<Partition, String> {
         let parts = text.split_once('/');
-        match parts.and_then(|(index, of)| Some((index.parse().ok()?, of.parse().ok()?))) {
-            Some((index, of)) if index < of => Ok(Partition { index, of }),
-            _ => Err("expected i/n with i from 0 to n - 1, such as 0/4".to_string()),
-        }
+        let part = parts.and_then(|(i, n)| Some(Partition { index: i.parse().ok()?, of: n.parse().ok()? }));
+        let expected = || "expected i/n with i from 0 to n - 1, such as 0/4".to_string();
+        part.filter(|part| part.index < part.of).ok_or_else(expected)
     }
 }
 
@@ -275,13 +274,10 @@ impl TableFile {
 /// Reads the footer of a Parquet file, with plain Parquet types: the Arrow schema is ignored.
 pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
     // A pipe would wait for its writer.
-    if is_pipe(path) {
-        return Err(TableError::table(path, "a pipe or device; expected a Parquet file"));
+    if !path.metadata().map_err(|source| TableError::io(path, source))?.is_file() {
+        return Err(TableError::table(path, "a folder, pipe or device; expected a Parquet file"));
     }
     let file = File::open(path).map_err(|source| TableError::io(path, source))?;
-    if path.is_dir() {
-        return Err(TableError::table(path, "a folder; expected a Parquet file"));
-    }
     let mut start = [0; 4];
     (&file).read(&mut start).map_err(|source| TableError::io(path, source))?;
     if start != *b"PAR1" {
@@ -320,8 +316,8 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     if files.is_empty() {
         return Some("a folder without Parquet files".to_string());
     }
-    let first = files.iter().find(|file| file.part.is_some())?;
-    let (Partition { of, .. }, whole) = first.part.as_ref()?;
+    let (first, (Partition { of, .. }, whole)) =
+        files.iter().find_map(|file| Some((file, file.part.as_ref()?)))?;
     let is_other = |file: &&TableFile| file.part.as_ref().is_none_or(|(_, key)| key != whole);
     if let Some(other) = files.iter().find(is_other) {
         return Some(format!(

@@ -88,10 +88,8 @@ pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
     }
     let mut hasher = blake3::Hasher::new();
     let hashed = match source::is_pipe(path) || path == Path::new("-") {
-        true => source::read(path).and_then(|bytes| hasher.update_reader(&*bytes).map(|_| ())),
-        false => {
-            File::open(source::split_sheet(path).0).and_then(|file| hasher.update_reader(file).map(|_| ()))
-        }
+        true => source::read(path).map(|bytes| hasher.update(&bytes)),
+        false => File::open(source::split_sheet(path).0).and_then(|file| hasher.update_reader(file)),
     };
     hashed.map_err(|error| TableError::io(path, error))?;
     file.key = hasher.finalize().to_hex().to_string();
