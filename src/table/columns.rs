@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::cast::AsArray;
-use arrow_array::types::{Decimal128Type, Float16Type, Float32Type, Float64Type};
-use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, PrimitiveArray, RecordBatch, downcast_integer};
+use arrow_array::types::{Decimal128Type, Float16Type, Float32Type};
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, downcast_integer};
 use arrow_schema::DataType;
 use rockfrag_core::plausibility::range_of_column;
 use rockfrag_core::rocking::Structure;
@@ -71,13 +71,9 @@ impl Batch {
             let list = list.filter(|list| list.null_count() == 0).ok_or_else(|| {
                 self.value_error(row, name, format!("null, or with a null; expected {expected}"))
             })?;
-            // Our own, without a detour by options.
-            if let Some(own) = list.as_primitive_opt::<Float32Type>() {
-                return Ok(own.values().iter().map(|value| f64::from(*value)).collect());
-            }
-            let numbers = numbers(&list).ok_or_else(|| self.other_type(name, column, expected))?;
             // The record tells of NaN.
-            Ok(numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
+            let numbers = floats(&list).ok_or_else(|| self.other_type(name, column, expected))?;
+            Ok(numbers.values().to_vec())
         });
         read.collect()
     }
@@ -134,23 +130,22 @@ impl Batch {
     }
 }
 
-/// Converts a column of numbers to f64, `None` for null and NaN; `None` for columns of other types.
+/// Returns a column of numbers, `None` for null and NaN; `None` for other types.
 pub fn numbers(column: &ArrayRef) -> Option<Vec<Option<f64>>> {
-    match column.data_type() {
-        DataType::Float64 => Some(known(column.as_primitive::<Float64Type>())),
-        DataType::Float32 => Some(known(column.as_primitive::<Float32Type>())),
-        DataType::Float16 => Some(known(column.as_primitive::<Float16Type>())),
-        DataType::Decimal128(_, scale) => {
-            let unit = 10f64.powi(i32::from(*scale));
-            let decimals = column.as_primitive::<Decimal128Type>().iter();
-            Some(decimals.map(|value| value.map(|value| value as f64 / unit)).collect())
-        }
-        _ => Some(integers(column)?.into_iter().map(|value| value.map(|value| value as f64)).collect()),
-    }
+    Some(floats(column)?.iter().map(|number| number.filter(|number| !number.is_nan())).collect())
 }
 
-fn known<T: ArrowPrimitiveType<Native: Into<f64>>>(column: &PrimitiveArray<T>) -> Vec<Option<f64>> {
-    column.iter().map(|value| value.map(Into::into).filter(|value: &f64| !value.is_nan())).collect()
+fn floats(column: &ArrayRef) -> Option<Float64Array> {
+    Some(match *column.data_type() {
+        DataType::Float64 => column.as_primitive().clone(),
+        DataType::Float32 => column.as_primitive::<Float32Type>().unary(f64::from),
+        DataType::Float16 => column.as_primitive::<Float16Type>().unary(f64::from),
+        DataType::Decimal128(_, scale) => {
+            let unit = 10f64.powi(i32::from(scale));
+            column.as_primitive::<Decimal128Type>().unary(|value| value as f64 / unit)
+        }
+        _ => integers(column)?.into_iter().map(|value| value.map(|value| value as f64)).collect(),
+    })
 }
 
 /// Returns a column of texts, or of integers as texts; `None` for other types.

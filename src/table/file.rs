@@ -110,8 +110,8 @@ pub struct RowGroup {
 impl ParquetTable {
     /// Opens a file, or a folder with the parts of one table.
     pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
-        let paths = if path.is_dir() { tables(path)? } else { vec![path.to_path_buf()] };
-        let mut files = paths.into_iter().map(TableFile::open).collect::<Result<Vec<_>, TableError>>()?;
+        let files = tables(path)?.into_iter().map(TableFile::open);
+        let mut files = files.collect::<Result<Vec<_>, TableError>>()?;
         files.sort_by_key(|file| file.part.as_ref().map(|(part, _)| part.index));
         if path.is_dir()
             && let Some(problem) = unlike_partitions(&files)
@@ -301,9 +301,12 @@ pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
     Ok(paths)
 }
 
-/// Returns the Parquet files of a folder, in the order of their names.
-pub fn tables(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
-    Ok(entries(folder)?.into_iter().filter(|path| is_table(path)).collect())
+/// Returns a file itself, or the Parquet files of a folder in the order of their names.
+pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
+    match path.is_dir() {
+        true => Ok(entries(path)?.into_iter().filter(|path| is_table(path)).collect()),
+        false => Ok(vec![path.to_path_buf()]),
+    }
 }
 
 pub fn is_table(path: &Path) -> bool {

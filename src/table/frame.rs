@@ -92,17 +92,16 @@ fn column(name: &str, array: &ArrayRef) -> Column {
 /// text, null as an empty cell.
 pub fn show(frame: &DataFrame, format: Format) -> anyhow::Result<String> {
     let (mut frame, mut shown) = (frame.clone(), Vec::new());
-    match format {
-        Format::Text => return Ok(text(&frame)),
-        Format::Csv => with_threads(|| CsvWriter::new(&mut shown).finish(&mut frame))?,
-        Format::Json => {
-            with_threads(|| {
-                JsonWriter::new(&mut shown).with_json_format(JsonFormat::Json).finish(&mut frame)
-            })?;
-            shown.push(b'\n');
+    with_threads(|| match format {
+        Format::Text => {
+            shown = text(&frame).into_bytes();
+            Ok(())
         }
-    }
-    Ok(String::from_utf8(shown)?)
+        Format::Csv => CsvWriter::new(&mut shown).finish(&mut frame),
+        Format::Json => JsonWriter::new(&mut shown).with_json_format(JsonFormat::Json).finish(&mut frame),
+    })?;
+    let end = if format == Format::Json { "\n" } else { "" };
+    Ok(String::from_utf8(shown)? + end)
 }
 
 /// Formats a frame as text: numbers right-aligned with four significant digits, "-" for null.

@@ -71,7 +71,7 @@ impl Provenance {
 
 /// Computes the key of a table, or of the tables in a folder.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
-    let files = if path.is_dir() { file::tables(path)? } else { vec![path.to_path_buf()] };
+    let files = file::tables(path)?;
     let read = files.iter().zip(names_below(&files)).map(|(file, name)| read_file(file, name));
     Ok(joined(&read.collect::<Result<Vec<_>, _>>()?))
 }
