@@ -3,10 +3,11 @@
 //! Parquet's reader compares.
 
 use std::fs::File;
-use std::io::{Error, Read, Result, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use parquet::arrow::ProjectionMask;
+use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, RowGroupMetaData};
 
 use super::provenance::own_entry;
@@ -48,7 +49,7 @@ pub fn expect_undamaged(
         if checksums.get(first..first + DIGITS) != Some(found.as_str()) {
             let (name, group) = (column.column_path().parts()[0].as_str(), group + 1);
             let damage = format!("column '{name}' of row group {group} is damaged: make the file again");
-            return Err(Error::other(damage));
+            return Err(ParquetError::General(damage));
         }
     }
     Ok(())

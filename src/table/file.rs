@@ -66,8 +66,6 @@ impl fmt::Display for Partition {
 }
 
 impl Partition {
-    const WHOLE: Partition = Partition { index: 0, of: 1 };
-
     pub fn file_name(self) -> String {
         format!("part-{:05}.parquet", self.index)
     }
@@ -227,8 +225,8 @@ impl ParquetTable {
         let mask = ProjectionMask::roots(schema, roots);
         expect_small(path, metadata.metadata().row_group(group.group), &mask)?;
         let file = File::open(path).map_err(|source| TableError::io(path, source))?;
-        guarded(path, || expect_undamaged(&file, metadata.metadata(), group.group, &mask))?;
         guarded(path, || {
+            expect_undamaged(&file, metadata.metadata(), group.group, &mask)?;
             ParquetRecordBatchReaderBuilder::new_with_metadata(file, metadata.clone())
                 .with_projection(mask)
                 .with_row_groups(vec![group.group])
@@ -256,9 +254,10 @@ impl TableFile {
             let problem = format!("two columns are called '{}'; leave out one", field.name());
             return Err(TableError::table(&path, problem));
         }
-        let made = Provenance::from_footer(metadata.metadata());
-        let part = |made: &Provenance| made.partition().and_then(|part| part.parse().ok());
-        let part = made.map(|made| (part(&made).unwrap_or(Partition::WHOLE), made.whole()));
+        let part = Provenance::from_footer(metadata.metadata()).map(|made| {
+            let part = made.partition().and_then(|part| part.parse().ok());
+            (part.unwrap_or(Partition { index: 0, of: 1 }), made.whole())
+        });
         Ok(TableFile { path: path.into(), metadata, part })
     }
 
