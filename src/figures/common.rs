@@ -12,7 +12,7 @@ use rockfrag_core::warning::UNNAMED;
 use crate::chart::Mark;
 use crate::chart::text::literal;
 use crate::number;
-use crate::table::capacities::ScaledMeasure;
+use crate::table::responses::ScaledMeasure;
 
 /// The fits that figures show.
 #[derive(Default)]

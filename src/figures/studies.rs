@@ -8,8 +8,7 @@ use rockfrag_core::studies::ReliabilityBin;
 use super::common::{by, observed_shares, scaled_label, title};
 use crate::chart::text::literal;
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
-use crate::table::capacities::{CapacityFitRow, CapacityRow, Stripe};
-use crate::table::responses::OutcomeWord;
+use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
 
 /// The most panels, levels of an analysis, and steps of its curve.
 const PANELS: usize = 24;

@@ -24,9 +24,8 @@ use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::{Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
-use crate::table::capacities::{CapacityFitRow, CapacityRow, ScaledMeasure};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
-use crate::table::responses::ResponseRow;
+use crate::table::responses::{CapacityFitRow, CapacityRow, ResponseRow, ScaledMeasure};
 use crate::table::{frame, rows};
 
 /// Motions that a thread takes at once: enough to keep the lanes of its registers busy while outcomes are

@@ -10,12 +10,10 @@
 //! provenance  stage, arguments and inputs of a file, and their key
 //! keys        the keys of files, which show whether a file is up to date
 //! motions     motions, one per row
-//! responses   responses, one row for each motion and structure
-//! capacities  intensities that overturn, one row for each motion and structure
+//! responses   responses, and intensities that overturn, one row for each motion and structure
 //! frame       tables as polars frames: groups, joins, and text, CSV and JSON
 //! ```
 
-pub mod capacities;
 mod checksums;
 pub mod columns;
 pub mod dictionary;

@@ -1,7 +1,6 @@
 //! What one sees at a terminal: words, lists, traces.
 
-use rockfrag::table::capacities::CapacityFitRow;
-use rockfrag::table::responses::TraceRow;
+use rockfrag::table::responses::{CapacityFitRow, TraceRow};
 use rockfrag::table::rows;
 use rockfrag_core::rocking::SolverEvent;
 use std::path::Path;

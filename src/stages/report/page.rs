@@ -19,7 +19,7 @@ use crate::figures::common::{by, called, name, rocked, scaled_label, short_label
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS, listed};
 use crate::stages::compare_paper::table_two;
-use crate::table::capacities::CapacityFitRow;
+use crate::table::responses::CapacityFitRow;
 
 /// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
 const MOST_WARNINGS: usize = 3;
