@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use rockfrag_core::statistics::Range;
+
 use super::figure::{Axis, Frame, Panel, Scale};
 use super::text::minus;
 use crate::number;
@@ -10,6 +12,7 @@ use crate::number;
 #[derive(Debug, Clone, Copy)]
 pub struct Ruler<'a> {
     pub scale: &'a Scale,
+    /// The ends of the range as [`Scale::of`] them.
     low: f64,
     high: f64,
     pub from: f64,
@@ -20,8 +23,7 @@ pub struct Ruler<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
     pub value: f64,
-    /// Marked text.
-    pub label: Option<String>,
+    pub label: String,
 }
 
 /// Margin beyond the data on either side, of the range.
@@ -48,7 +50,12 @@ impl Panel {
             return rulers;
         }
         let per_point = rulers.map(|ruler| (ruler.high - ruler.low) / (ruler.to - ruler.from).abs());
-        rulers.map(|ruler| ruler.stretched(per_point[0].max(per_point[1])))
+        // The ranges are stretched about their middles.
+        rulers.map(|ruler| {
+            let half = 0.5 * per_point[0].max(per_point[1]) * (ruler.to - ruler.from).abs();
+            let middle = 0.5 * (ruler.low + ruler.high);
+            Ruler { low: middle - half, high: middle + half, ..ruler }
+        })
     }
 }
 
@@ -57,38 +64,23 @@ impl<'a> Ruler<'a> {
         let scale = &axis.scale;
         let (least, most) = SHOWN.into_inner();
         values.retain(|value| value.abs() <= most && (*scale != Scale::Log || *value >= least));
-        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let Range { low, high } = Range::over(values.into_iter().map(|value| scale.of(value)));
         let [low, high] = match (axis.range, scale) {
-            (Some([low, high]), _) if low < high && high <= most => [low, high],
+            (Some([low, high]), _) if low < high && high <= most => [low, high].map(|end| scale.of(end)),
             (_, Scale::Names(names)) => [names.len() as f64 - 0.5, -0.5],
-            _ if low > high => [1.0, 10.0],
-            (_, Scale::Log) => {
-                let is_wide = high / low > 1.0 + NARROWEST;
-                let margin = if is_wide { (high / low).powf(MARGIN) } else { 2.0 };
-                [low / margin, high * margin]
-            }
-            (_, Scale::Linear) => {
+            _ if low > high => [1.0, 10.0].map(|end| scale.of(end)),
+            _ => {
                 let is_wide = high - low > (NARROWEST * low.abs().max(high.abs())).max(least);
-                let margin = if is_wide { MARGIN * (high - low) } else { 1.0 + 0.1 * low.abs() };
+                let margin = if is_wide { MARGIN * (high - low) } else { 0.3 + 0.1 * low.abs() };
                 [low - margin, high + margin]
             }
         };
         Ruler { scale, low, high, from, to }
     }
 
-    /// Stretches the range about its middle to this much for each point of the picture.
-    fn stretched(self, per_point: f64) -> Ruler<'a> {
-        let (middle, half) = (0.5 * (self.low + self.high), 0.5 * per_point * (self.to - self.from).abs());
-        Ruler { low: middle - half, high: middle + half, ..self }
-    }
-
     /// The place of a value.
     pub fn at(&self, value: f64) -> f64 {
-        let fraction = match self.scale {
-            Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
-            _ => (value - self.low) / (self.high - self.low),
-        };
+        let fraction = (self.scale.of(value) - self.low) / (self.high - self.low);
         self.from + (self.to - self.from) * fraction
     }
 
@@ -97,7 +89,7 @@ impl<'a> Ruler<'a> {
         match self.scale {
             Scale::Names(names) => {
                 let rows = names.iter().enumerate();
-                rows.map(|(row, name)| Tick { value: row as f64, label: Some(name.clone()) }).collect()
+                rows.map(|(row, name)| Tick { value: row as f64, label: name.clone() }).collect()
             }
             Scale::Linear => self.linear_ticks(most),
             Scale::Log => self.log_ticks(most),
@@ -112,44 +104,46 @@ impl<'a> Ruler<'a> {
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         let all = (self.low / step - 1e-9).ceil() as i64..=(self.high / step + 1e-9).floor() as i64;
         let values = all.map(|k| k as f64 * step);
-        values.map(|value| Tick { value, label: Some(minus(number::fixed(value, decimals))) }).collect()
+        values.map(|value| Tick { value, label: minus(number::fixed(value, decimals)) }).collect()
     }
 
     /// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
     fn log_ticks(&self, most: usize) -> Vec<Tick> {
         // Powers of ten where plain numbers would be long.
-        let as_powers = self.low < 0.00099 || self.high > 100_100.0;
+        let as_powers = self.low < -3.004 || self.high > 5.0004;
         let label = if as_powers { power_of_ten } else { number::plain };
-        let dense = DENSE.into_iter().skip(if as_powers { 2 } else { 0 }).map(|factors| (factors, 1));
-        let choices = dense.chain([1, 2, 3, 5, 10, 20].map(|every| (&[1.0][..], every)));
-        let mut fitting = choices.filter_map(|(factors, every)| {
-            // Whole decades have short labels, as wide apart as they can be.
-            let most = if factors == [1.0] && every == 1 { most + 1 } else { most };
-            Some(self.in_decades(factors, every)).filter(|values| values.len() <= most)
-        });
-        let labelled = fitting.next().unwrap_or_default();
+        let mut dense = DENSE.into_iter().skip(if as_powers { 2 } else { 0 });
+        let dense = dense.find_map(|factors| self.in_decades(factors, 1, most));
+        // Whole decades have short labels, as wide apart as they can be.
+        let whole = || (1..).find_map(|every| self.in_decades(&[1.0], every, most + 1));
+        let labelled = dense.or_else(whole).unwrap_or_default();
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
-        let factors = if self.high / self.low < 1e6 { &factors[..] } else { &factors[..1] };
-        let minor = self.in_decades(factors, 1).into_iter().filter(|value| !labelled.contains(value));
-        let minor = minor.map(|value| Tick { value, label: None });
-        labelled.iter().map(|&value| Tick { value, label: Some(label(value)) }).chain(minor).collect()
+        let factors = if self.high - self.low < 6.0 { &factors[..] } else { &factors[..1] };
+        let minor = self.in_decades(factors, 1, usize::MAX).unwrap_or_default();
+        let minor = minor.into_iter().filter(|value| !labelled.contains(value));
+        let minor = minor.map(|value| Tick { value, label: String::new() });
+        labelled.iter().map(|&value| Tick { value, label: label(value) }).chain(minor).collect()
     }
 
-    /// These multiples of each power of ten, or of one in so many.
-    fn in_decades(&self, factors: &[f64], every: i32) -> Vec<f64> {
-        let decades = self.low.log10().floor() as i32..=self.high.log10().ceil() as i32;
-        let inside = self.low * (1.0 - 1e-9)..=self.high * (1.0 + 1e-9);
+    /// These multiples of each power of ten, or of one in so many; if they are not too many.
+    fn in_decades(&self, factors: &[f64], every: i32, most: usize) -> Option<Vec<f64>> {
+        let decades = self.low.floor() as i32..=self.high.ceil() as i32;
+        let inside = self.low - 1e-9..=self.high + 1e-9;
         let powers = decades.filter(|decade| decade.rem_euclid(every) == 0).map(|decade| 10_f64.powi(decade));
         let values = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
-        values.filter(|value| inside.contains(value)).collect()
+        let values: Vec<f64> = values.filter(|value| inside.contains(&value.log10())).collect();
+        (values.len() <= most).then_some(values)
+    }
+}
+
+impl Scale {
+    /// Where a value lies on an even scale: its decimal logarithm if that is what counts.
+    fn of(&self, value: f64) -> f64 {
+        if *self == Scale::Log { value.log10() } else { value }
     }
 }
 
 fn power_of_ten(value: f64) -> String {
-    let exponent = (value.log10() + 1e-9).floor();
-    let power = format!("10^{{{}}}", minus(number::fixed(exponent, 0)));
-    match (value / 10_f64.powf(exponent)).round() {
-        1.0 => power,
-        factor => format!("{factor}\u{b7}{power}"),
-    }
+    let power = minus(format!("{value:.0e}}}")).replace('e', "\u{b7}10^{");
+    power.strip_prefix("1\u{b7}").map_or(power.clone(), str::to_string)
 }

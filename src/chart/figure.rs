@@ -2,13 +2,12 @@
 
 use super::text::words;
 
-/// One picture: panels in rows.
+/// One picture: panels in rows. All its texts are marked, see [`super::text`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
     /// Name of its files.
     pub name: String,
     pub title: String,
-    /// Marked text, see [`super::text`].
     pub caption: String,
     /// Number of panels in a row.
     pub columns: usize,
@@ -22,7 +21,6 @@ pub struct Figure {
 /// A pair of axes and what lies between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel {
-    /// Marked text.
     pub title: String,
     pub x: Axis,
     pub y: Axis,
@@ -30,7 +28,7 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// Over all layers and the edge of the panel.
     pub words: Vec<Words>,
-    /// Marked text that is enough to read the panel alone; below it on the page.
+    /// Enough to read the panel alone; below it on the page.
     pub caption: String,
     pub frame: Frame,
 }
@@ -47,10 +45,9 @@ pub enum Frame {
 /// An axis; its range is that of the layers unless it is given.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axis {
-    /// Marked text; a horizontal axis without a label has ticks without numbers.
+    /// A horizontal axis without a label has ticks without numbers.
     pub label: String,
     pub scale: Scale,
-    /// Its ends.
     pub range: Option<[f64; 2]>,
 }
 
@@ -67,7 +64,6 @@ pub enum Scale {
 /// Marks of one kind that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Marked text.
     pub name: String,
     /// Whether the legend has it; of one name it has the first layer.
     pub is_listed: bool,
@@ -98,12 +94,11 @@ pub struct Mark {
     pub n: f64,
 }
 
-/// A text at a place.
+/// A text at a place: over the axes of a panel, and in the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Words {
     pub x: f64,
     pub y: f64,
-    /// Marked text.
     pub text: String,
     pub position: LabelPosition,
     pub ink: Ink,
@@ -120,6 +115,10 @@ pub enum LabelPosition {
     Along,
     /// In a column beyond the right edge of the data.
     Margin,
+    /// It begins there: the title of a panel, an entry of the legend, the label of y.
+    Title,
+    Legend,
+    YLabel,
 }
 
 /// A colour by its role; the page has others in the dark.
@@ -205,16 +204,16 @@ impl Figure {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(COLUMNS.split(','))?;
         for (panel, number) in self.panels.iter().zip(1_i32..) {
-            let of_panel = [&panel.title, &panel.x.label, &panel.y.label].map(|label| words(label));
-            let ([title, x_is, y_is], number) = (of_panel, number.to_string());
+            let [title, x_is, y_is] = [&panel.title, &panel.x.label, &panel.y.label].map(|text| words(text));
             let [x_scale, y_scale] = [&panel.x.scale, &panel.y.scale].map(<&str>::from);
+            let number = number.to_string();
             let mut write = |name: &str, mark: Mark, [layer, style, dash]: [&str; 3], ink: Ink| {
-                let [x, y, low, high, n] = [mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
-                let name = if name.is_empty() { title.clone() } else { words(name) };
+                let name = if name.is_empty() { &title } else { &words(name) };
+                let [x, y, low, high, n] = &[mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
                 let row = panel.names().get(mark.y.round() as usize).map_or(String::new(), |row| words(row));
-                let place = [&title, &name, &x_is, &x, &y_is, &y, &low, &high, &n].map(String::as_str);
-                let kind = [&number, layer, x_scale, y_scale, &row, style, dash, &ink.in_file()];
-                writer.write_record([&place[..], &kind].concat())
+                let (place, ink) = ([&title, name, &x_is, x, &y_is, y, low, high, n], ink.in_file());
+                let kind = [&number, layer, x_scale, y_scale, &row, style, dash, &ink];
+                writer.write_record(place.map(String::as_str).into_iter().chain(kind))
             };
             for (layer, number) in panel.drawn().zip(1_i32..) {
                 let number = number.to_string();

@@ -3,16 +3,16 @@
 //! ```text
 //! figure     a figure as data: panels of layers; its numbers as CSV
 //! draw       a figure as SVG and PNG; axis: ranges and ticks
-//! pen        texts, lines, areas and dots of a drawing
+//! picture    texts, lines, areas and dots at their places
 //! text       marked text
 //! ```
 
 mod axis;
 mod draw;
 mod figure;
-mod pen;
+mod picture;
 pub mod text;
 
 pub use draw::{DPI, html_of_panels, png, svg};
 pub use figure::{Axis, Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
-pub use pen::round;
+pub use picture::round;
