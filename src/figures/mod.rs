@@ -4,16 +4,12 @@
 pub mod answers;
 pub mod common;
 mod demand;
-mod map;
 mod motion;
-mod planes;
 mod probability;
 mod studies;
 
 pub use common::Fits;
-pub use demand::{demand, quality, regressions};
-pub use map::maps;
+pub use demand::{demand, planes, quality, regressions};
 pub use motion::{envelope, motion, similarity};
-pub use planes::planes;
-pub use probability::{exceedance, hybrids, overturning};
+pub use probability::{exceedance, hybrids, maps, overturning};
 pub use studies::{ida, validation};

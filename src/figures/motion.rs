@@ -81,19 +81,20 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     let (_, motion) = demands.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let faster = second.p_rad_s / first.p_rad_s;
     let stronger = second.alpha_rad.tan() / first.alpha_rad.tan();
-    let scaled: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
     let second = Structure { eta: first.eta, ..second.clone() };
     let responses = [
-        (first, &motion.acceleration_m_s2, motion.dt_s, Ink::Data(0), Dash::Solid),
-        (&second, &scaled, motion.dt_s / faster, Ink::Data(1), Dash::Short),
+        (first, 1.0, 1.0, Ink::Data(0), Dash::Solid),
+        (&second, faster, stronger, Ink::Data(1), Dash::Short),
     ];
     let (mut own, mut dimensionless) = (Vec::new(), Vec::new());
-    for (structure, samples, dt_s, ink, dash) in responses {
+    for (structure, faster, stronger, ink, dash) in responses {
+        let samples: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
+        let dt_s = motion.dt_s / faster;
         let (p, alpha) = (structure.p_rad_s, structure.alpha_rad);
         let [p_words, alpha_words] = [p, alpha].map(|value| number::significant(value, 3));
         let name = format!("*p* = {p_words} rad/s, *α* = {alpha_words} rad");
         let layer = |marks: Vec<Mark>| Layer::new(&name, ink, MarkStyle::Line(dash), marks);
-        let marks = envelope(&rotations(structure, samples, dt_s)?, dt_s, SMOOTH_VALUES);
+        let marks = envelope(&rotations(structure, &samples, dt_s)?, dt_s, SMOOTH_VALUES);
         dimensionless.push(layer(marks.iter().map(|mark| Mark::new(p * mark.x, mark.y / alpha)).collect()));
         own.push(layer(marks));
     }

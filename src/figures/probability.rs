@@ -1,12 +1,16 @@
-//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares.
+//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares; and maps of overturning over
+//! PGA and PGV.
 
-use rockfrag_core::fragility::{Cases, CurveFit, DemandFit, DemandModel, Measure, hybrid_measure, lambda};
-use rockfrag_core::motion::IntensityMeasures;
-use rockfrag_core::statistics::numerics::equal_ratios;
+use rockfrag_core::fragility::{
+    Calibration, Cases, CurveFit, DemandFit, DemandModel, Measure, MotionKind, Tau, hybrid_measure, lambda,
+};
+use rockfrag_core::motion::{IntensityMeasures, Peaks};
+use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
+use rockfrag_core::units::G_M_S2;
 
-use super::common::{Fits, by, called, compare, demands, estimate, label};
+use super::common::{Fits, by, called, compare, demands, estimate, label, name};
 use super::common::{observed_shares, ratio_bins, rocked};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
@@ -18,17 +22,19 @@ const CASES: usize = 8;
 /// Quantiles of IM3 at which P_ex is drawn.
 const SHARES: [(f64, Dash); 3] = [(0.1, Dash::Solid), (0.5, Dash::Long), (0.9, Dash::Short)];
 const CONFIDENCE: f64 = 0.95;
-
-/// What is drawn of a structure, as the legend shows it: the panel has it in the colour of the structure.
-struct Drawn<'a> {
-    cases: &'a Cases,
-    layers: Vec<Layer>,
-}
+/// The probabilities of which a map has lines.
+const LEVELS: [(f64, Dash); 4] =
+    [(0.02, Dash::Short), (0.1, Dash::Mixed), (0.5, Dash::Solid), (0.9, Dash::Long)];
 
 /// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
 pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
     let axes = [label(&Measure::Im4), "*P*_{ex}"];
-    let panels = suites.iter().filter_map(|groups| panel(axes, exceeding(fits, groups), suites));
+    let panels = suites.iter().filter_map(|groups| {
+        let rocking = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| &case.measures);
+        let im3: Vec<f64> = rocking().filter_map(|measures| measures.im3).collect();
+        let span = Range { low: 1.0, high: rocking().map(|measures| measures.im4).fold(1.5, f64::max) };
+        panel(axes, suites, groups, |cases| exceeding(fits, cases, span, &im3))
+    });
     let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
                    IM4 alone where it has a curve.";
     let title = "Exceeding the limit state in safe rocking";
@@ -52,16 +58,20 @@ pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
         .explained(compare(caption, "Figure 12"))
 }
 
-/// A panel of the structures of a suite, each in one colour in all panels.
-fn panel([x, y]: [&str; 2], structures: Vec<Drawn>, suites: &[Vec<&Cases>]) -> Option<Panel> {
+/// A panel of the structures of a suite that have layers, each in one colour in all panels.
+fn panel(
+    [x, y]: [&str; 2],
+    suites: &[Vec<&Cases>],
+    groups: &[&Cases],
+    layers_of: impl Fn(&Cases) -> Vec<Layer>,
+) -> Option<Panel> {
     let names = by(suites.iter().flatten(), |cases| &cases.structure.name);
-    let suite = structures.first()?.cases.suite.clone().unwrap_or_default();
     // Layers of nothing, for the legend: the colours, then what the dashes and the dots mean.
     let (mut colours, mut keys, mut layers) = (Vec::new(), Vec::new(), Vec::new());
-    for Drawn { cases: Cases { structure, .. }, layers: its } in structures {
+    for (Cases { structure, .. }, its) in groups.iter().map(|cases| (cases, layers_of(cases))) {
         let number = names.iter().position(|same| same[0].structure.name == structure.name);
         let (called, ink) = (called(structure), Ink::Data(number.unwrap_or(0)));
-        colours.push(Layer::line(&called, ink, []));
+        colours.extend(its.first().map(|_| Layer::line(&called, ink, [])));
         keys.extend(its.iter().map(|layer| Layer { marks: Vec::new(), ..layer.clone() }));
         layers.extend(its.into_iter().map(|layer| {
             let name = format!("{called}, {}", layer.name);
@@ -69,7 +79,10 @@ fn panel([x, y]: [&str; 2], structures: Vec<Drawn>, suites: &[Vec<&Cases>]) -> O
         }));
     }
     layers.sort_by_key(|layer| layer.style == MarkStyle::Estimates);
-    Some(Panel::new(&suite, Axis::log(x), Axis::fraction(y), [colours, keys, layers].concat()))
+    let suite = groups.first()?.suite.clone().unwrap_or_default();
+    let has_curves = !layers.is_empty();
+    let layers = [colours, keys, layers].concat();
+    has_curves.then(|| Panel::new(&suite, Axis::log(x), Axis::fraction(y), layers))
 }
 
 /// A curve with its band, broken where it has no value.
@@ -84,16 +97,7 @@ fn measures(im4: f64, im3: f64) -> IntensityMeasures {
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
-fn exceeding<'a>(fits: &Fits, groups: &[&'a Cases]) -> Vec<Drawn<'a>> {
-    let rocking = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| &case.measures);
-    let im3: Vec<f64> = rocking().filter_map(|measures| measures.im3).collect();
-    let span = Range { low: 1.0, high: rocking().map(|measures| measures.im4).fold(1.5, f64::max) };
-    let drawn =
-        groups.iter().map(|&cases| Drawn { cases, layers: exceeding_curves(fits, cases, span, &im3) });
-    drawn.filter(|drawn| !drawn.layers.is_empty()).collect()
-}
-
-fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<Layer> {
+fn exceeding(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<Layer> {
     let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
     let transition = planes.last().and_then(|plane| plane.range_low);
     let mut curves = Vec::new();
@@ -118,15 +122,17 @@ fn exceeding_curves(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec
 /// P_ro over a measure, or over a hybrid one at the median IM3; a panel a suite.
 fn over(fits: &Fits, suites: &[Vec<&Cases>], im_x: &Measure, im_y: Option<&Measure>) -> Vec<Panel> {
     let axes = [if im_y.is_some() { "hybrid measure" } else { label(im_x) }, "*P*_{ro}"];
-    let panels = suites.iter().map(|groups| {
-        let fitted = groups.iter().filter_map(|cases| Some((fits.curve(cases, im_x, im_y)?, *cases)));
-        let rising = fitted.filter(|(fit, _)| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
-        panel(axes, rising.map(|(fit, cases)| overturned(fit, cases)).collect(), suites)
+    let panels = suites.iter().filter_map(|groups| {
+        panel(axes, suites, groups, |cases| {
+            let fit = fits.curve(cases, im_x, im_y);
+            let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
+            rising.map_or(Vec::new(), |fit| overturned(fit, cases))
+        })
     });
-    panels.flatten().collect()
+    panels.collect()
 }
 
-fn overturned<'a>(fit: &CurveFit, cases: &'a Cases) -> Drawn<'a> {
+fn overturned(fit: &CurveFit, cases: &Cases) -> Vec<Layer> {
     let observed = rocked(cases).filter_map(|(case, event)| Some((measure_of(fit, &case.measures)?, event)));
     let observed: Vec<(f64, bool)> = observed.collect();
     let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
@@ -137,7 +143,7 @@ fn overturned<'a>(fit: &CurveFit, cases: &'a Cases) -> Drawn<'a> {
     let curve = curve("lognormal curve", Dash::Solid, equal_ratios(span.low, span.high, STEPS), p);
     let shares = observed_shares(&observed, bin);
     let shares = Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares);
-    Drawn { cases, layers: vec![curve.unlisted(), shares] }
+    vec![curve.unlisted(), shares]
 }
 
 /// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.
@@ -156,4 +162,58 @@ fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
         _ => value,
     };
     measures(im4, im3)
+}
+
+/// Maps of overturning, one panel per suite: of its first structure, with a line for each of the others.
+pub fn maps(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
+    let caption = "Each point is a motion in which the structure rocks. Lines join motions of equal \
+                   probability of overturning by the model, calibrated with these responses; coloured lines \
+                   are those of probability 0.5 of other structures.";
+    let panels = suites.iter().filter_map(|groups| Some(map(fits, groups.split_first()?)));
+    Figure::new("map", "Overturning over PGA and PGV", 2, 150.0, panels.collect()).explained(caption)
+}
+
+fn map(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
+    let mut layers = Vec::new();
+    for (label, ink, event) in [("rocks", Ink::Data(0), false), ("overturns", Ink::Data(1), true)] {
+        let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
+        let its = its.map(|(case, _)| Mark::new(case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s));
+        layers.push(Layer::points(label, ink, its));
+    }
+    let all = Range::over(cases.all.iter().map(|case| case.peaks.pga_m_s2));
+    let pga = Range { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
+    let pgv = Range::over(cases.all.iter().map(|case| case.peaks.pgv_m_s));
+    let pgv = Range { high: 1.5 * pgv.high, ..pgv };
+    for (level, dash) in LEVELS {
+        let line = line(fits, cases, level, pga, pgv);
+        layers.push(Layer::new(&format!("probability {level}"), Ink::Text, MarkStyle::Line(dash), line));
+    }
+    for (number, other) in (2..).zip(others) {
+        let label = format!("{}, 0.5", called(&other.structure));
+        layers.push(Layer::line(&label, Ink::Data(number), line(fits, other, 0.5, pga, pgv)));
+    }
+    Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)
+}
+
+/// The motions under which a structure overturns with this probability, within these PGA and PGV (m/s2 and
+/// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
+fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<Mark> {
+    let structure = &cases.structure;
+    let uncalibrated =
+        || Calibration::uncalibrated(MotionKind::from_suite(cases.suite.as_deref()), structure, None);
+    let calibration = fits.calibration(cases).cloned().unwrap_or_else(uncalibrated);
+    let reaches = |pga: f64, ln_pgv: f64| {
+        let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };
+        let measures = IntensityMeasures::new(structure, peaks, None, None);
+        let p = calibration.probability(structure, &measures, None, Tau::Included);
+        p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
+    };
+    let (least, most) = (pgv.low.ln(), pgv.high.ln());
+    let mut marks = Vec::new();
+    for pga in equal_ratios(pga.low, pga.high, STEPS) {
+        let is_crossed = reaches(pga, most) && !reaches(pga, least);
+        let ln_pgv = is_crossed.then(|| bisect_first_true(least, most, |ln_pgv| reaches(pga, ln_pgv)));
+        marks.push(Mark::new(pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)));
+    }
+    marks
 }

@@ -30,21 +30,17 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 }
 
 fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
-    let cases: Vec<_> = stripes
-        .iter()
-        .filter(|stripe| stripe.group() == fit.group())
-        .map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned))
-        .collect();
+    let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
+    let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
+    let cases: Vec<(f64, bool)> = its.collect();
     let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x));
     let every = shares.len().div_ceil(LEVELS).max(1);
-    let mut capacities: Vec<f64> = rows
-        .iter()
-        .filter(|row| row.group() == fit.group())
-        .filter_map(|row| match row.found.status {
-            CapacityStatus::Below => row.found.overturning.or(levels.first().copied()),
-            _ => row.found.overturning,
-        })
-        .collect();
+    let its = rows.iter().filter(|row| row.group() == fit.group());
+    let capacities = its.filter_map(|row| match row.found.status {
+        CapacityStatus::Below => row.found.overturning.or(levels.first().copied()),
+        _ => row.found.overturning,
+    });
+    let mut capacities: Vec<f64> = capacities.collect();
     capacities.sort_unstable_by(f64::total_cmp);
     let mut steps = Vec::new();
     for (k, &x) in capacities.iter().enumerate() {
