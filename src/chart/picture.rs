@@ -85,9 +85,8 @@ impl Picture {
             LabelPosition::Along => format!(" transform=\"rotate(-90 {x} {y})\""),
             _ => String::new(),
         };
-        let mut svg = format!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{style}>"
-        );
+        let place = format!("x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\"");
+        let mut svg = format!("<text {place} fill=\"{colour}\"{style}>");
         let mut drop = 0.0;
         for run in runs(&words.text) {
             let (below, letters) = match run.level {

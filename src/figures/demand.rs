@@ -1,4 +1,4 @@
-//! Figures 3, 4, 7, 8 and 9: the demand over peak velocity, period and the measures of Eq. 13, and its planes.
+//! Figures 3, 4, 7, 8 and 9: the demand over peak velocity, period and the measures of Eq. 13; its planes.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,5 @@
-//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares; and maps of overturning over
-//! PGA and PGV.
+//! Figures 10, 11 and 12: probabilities over a measure, with the observed shares; and maps of overturning
+//! over PGA and PGV.
 
 use rockfrag_core::fragility::{
     Calibration, Cases, CurveFit, DemandFit, DemandModel, Measure, MotionKind, Tau, hybrid_measure, lambda,
