@@ -1,20 +1,19 @@
-//! The document of two tables of answers, before and after: joined by the names of the objects.
+//! The document of two tables of answers, before and after: that of the latter, with what has changed. They
+//! are joined by the names of the objects.
 
 use rockfrag_core::hazard::{RateBySource, ratio_of_rates};
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
-use super::phrases::{Expected, limits_cover};
-use super::{Document, Table, Tile};
+use super::phrases::Expected;
+use super::{Document, Table};
 use crate::answer::{Answer, AnswerTable};
 use crate::chart::{Figure, Ink};
 use crate::figures::answers::{ProbabilityRow, probabilities};
-use crate::number::{self, OF_HUNDRED, PERCENT, TWO_DIGITS, counted, listed};
+use crate::number::{OF_HUNDRED, TWO_DIGITS, counted, listed, significant};
 
-/// Objects that are named in a sentence and in a line.
-const NAMED: usize = 4;
-const MANY: usize = 20;
-/// The most that are drawn.
+/// Objects that are named in a line, and the most that are drawn.
+const NAMED: usize = 20;
 const DRAWN: usize = 60;
 
 /// An object in two tables.
@@ -30,34 +29,31 @@ pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
     let is_same = before.hazard_key() == after.hazard_key();
     let pairs = pairs(&before.rows, &after.rows, is_same);
     let first = pairs.first()?;
-    let (when, target) = (first.after.when().or(first.before.when())?, target(before).or(target(after)));
+    let when = first.after.when().or(first.before.when())?;
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let velocity = if is_same { "" } else { " PGV/PGA is not shared, as the hazards differ." };
     let has_ratio = pairs.iter().any(|pair| pair.ratio.value.is_some());
     let cancels = format!("The limits of a ratio leave out uncertainty that both rates share.{velocity}");
-    let answers: Vec<&Answer> = pairs.iter().map(|pair| pair.after).collect();
-    let [file_before, file_after] = [before, after].map(AnswerTable::file);
     let changed = pairs.iter().filter(|pair| pair.is_changed()).count();
     // The changed ones of several, else the one that there is.
-    let told = if changed > 0 { &pairs[..changed] } else { &pairs[..1] };
+    let told = &pairs[..changed.max(1)];
+    let mut now = Document::of_answers(after);
+    if pairs.len() > 1 {
+        now.lead.insert(0, format!("{changed} of {} changed.", counted(pairs.len(), "object")));
+        let tile = now.tiles.iter_mut().take(1);
+        tile.for_each(|tile| {
+            tile.number = format!("{} → {}", Expected::new(&before.rows).number(), tile.number)
+        });
+    }
     Some(Document {
-        title: match &pairs[..] {
-            [pair] => format!("{}, before and after", pair.before.object.called()),
-            _ => format!("{}, before and after", counted(pairs.len(), "object")),
-        },
-        place: format!("Before: {file_before}; after: {file_after}{hazards}"),
-        lead: vec![sentence(&pairs, changed, &when, target)],
-        tiles: tiles(before, after, &when, target),
-        facts: has_ratio.then_some(cancels).into_iter().chain(limits_cover(&answers)).collect(),
-        tables: vec![table(told, &when)],
-        notes: others(before, after, &pairs),
-        figures: vec![figure(told, &when, target)],
-        ..Document::default()
+        title: format!("{}, before and after", now.title),
+        place: format!("Before: {}; after: {}{hazards}", before.file(), after.file()),
+        facts: has_ratio.then_some(cancels).into_iter().chain(now.facts).collect(),
+        tables: [vec![table(told, &when)], now.tables].concat(),
+        notes: [others(before, after, &pairs), now.notes].concat(),
+        figures: vec![figure(told, &when, after.rows.iter().find_map(|answer| answer.rates.target))],
+        ..now
     })
-}
-
-fn target(table: &AnswerTable) -> Option<f64> {
-    table.rows.iter().find_map(|answer| answer.rates.target)
 }
 
 /// The objects of both tables that have an answer in one, by name: those that are changed first, of these the
@@ -90,6 +86,18 @@ fn ratio(before: &Answer, after: &Answer, is_same_hazard: bool) -> Interval<Opti
     ratio_of_rates(&before, &after, is_shared).into()
 }
 
+/// What may differ between answers, and its name.
+type Side = (&'static str, fn(&Answer) -> String);
+
+const SIDES: [Side; 2] =
+    [("", |answer| answer.object.place()), ("", |answer| answer.object.size().replace(' ', "\u{a0}"))];
+const PARAMETERS: [Side; 2] = [
+    ("tips at ", |answer| {
+        answer.object.alpha_rad.map_or("-".to_string(), |a| significant(a.to_degrees(), 3)) + "°"
+    }),
+    ("restitution ", |answer| answer.object.eta.map_or("-".to_string(), |eta| significant(eta, 3))),
+];
+
 impl Pair<'_> {
     fn is_changed(&self) -> bool {
         self.before.p.p_overturning != self.after.p.p_overturning || !self.changes().is_empty()
@@ -97,26 +105,23 @@ impl Pair<'_> {
 
     /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle or eta where nothing else does.
     fn changes(&self) -> Vec<String> {
-        let both = [self.before, self.after].map(|answer| &answer.object);
-        let digits =
-            |value: Option<f64>| value.map_or("-".to_string(), |value| number::significant(value, 3));
-        let places = both.map(|object| object.place());
-        let sizes = both.map(|object| object.size().replace(' ', "\u{a0}"));
-        let mut changes: Vec<String> =
-            [places, sizes].into_iter().filter_map(|pair| arrow("", pair)).collect();
-        let silent = [self.before, self.after].into_iter().find(|answer| !answer.is_answered());
-        changes.extend(silent.map(|answer| answer.reason()));
+        let both = [self.before, self.after];
+        let arrow = |(name, side): &Side| {
+            let [old, new] = both.map(side);
+            (old != new).then(|| format!("{name}{old} → {new}"))
+        };
+        let mut changes: Vec<String> = SIDES.iter().filter_map(arrow).collect();
+        let silent = both.into_iter().find(|answer| !answer.is_answered());
+        changes.extend(silent.map(Answer::reason));
         if changes.is_empty() {
-            let degrees = both.map(|object| digits(object.alpha_rad.map(f64::to_degrees)) + "°");
-            let eta = both.map(|object| digits(object.eta));
-            changes.extend(arrow("tips at ", degrees).or_else(|| arrow("restitution ", eta)));
+            changes.extend(PARAMETERS.iter().find_map(arrow));
         }
         changes
     }
-}
 
-fn arrow(name: &str, [old, new]: [String; 2]) -> Option<String> {
-    (old != new).then(|| format!("{name}{old} → {new}"))
+    fn times(&self) -> String {
+        self.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(self.ratio))
+    }
 }
 
 /// Before and after in one row.
@@ -124,7 +129,7 @@ fn figure(told: &[Pair], when: &str, target: Option<f64>) -> Figure {
     let rows = told.iter().take(DRAWN).map(|pair| {
         let sides = [(pair.before, Ink::Muted, "before"), (pair.after, Ink::Data(1), "after")];
         let values = sides.map(|(answer, ink, label)| (answer.p.p_overturning, ink, label)).into();
-        let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", TWO_DIGITS.value(pair.ratio)));
+        let words = pair.ratio.value.map_or(String::new(), |_| format!("× {}", pair.times()));
         ProbabilityRow { name: pair.before.object.called(), values, words }
     });
     let panel = probabilities("", when, &rows.collect::<Vec<_>>(), target);
@@ -133,48 +138,6 @@ fn figure(told: &[Pair], when: &str, target: Option<f64>) -> Figure {
          annual rates, after over before."
     );
     Figure::new("compared", "Before and after", 1, 0.0, vec![panel]).explained(caption)
-}
-
-/// What has become of one object, or of all, and which are above the target still.
-fn sentence(pairs: &[Pair], changed: usize, when: &str, target: Option<f64>) -> String {
-    if let [Pair { before, after, .. }] = pairs {
-        let [p, q] = [before, after].map(|answer| match answer.is_answered() {
-            true => PERCENT.value(answer.p.p_overturning),
-            false => "no answer".to_string(),
-        });
-        let target = after.about_target().map_or(String::new(), |target| format!(" {target}"));
-        let name = before.object.called();
-        return format!("{name} overturns with a probability of {p} before and {q} after, {when}.{target}");
-    }
-    let changed = format!("{} of {} changed.", number::count(changed), counted(pairs.len(), "object"));
-    let mut after: Vec<&Answer> = pairs.iter().map(|pair| pair.after).collect();
-    after.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-    after.retain(|answer| target.is_none_or(|target| answer.severity() > target));
-    let worst: Vec<String> = after.iter().map(|answer| with_number(answer)).collect();
-    match target.map(|target| PERCENT.one(target)) {
-        None => format!("{changed} The most likely to overturn {when} is now {}.", worst[0]),
-        Some(target) if worst.is_empty() => {
-            format!("{changed} None is now known to be above the target of {target} {when}.")
-        }
-        Some(target) => {
-            format!("{changed} Still above the target of {target} {when}: {}.", listed(&worst, NAMED))
-        }
-    }
-}
-
-/// The numbers of objects that are expected to overturn, and above the target.
-fn tiles(before: &AnswerTable, after: &AnswerTable, when: &str, target: Option<f64>) -> Vec<Tile> {
-    let both = [before, after].map(|table| &table.rows);
-    if both.iter().all(|rows| rows.len() < 2) {
-        return Vec::new();
-    }
-    let [old, new] = both.map(|rows| Expected::new(rows).number());
-    let mut tiles = vec![Tile::new(format!("{old} → {new}"), format!("objects expected to overturn {when}"))];
-    tiles.extend(target.map(|target| {
-        let [old, new] = both.map(|rows| rows.iter().filter(|answer| answer.severity() > target).count());
-        Tile::new(format!("{old} → {new}"), format!("objects above the target of {}", PERCENT.one(target)))
-    }));
-    tiles
 }
 
 fn table(told: &[Pair], when: &str) -> Table {
@@ -189,41 +152,25 @@ fn table(told: &[Pair], when: &str) -> Table {
             OF_HUNDRED.value(p),
             OF_HUNDRED.value(q),
             OF_HUNDRED.span(q),
-            pair.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(pair.ratio)),
+            pair.times(),
             TWO_DIGITS.span(pair.ratio),
         ]
     });
     Table::new(&heads, rows.collect())
 }
 
-/// Objects that are unchanged, those without an answer in both, and those of one file alone.
+/// Objects that are unchanged, and those of one file alone.
 fn others(before: &AnswerTable, after: &AnswerTable, pairs: &[Pair]) -> Vec<String> {
-    let same: Vec<&Answer> = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
-    let is_silent = |one: &&Answer| {
-        namesake(one, &after.rows).is_some_and(|other| !one.is_answered() && !other.is_answered())
-    };
-    let [gone, new] = [(before, after), (after, before)].map(|(of, other)| {
-        of.rows.iter().filter(|answer| namesake(answer, &other.rows).is_none()).collect::<Vec<_>>()
+    let same = pairs.iter().filter(|pair| !pair.is_changed()).map(|pair| pair.after).collect();
+    let mut all: Vec<(String, Vec<&Answer>)> = vec![("unchanged".to_string(), same)];
+    for (of, other) in [(before, after), (after, before)] {
+        let alone = of.rows.iter().filter(|answer| namesake(answer, &other.rows).is_none());
+        all.push((format!("only in {}", of.file()), alone.collect()));
+    }
+    all.retain(|(_, answers)| !answers.is_empty());
+    let lines = all.iter().map(|(what, answers)| {
+        let names: Vec<String> = answers.iter().map(|answer| answer.object.called()).collect();
+        format!("{} {what}: {}.", counted(names.len(), "object"), listed(&names, NAMED))
     });
-    let mut lines = Vec::new();
-    for (heading, all) in [
-        ("unchanged", same),
-        ("not assessed before or after", before.rows.iter().filter(is_silent).collect()),
-        (&format!("only in {}", before.file()), gone),
-        (&format!("only in {}", after.file()), new),
-    ] {
-        let names: Vec<String> = all.iter().map(|answer| with_number(answer)).collect();
-        let (count, names) = (counted(all.len(), "object"), listed(&names, MANY));
-        lines.extend((!all.is_empty()).then(|| format!("{count} {heading}: {names}.")));
-    }
-    lines
-}
-
-/// Names an object with its probability, if it has one.
-fn with_number(answer: &Answer) -> String {
-    let name = answer.object.called();
-    match answer.is_answered() {
-        true => format!("{name} ({})", PERCENT.value(answer.p.p_overturning)),
-        false => name,
-    }
+    lines.collect()
 }
