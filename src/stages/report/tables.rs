@@ -7,6 +7,7 @@ use rockfrag_core::fragility::{Calibration, Cases, Event};
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
+use strum::{EnumProperty, VariantArray};
 
 use crate::answer::{Answer, AnswerTable};
 use crate::document::response::Trace;
@@ -25,65 +26,56 @@ use crate::table::writer::MOTIONS_IN_GROUP;
 /// The most responses that are drawn of a file.
 const MOST_TRACES: usize = 50;
 
-/// What a table holds, in words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+/// What a table holds, in words. Each has the stages that make it, and columns that tell it from others of the
+/// same stage, and from those of all stages where no footer says which; of those that are silent the page shows
+/// nothing of their own: others are made of them, or stand beside them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumProperty, strum::VariantArray)]
 #[strum(serialize_all = "snake_case")]
 pub enum Kind {
+    #[strum(props(
+        by = "synthesize-motions import-motions floor-motions",
+        columns = "acceleration_m_s2 dt_s"
+    ))]
     Motions,
-    #[strum(serialize = "responses over time")]
+    #[strum(serialize = "responses over time", props(by = "simulate", columns = "theta_over_alpha time_s"))]
     Traces,
+    #[strum(props(by = "ida", columns = "outcome intensity scale", silent = true))]
     Stripes,
+    #[strum(props(by = "simulate", columns = "outcome edp alpha_rad"))]
     Responses,
     #[strum(serialize = "overturning intensities")]
+    #[strum(props(by = "ida", columns = "capacity overturning_intensity", silent = true))]
     Capacities,
     #[strum(serialize = "distributions of overturning intensities")]
+    #[strum(props(by = "ida", columns = "theta beta n_safe"))]
     CapacityFits,
+    #[strum(props(by = "evaluate", columns = "variant p_overturning", silent = true))]
     Variants,
+    #[strum(props(by = "evaluate", columns = "structure p_overturning"))]
     Answers,
-    #[strum(serialize = "probabilities under motions")]
+    #[strum(serialize = "probabilities under motions", props(by = "evaluate", columns = "p_ro"))]
     Probabilities,
+    #[strum(props(by = "fit-pex fit-pro", columns = "ln_s tau n_clusters", silent = true))]
     Calibrations,
-    #[strum(serialize = "curves of overturning")]
+    #[strum(serialize = "curves of overturning", props(by = "fit-pro", columns = "event coefficients aic"))]
     Curves,
     #[strum(serialize = "regressions of the demand")]
+    #[strum(props(by = "fit-pex", columns = "model coefficients range_low"))]
     Planes,
     #[strum(serialize = "parameters of fits")]
+    #[strum(props(by = "fit-pex fit-pro", columns = "parameter value standard_error", silent = true))]
     Parameters,
-    #[strum(serialize = "numbers of the paper")]
+    #[strum(serialize = "numbers of the paper", props(by = "compare-paper", columns = "published ours"))]
     Paper,
-    #[strum(serialize = "observed shares")]
+    #[strum(serialize = "observed shares", props(by = "validate", columns = "predicted share"))]
     Reliability,
+    #[strum(props(by = "validate", columns = "observed expected log_score"))]
     Validation,
+    #[strum(props(by = "sample-scenarios", columns = "scenario_id gamma", silent = true))]
     Scenarios,
     #[strum(serialize = "another program's table")]
     Other,
 }
-
-/// The stages that make each kind, and columns that tell it from others of the same stage, and from those of
-/// all stages where no footer says which.
-const KINDS: [(Kind, &str, &str); 17] = [
-    (Kind::Motions, "synthesize-motions import-motions floor-motions", "acceleration_m_s2 dt_s"),
-    (Kind::Traces, "simulate", "theta_over_alpha time_s"),
-    (Kind::Stripes, "ida", "outcome intensity scale"),
-    (Kind::Responses, "simulate", "outcome edp alpha_rad"),
-    (Kind::Capacities, "ida", "capacity overturning_intensity"),
-    (Kind::CapacityFits, "ida", "theta beta n_safe"),
-    (Kind::Variants, "evaluate", "variant p_overturning"),
-    (Kind::Answers, "evaluate", "structure p_overturning"),
-    (Kind::Probabilities, "evaluate", "p_ro"),
-    (Kind::Calibrations, "fit-pex fit-pro", "ln_s tau n_clusters"),
-    (Kind::Curves, "fit-pro", "event coefficients aic"),
-    (Kind::Planes, "fit-pex", "model coefficients range_low"),
-    (Kind::Parameters, "fit-pex fit-pro", "parameter value standard_error"),
-    (Kind::Paper, "compare-paper", "published ours"),
-    (Kind::Reliability, "validate", "predicted share"),
-    (Kind::Validation, "validate", "observed expected log_score"),
-    (Kind::Scenarios, "sample-scenarios", "scenario_id gamma"),
-];
-
-/// Tables of which the page shows nothing of their own: others are made of them, or stand beside them.
-const SILENT: [Kind; 6] =
-    [Kind::Scenarios, Kind::Parameters, Kind::Stripes, Kind::Capacities, Kind::Calibrations, Kind::Variants];
 
 /// A table that is read.
 pub struct Item {
@@ -98,13 +90,14 @@ pub struct Item {
 impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
         let table = ParquetTable::open(path)?;
-        let has = |columns: &str| columns.split(' ').all(|name| table.schema().index_of(name).is_ok());
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
-        let kind = KINDS.iter().find(|(_, stages, columns)| {
-            made.as_ref().is_none_or(|made| stages.split(' ').any(|stage| stage == made.stage))
-                && has(columns)
+        let words = |kind: &Kind, of: &str| kind.get_str(of).unwrap_or_default().split(' ');
+        let is_by = |kind: &Kind, made: &Provenance| words(kind, "by").any(|stage| stage == made.stage);
+        let kind = Kind::VARIANTS.iter().copied().find(|kind| {
+            made.as_ref().is_none_or(|made| is_by(kind, made))
+                && words(kind, "columns").all(|name| table.schema().index_of(name).is_ok())
         });
-        let kind = kind.map_or(Kind::Other, |(kind, ..)| *kind);
+        let kind = kind.unwrap_or(Kind::Other);
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
 
@@ -214,7 +207,7 @@ impl Tables {
         let (mut strange, items) = (strangers.into_iter(), std::mem::take(&mut self.items));
         let (left_out, kept): (Vec<Item>, _) = items.into_iter().partition(|_| strange.next() == Some(true));
         self.items = kept;
-        for item in left_out.iter().filter(|item| !SILENT.contains(&item.kind)) {
+        for item in left_out.iter().filter(|item| item.kind.get_bool("silent") != Some(true)) {
             let what = made_of(item).1;
             self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
         }
