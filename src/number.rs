@@ -53,19 +53,20 @@ impl Style {
         }
     }
 
-    /// Writes the limits of a value, after words that name them: `(95 % limits 0.50 to 0.98 %)`.
+    /// Writes the limits of a value behind it, after words that name them: ` (95 % limits 0.50 to 0.98 %)`.
     pub fn limits(self, of: Interval<Option<f64>>, words: &str) -> String {
-        let limits = of.low.zip(of.high).filter(|_| of.value.is_some());
-        limits.map_or(String::new(), |(low, high)| format!("({words}{})", self.range(low, high)))
+        let span = self.span(of);
+        if span.is_empty() { span } else { format!(" ({words}{span})") }
     }
 
     /// Writes the limits of a value alone.
     pub fn span(self, of: Interval<Option<f64>>) -> String {
-        self.limits(of, "").replace(['(', ')'], "")
+        let limits = of.low.zip(of.high).filter(|_| of.value.is_some());
+        limits.map_or(String::new(), |(low, high)| self.range(low, high))
     }
 
     pub fn both(self, of: Interval<Option<f64>>, words: &str) -> String {
-        format!("{} {}", self.value(of), self.limits(of, words)).trim_end().to_string()
+        self.value(of) + &self.limits(of, words)
     }
 }
 

@@ -10,6 +10,7 @@ mod at_site;
 mod row;
 mod variants;
 
+use std::collections::BTreeSet;
 use std::iter;
 use std::path::{Path, PathBuf};
 
@@ -209,7 +210,11 @@ pub fn variant_table(variants: &[Answer], question: &Question) -> anyhow::Result
 /// an object without an answer.
 pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
     let all = || answers.iter().flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
-    let points: Vec<CurveRow> = answers.iter().flat_map(CurveRow::of).collect();
+    let points = answers.iter().flat_map(|Answer { points, fragility, .. }| {
+        let empty = points.is_empty().then(CurveRow::default);
+        points.iter().map(|point| CurveRow::new(fragility.over, point)).chain(empty)
+    });
+    let points: Vec<CurveRow> = points.collect();
     rows::side_by_side(&[
         rows::batch(all().map(|answer| &answer.object))?,
         rows::batch(&points)?,
@@ -237,12 +242,9 @@ impl AnswerTable {
 
     /// The answers of several files, without a target that is not that of all.
     pub fn joined(all: &[AnswerTable]) -> AnswerTable {
-        let (mut rows, mut variants, mut made) = (Vec::new(), Vec::new(), Vec::new());
-        for table in all {
-            rows.extend_from_slice(&table.rows);
-            variants.extend_from_slice(&table.variants);
-            made.extend_from_slice(&table.made);
-        }
+        let mut rows: Vec<Answer> = all.iter().flat_map(|table| table.rows.clone()).collect();
+        let variants = all.iter().flat_map(|table| table.variants.clone()).collect();
+        let made = all.iter().flat_map(|table| table.made.clone()).collect();
         let target = rows.iter().find_map(|answer| answer.rates.target);
         if rows.iter().any(|answer| answer.is_answered() && answer.rates.target != target) {
             rows.iter_mut()
@@ -264,20 +266,11 @@ impl AnswerTable {
     /// What answers are for, after a place: `; hazard: pga.csv`.
     pub fn conditions(&self) -> String {
         let over = self.rows.iter().find_map(|answer| answer.fragility.over);
-        let mut hazards: Vec<String> = self.made.iter().filter_map(|made| made.names("hazard")).collect();
-        hazards.dedup();
-        match &hazards[..] {
-            [] => over.map_or(String::new(), |_| "; at generic sites".to_string()),
-            files => format!("; hazard: {}", literal(&files.join("; "))),
+        let hazards: BTreeSet<String> = self.made.iter().filter_map(|made| made.names("hazard")).collect();
+        match hazards.is_empty() {
+            true => over.map_or(String::new(), |_| "; at generic sites".to_string()),
+            false => format!("; hazard: {}", literal(&Vec::from_iter(hazards).join("; "))),
         }
-    }
-
-    /// The variants of an answer, which follow each other.
-    pub fn variants_of(&self, answer: &Answer) -> &[Answer] {
-        let is_its = |variant: &&Answer| variant.object.structure == answer.object.structure;
-        let start = self.variants.iter().position(|variant| is_its(&variant)).unwrap_or_default();
-        let count = self.variants[start..].iter().take_while(is_its).count();
-        &self.variants[start..start + count]
     }
 }
 

@@ -13,8 +13,6 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
-use super::Answer;
-
 /// An object and the model that predicts for it; without parameters where it has no answer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ObjectColumns {
@@ -207,18 +205,14 @@ pub struct CurveRow {
 }
 
 impl CurveRow {
-    /// The points of an answer, one empty one if it has none.
-    pub fn of(answer: &Answer) -> Vec<CurveRow> {
-        let is_over = |peak: Peak| answer.fragility.over == Some(peak);
-        let rows = answer.points.iter().map(|FragilityPoint { intensity, p }| CurveRow {
-            pga_g: is_over(Peak::Pga).then_some(intensity / G_M_S2),
-            pgv_m_s: is_over(Peak::Pgv).then_some(*intensity),
+    pub fn new(over: Option<Peak>, FragilityPoint { intensity, p }: &FragilityPoint) -> CurveRow {
+        CurveRow {
+            pga_g: (over == Some(Peak::Pga)).then_some(intensity / G_M_S2),
+            pgv_m_s: (over == Some(Peak::Pgv)).then_some(*intensity),
             p_rocking: p.rocking,
             p_failure: p.failure,
             p_overturning: p.overturning,
-        });
-        let rows: Vec<CurveRow> = rows.collect();
-        if rows.is_empty() { vec![CurveRow::default()] } else { rows }
+        }
     }
 
     pub fn point(&self) -> Option<FragilityPoint> {
@@ -269,19 +263,12 @@ impl UncertaintyColumns {
 
     /// The standard deviations of what is unknown, by source.
     pub fn source_sds(&self) -> Vec<(UncertaintySource, f64)> {
-        let sds = UncertaintySource::VARIANTS.iter().map(|&source| {
-            let sd = match source {
-                UncertaintySource::Fit => self.error_fit,
-                UncertaintySource::Magnitude => self.error_magnitude,
-                UncertaintySource::Velocity => self.error_velocity,
-                UncertaintySource::Eta => self.error_eta,
-                UncertaintySource::Object => self.error_object,
-                UncertaintySource::Floor => self.error_floor,
-                UncertaintySource::Hazard => self.error_hazard,
-            };
-            Some((source, sd?))
-        });
-        sds.flatten().collect()
+        let UncertaintyColumns { error_fit, error_magnitude, error_velocity, error_eta, .. } = *self;
+        let UncertaintyColumns { error_object, error_floor, error_hazard, .. } = *self;
+        let sds =
+            [error_fit, error_magnitude, error_velocity, error_eta, error_object, error_floor, error_hazard];
+        let known = UncertaintySource::VARIANTS.iter().zip(sds).map(|(source, sd)| Some((*source, sd?)));
+        known.flatten().collect()
     }
 
     /// The warnings; none for an object without an answer.

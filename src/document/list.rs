@@ -34,7 +34,8 @@ pub fn document(table: &AnswerTable) -> Document {
         _ if upstairs == answered.len() => "on floors".to_string(),
         _ => format!("{} on the ground, {upstairs} on floors", answered.len() - upstairs),
     };
-    let lead = [Some(worst_of(table)), worst.about_target(), Some(not_assessed(&table.rows))];
+    let whose = format!(" of {}", worst.object.called());
+    let lead = [Some(worst_of(table)), worst.about_target(&whose), Some(not_assessed(&table.rows))];
     Document {
         title,
         place: format!("{} free-standing, {place}{}", count(answered.len()), table.conditions()),
@@ -89,7 +90,8 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let expected = Expected::new(answers.iter().copied());
         let file = literal(&answers[0].file);
         let file = if files.len() > 1 { format!(" ({file})") } else { String::new() };
-        let words = format!("of {} objects expected to overturn {when}{file}", plain(expected.all));
+        let all = counted(expected.all as usize, "object");
+        let words = format!("of {all} expected to overturn {when}{file}");
         tiles.push(Tile::new(expected.number(), words));
     }
     if files.len() == 1 {
@@ -128,7 +130,7 @@ const BELOW: [(&str, Cell); 8] = [
     }),
     ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
     ("rocks too far @, %", |answer| answered(answer, OF_HUNDRED.value(answer.p.p_failure))),
-    ("friction needed", friction),
+    ("friction needed", |answer| answer.object.friction_needed().map_or(String::new(), |of| fixed(of, 2))),
     ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
     ("responses", |answer| answer.object.responses.map_or(String::new(), |n| count(n as usize))),
@@ -197,18 +199,11 @@ fn limits(answer: &Answer) -> String {
 /// The base with which an object meets the target, if there is one.
 fn base(answer: &Answer) -> String {
     let target = answer.rates.target;
-    match answer.base() {
+    match answer.base(|side| side.value) {
         _ if target.is_some_and(|target| answer.meets(target)) => "meets it".to_string(),
         None if target.is_some() && answer.is_answered() => "none".to_string(),
         base => base.unwrap_or_default().replace(' ', "\u{a0}"),
     }
-}
-
-/// The friction that an object needs; nothing if it is known to have enough.
-fn friction(answer: &Answer) -> String {
-    let object = &answer.object;
-    let friction = object.friction.filter(|_| object.is_friction_known != Some(true));
-    friction.map_or(String::new(), |friction| fixed(friction, 2))
 }
 
 /// What speaks against answers: a line for those of the same words.

@@ -1,6 +1,8 @@
 //! The document of one object.
 
-use super::phrases::{ANGLES, State, facts, intensity, intensity_cells};
+use rockfrag_core::statistics::Interval;
+
+use super::phrases::{ANGLES, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable, Usual};
 use crate::chart::text::literal;
@@ -9,13 +11,13 @@ use crate::number::{PERCENT, RATE, significant};
 
 pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     let when = answer.when().unwrap_or_default();
-    let (variants, hazard) = (table.variants_of(answer), table.hazard.as_ref());
+    let (variants, hazard) = (&table.variants[..], table.hazard.as_ref());
     let is_rocking = answer.tree.p_nr.filter(|p_nr| *p_nr < 1.0);
     let uplift = is_rocking.map(|_| format!("It {}.", answer.uplift()));
     Document {
         title: answer.object.title(),
         place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),
-        lead: [Some(format!("It {}.", answer.how_often(hazard))), answer.about_target()]
+        lead: [Some(format!("It {}.", answer.how_often(hazard))), answer.about_target("")]
             .into_iter()
             .flatten()
             .collect(),
@@ -47,7 +49,7 @@ fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
         for (change, more) in [Some(as_it_is), best, moved].into_iter().zip(more) {
             let Some(Answer { variant: Some(variant), p, .. }) = change else { continue };
             let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
-            let words = format!("overturns: {variant}{more} {limits}");
+            let words = format!("overturns: {variant}{more}{limits}");
             tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
         }
     }
@@ -69,23 +71,27 @@ fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
 /// The answer, and what it is with one thing changed; under one motion there are no rates, over a peak
 /// intensities.
 fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
-    if let Some(over) = answer.fragility.over {
-        let [failure, overturning] = [&answer.fragility.failure, &answer.fragility.overturning];
-        let row =
-            |State { name, .. }: &State, of| [vec![name.clone()], intensity_cells(over, of).into()].concat();
-        let [_, too_far, overturns] = &answer.states();
+    let Answer { object, p, rates, fragility, .. } = answer;
+    let (too_far, overturns) = (object.too_far(), "overturns".to_string());
+    if let Some(over) = fragility.over {
+        let rows = [(too_far, &fragility.failure), (overturns, &fragility.overturning)];
+        let rows = rows.map(|(name, of)| [vec![name], intensity_cells(over, of).into()].concat());
         let half = format!("half at a {} of", over.name_and_unit().0);
-        let heads = ["", &half, "95 % limits", "16 %", "84 %", "beta"];
-        return Table::new(&heads, vec![row(too_far, failure), row(overturns, overturning)]);
+        return Table::new(&["", &half, "95 % limits", "16 %", "84 %", "beta"], rows.into());
     }
-    let states = answer.states().into_iter().map(|State { name, p, per_year }| {
-        let rate = answer.rates.years.map_or(String::new(), |_| RATE.value(per_year));
+    let row = |name: String, p, per_year| {
+        let rate = rates.years.map_or(String::new(), |_| RATE.value(per_year));
         vec![name, PERCENT.value(p), PERCENT.span(p), rate]
-    });
-    let changes = variants.iter().skip(1).map(|Answer { variant, p, rates, .. }| {
-        let (p, rate) = (p.p_overturning, RATE.value(rates.overturning_per_year));
+    };
+    let [p_rocking, rocking_per_year] = [p.p_rocking, rates.rocking_per_year].map(Interval::without_limits);
+    let mut rows = vec![
+        row("rocks".to_string(), p_rocking, rocking_per_year),
+        row(too_far, p.p_failure, rates.failure_per_year),
+        row(overturns, p.p_overturning, rates.overturning_per_year),
+    ];
+    rows.extend(variants.iter().skip(1).map(|Answer { variant, p, rates, .. }| {
         let name = format!("overturns: {}", variant.as_deref().unwrap_or_default());
-        vec![name, PERCENT.value(p), PERCENT.span(p), rate]
-    });
-    Table::new(&["", when, "95 % limits", "rate a year"], states.chain(changes).collect())
+        row(name, p.p_overturning, rates.overturning_per_year)
+    }));
+    Table::new(&["", when, "95 % limits", "rate a year"], rows)
 }

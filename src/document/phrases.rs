@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{Bases, Hazard, Lognormal, PeakHazard, SLENDERNESSES, SearchEnd, strongest};
+use rockfrag_core::hazard::{
+    Bases, Hazard, Lognormal, PeakHazard, SLENDERNESSES, SearchEnd, Side, strongest,
+};
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::UNNAMED;
-use strum::VariantArray;
 
 use crate::answer::{Answer, ObjectColumns};
 use crate::chart::text::literal;
@@ -88,16 +89,16 @@ impl ObjectColumns {
         self.called() + &size
     }
 
+    /// The limit state before overturning.
     pub fn too_far(&self) -> String {
-        format!("rocks beyond {} of its slenderness", PERCENT.one(self.limit_state.unwrap_or(0.1)))
+        let share = PERCENT.one(self.limit_state.unwrap_or(0.1));
+        format!("rocks beyond {share} of its slenderness, or overturns")
     }
-}
 
-/// A limit state, how likely it is in the exposure time or under the motion, and how often it comes a year.
-pub struct State {
-    pub name: String,
-    pub p: Interval<Option<f64>>,
-    pub per_year: Interval<Option<f64>>,
+    /// The friction without which it slides; none where it is known to have enough.
+    pub fn friction_needed(&self) -> Option<f64> {
+        self.friction.filter(|_| self.is_friction_known != Some(true))
+    }
 }
 
 impl Answer {
@@ -115,19 +116,6 @@ impl Answer {
         }
     }
 
-    /// The limit states, each beyond those before.
-    pub fn states(&self) -> [State; 3] {
-        let too_far = format!("{}, or overturns", self.object.too_far());
-        let [rocks, rocking_per_year] =
-            [self.p.p_rocking, self.rates.rocking_per_year].map(Interval::without_limits);
-        [
-            ("rocks", rocks, rocking_per_year),
-            (&too_far, self.p.p_failure, self.rates.failure_per_year),
-            ("overturns", self.p.p_overturning, self.rates.overturning_per_year),
-        ]
-        .map(|(name, p, per_year)| State { name: name.to_string(), p, per_year })
-    }
-
     fn rocks(&self) -> bool {
         self.p.p_rocking.is_some_and(|p| p > 0.0)
     }
@@ -135,8 +123,7 @@ impl Answer {
     /// How likely it is to overturn, with limits or bounds: the sentence that begins with the object.
     pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
-        let after_space = |limits: String| if limits.is_empty() { limits } else { format!(" {limits}") };
-        let limits = after_space(PERCENT.limits(p, "95 % limits "));
+        let limits = PERCENT.limits(p, "95 % limits ");
         if let Some(over) = self.fragility.over {
             let [half, limits, ..] = intensity_cells(over, &self.fragility.overturning);
             let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
@@ -193,23 +180,26 @@ impl Answer {
         self.p.p_overturning.value.or(self.p.p_overturning.high).is_some_and(|p| p <= target)
     }
 
-    /// The base with which it meets its target, by the estimate and by the upper limit, or why none does.
-    pub fn about_target(&self) -> Option<String> {
+    /// The base with which it meets its target, by the estimate and by the upper limit, or why none does;
+    /// `whose` names it among others: ` of rack`.
+    pub fn about_target(&self, whose: &str) -> Option<String> {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
-        let Some(base) = self.base() else {
-            return Some(format!("No base reaches {target}: {why_none}. Anchored, it would not rock."));
+        let Some(base) = self.base(|side| side.value) else {
+            return Some(format!(
+                "No base{whose} reaches {target}: {why_none}. Anchored, it would not rock."
+            ));
         };
-        let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.is_none());
+        let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.value.is_none());
         let depth = depth.map_or(String::new(), |depth| {
             let depth = number::length(depth);
-            format!("No width reaches {target}: it then falls over its depth ({depth} m). ")
+            format!("No width{whose} reaches {target}: it then falls over its depth ({depth} m). ")
         });
-        let by_limit = match self.base_by_limit() {
+        let by_limit = match self.base(|side| side.high) {
             Some(base) => format!("{base} by the upper limit"),
             None => format!("none by the upper limit: {why_none}"),
         };
-        Some(format!("{depth}Base for {target}: {base}; {by_limit}."))
+        Some(format!("{depth}Base{whose} for {target}: {base}; {by_limit}."))
     }
 
     fn why_no_base(&self) -> String {
@@ -220,15 +210,17 @@ impl Answer {
         }
     }
 
-    /// The base that meets the target, if there is one.
-    pub fn base(&self) -> Option<String> {
+    /// The base that meets the target by the estimate, or by the upper limit: of this width, or with both
+    /// sides no less than this. To the millimetre, never below.
+    pub fn base(&self, by: fn(Side) -> Option<f64>) -> Option<String> {
         let Bases { target_width_m, target_sides_m, .. } = self.rates.bases;
-        base_in_words(&self.object, target_width_m, target_sides_m)
-    }
-
-    fn base_by_limit(&self) -> Option<String> {
-        let Bases { target_width_m_high, target_sides_m_high, .. } = self.rates.bases;
-        base_in_words(&self.object, target_width_m_high, target_sides_m_high)
+        let ([width, sides], object) = ([target_width_m, target_sides_m].map(by), &self.object);
+        let least = sides.unwrap_or(0.0);
+        let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
+        // What is given in millimetres stays.
+        let up = |side_m: f64| number::length((1e3 * side_m - 1e-6).ceil() / 1e3);
+        let depth = object.depth_m.map(|depth| format!(" × {}", up(depth.max(least))));
+        Some(format!("{}{} m", up(width), depth.unwrap_or_default()))
     }
 
     /// Why there is no answer.
@@ -239,30 +231,22 @@ impl Answer {
     /// The largest part of the error, and what would narrow it.
     fn largest_uncertainty(&self) -> Option<String> {
         let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
-        let part = self.uncertainty.error_largest.filter(|_| is_known)?;
-        let advice = match part {
-            UncertaintySource::Fit if self.object.responses > Some(0) => "",
-            UncertaintySource::Fit => "Calibrate it with records of the site (--fits).",
-            UncertaintySource::Magnitude => "Add --magnitude.",
-            UncertaintySource::Velocity => "Give both peaks, or the hazard of both.",
-            UncertaintySource::Eta => "Measure it (--eta, --eta-sd).",
-            UncertaintySource::Object => "Measure its centre of mass.",
-            UncertaintySource::Floor => "Measure its period (--period, --period-sd).",
-            UncertaintySource::Hazard => "",
-        };
-        Some(format!("Largest uncertainty: {}. {advice}", part.description()).trim_end().to_string())
+        let [name, remedy, options] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
+        Some(format!("Largest uncertainty: {name}, narrowed by {remedy} ({options})."))
     }
 }
 
-/// The base of an object that a search for a target found: of this width, or with both sides no less than
-/// this. To the millimetre, never below.
-fn base_in_words(object: &ObjectColumns, width: Option<f64>, sides: Option<f64>) -> Option<String> {
-    let least = sides.unwrap_or(0.0);
-    let width = width.or_else(|| Some(object.width_m.filter(|_| sides.is_some())?.max(least)))?;
-    // What is given in millimetres stays.
-    let up = |side_m: f64| number::length((1e3 * side_m - 1e-6).ceil() / 1e3);
-    let depth = object.depth_m.map(|depth| format!(" × {}", up(depth.max(least))));
-    Some(format!("{}{} m", up(width), depth.unwrap_or_default()))
+/// What is uncertain, what narrows it, and the options for that.
+pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
+    match source {
+        UncertaintySource::Fit => ["fragility", "records of the site", "--fits"],
+        UncertaintySource::Magnitude => ["magnitude", "a disaggregation", "--magnitude"],
+        UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
+        UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
+        UncertaintySource::Object => ["centre of mass", "weighing", "--centre-height-sd"],
+        UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
+        UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],
+    }
 }
 
 fn with_unit(peak: Peak, intensity: f64) -> String {
@@ -295,11 +279,10 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
         .share_extrapolated
         .map(|share| format!("{} of the rate lies beyond the curve.", PERCENT.one(share)));
     let valid = match all {
-        [one] => one
-            .object
-            .friction
-            .filter(|_| one.object.is_friction_known != Some(true))
-            .map(|friction| format!("Valid if friction is above {}; else it slides.", fixed(friction, 2))),
+        [one] => {
+            let friction = one.object.friction_needed().map(|friction| fixed(friction, 2));
+            friction.map(|friction| format!("Valid if friction is above {friction}; else it slides."))
+        }
         _ => Some("With less friction than it needs, an object slides instead of rocking.".to_string()),
     };
     let mut upstairs = all.iter().map(|answer| &answer.object).filter(|object| object.is_upstairs());
@@ -345,16 +328,12 @@ fn usual_motion(hazard: Option<&Hazard>) -> String {
 }
 
 /// What the limits cover.
-pub fn limits_cover(all: &[&Answer]) -> Option<String> {
-    let unknown: Vec<_> = all.iter().flat_map(|answer| answer.uncertainty.source_sds()).collect();
-    let parts =
-        UncertaintySource::VARIANTS.iter().filter(|part| unknown.iter().any(|(other, _)| other == *part));
-    let parts: Vec<&str> = parts.map(|part| part.description()).collect();
-    let joined = match parts.split_last()? {
-        (only, []) => (*only).to_string(),
-        (last, others) => format!("{} and {last}", others.join(", ")),
-    };
-    Some(format!("The 95 % limits cover uncertainty in {joined} only."))
+fn limits_cover(all: &[&Answer]) -> Option<String> {
+    let sds = all.iter().flat_map(|answer| answer.uncertainty.source_sds());
+    let sources: BTreeSet<UncertaintySource> = sds.map(|(source, _)| source).collect();
+    let names: Vec<&str> = sources.into_iter().map(|source| of_source(source)[0]).collect();
+    let names = (!names.is_empty()).then(|| names.join(", "))?;
+    Some(format!("The 95 % limits cover uncertainty only in: {names}."))
 }
 
 /// How many objects of a list are expected to overturn, and how likely at least one does.

@@ -3,13 +3,13 @@
 
 use rockfrag_core::fragility::{LimitState, Peak};
 use rockfrag_core::hazard::FragilityPoint;
-use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns, Usual};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
+use crate::document::phrases::of_source;
 use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
 
 /// Height of the area of the data of a panel, points.
@@ -164,7 +164,7 @@ fn fragility_panel(
     object: &ObjectColumns,
     drawn: Option<&AtSite>,
 ) -> Panel {
-    let too_far = format!("{}, or overturns", object.too_far().replace("its slenderness", "*α*"));
+    let too_far = object.too_far().replace("its slenderness", "*α*");
     let failure = curve(over, points, LimitState::Failure, false);
     let overturning = curve(over, points, LimitState::Overturning, true);
     let layers = vec![
@@ -258,7 +258,10 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     let most = (Z_95 * parts.first()?.1).exp();
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
     let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
-    let names = Axis::names(parts.iter().map(|(part, _)| what_to_measure(*part).to_string()));
+    let names = Axis::names(parts.iter().map(|(source, _)| {
+        let [name, remedy, _] = of_source(*source);
+        format!("{name}: {remedy}")
+    }));
     let (mut marks, mut words) = (Vec::new(), Vec::new());
     for (row, (_, sd)) in parts.iter().enumerate() {
         let (x, y) = ((Z_95 * sd).exp(), row as f64);
@@ -272,19 +275,6 @@ fn unknown(answer: &Answer) -> Option<Panel> {
          overturning (95 % limits)."
     );
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
-}
-
-/// What is not known, and what to measure.
-fn what_to_measure(part: UncertaintySource) -> &'static str {
-    match part {
-        UncertaintySource::Fit => "fragility: records of the site",
-        UncertaintySource::Magnitude => "magnitude: disaggregation",
-        UncertaintySource::Velocity => "PGV: its hazard curve",
-        UncertaintySource::Eta => "restitution: a rocking test",
-        UncertaintySource::Object => "centre of mass: weigh it",
-        UncertaintySource::Floor => "building: measure its period",
-        UncertaintySource::Hazard => "hazard: its fractiles",
-    }
 }
 
 /// A row of a panel of probabilities.

@@ -35,7 +35,7 @@ pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
 pub use ratio::{RateBySource, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
-pub use target::{Bases, SLENDERNESSES, SearchEnd};
+pub use target::{Bases, SLENDERNESSES, SearchEnd, Side};
 
 /// The probability of one or more events of a Poisson process in `years`: 1 - exp(-rate years).
 pub fn probability_in_years(annual_rate: f64, years: f64) -> f64 {

@@ -22,18 +22,23 @@ use crate::statistics::Interval;
 /// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).states.overturning;
 /// // Once in 10,000 years.
 /// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
-/// assert!(0.5 < bases.target_width_m.unwrap() && bases.target_width_m < bases.target_width_m_high);
+/// assert!(0.5 < bases.target_width_m.value.unwrap() && bases.target_width_m.value < bases.target_width_m.high);
 /// # Ok::<(), rockfrag_core::hazard::HazardError>(())
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Bases {
-    pub target_width_m: Option<f64>,
-    pub target_width_m_high: Option<f64>,
-    pub target_sides_m: Option<f64>,
-    pub target_sides_m_high: Option<f64>,
+    pub target_width_m: Side,
+    pub target_sides_m: Side,
     /// What ended the search where it found no base.
     pub target_end: Option<SearchEnd>,
+}
+
+/// A side of a base that meets a target by the rate, and by its upper limit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Side {
+    pub value: Option<f64>,
+    pub high: Option<f64>,
 }
 
 /// Where wider bases have no rate: outside the domain of the model, or beyond the end of the hazard curve.
@@ -70,7 +75,7 @@ impl Site {
         let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
         let mut bases = Bases::default();
         for base in [Base::Width, Base::Sides] {
-            if bases.target_width_m_high.is_none()
+            if bases.target_width_m.high.is_none()
                 && let Some([least, start, most]) = sides(object, base)
             {
                 let search = Search { site: self, object, with_models, base, target, least, most };
@@ -80,13 +85,13 @@ impl Site {
                     let near = (ln_side + ln_margin / FALL).min(most);
                     search.ln_side(search.last_known(ln_side, near), upper_limit)
                 });
-                let [estimate, high] = [estimate, limit].map(|side| side.ok().map(f64::exp));
+                let [value, high] = [estimate, limit].map(|side| side.ok().map(f64::exp));
                 bases.target_end = limit.err();
                 match base {
-                    Base::Width => (bases.target_width_m, bases.target_width_m_high) = (estimate, high),
+                    Base::Width => bases.target_width_m = Side { value, high },
                     Base::Sides => {
-                        bases.target_sides_m = estimate.filter(|_| bases.target_width_m.is_none());
-                        bases.target_sides_m_high = high;
+                        let value = value.filter(|_| bases.target_width_m.value.is_none());
+                        bases.target_sides_m = Side { value, high };
                     }
                 }
             }

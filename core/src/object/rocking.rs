@@ -10,7 +10,7 @@ use crate::statistics::normal::Z_95;
 use crate::warning::Warning;
 
 /// A source of uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String)]
@@ -28,20 +28,6 @@ pub enum UncertaintySource {
     Floor,
     /// Fractiles of the hazard, where they are given.
     Hazard,
-}
-
-impl UncertaintySource {
-    pub fn description(self) -> &'static str {
-        match self {
-            UncertaintySource::Fit => "the fragility",
-            UncertaintySource::Magnitude => "magnitude",
-            UncertaintySource::Velocity => "PGV",
-            UncertaintySource::Eta => "restitution",
-            UncertaintySource::Object => "the object's body",
-            UncertaintySource::Floor => "the building",
-            UncertaintySource::Hazard => "the hazard",
-        }
-    }
 }
 
 /// An object in its directions, and its uncertainties.
