@@ -9,12 +9,18 @@ use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
+/// Columns of a table that have room beside a figure.
+const BESIDE: usize = 7;
+/// What two words mean.
+const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
+                      velocity after an impact over that before.";
 
 impl Document {
     /// # Errors
     /// If it has nothing to show.
     pub fn html(&self) -> anyhow::Result<String> {
-        anyhow::ensure!(self.has_content(), "a page without content: expected answers, responses or fits");
+        let has_content = !(self.lead.is_empty() && self.tables.is_empty() && self.figures.is_empty());
+        anyhow::ensure!(has_content, "a page without content: expected answers, responses or fits");
         let (title, first) = (words(&self.title), self.figures.first());
         // The title of the page is not said again.
         let figure = |figure: &Figure| {
@@ -22,10 +28,14 @@ impl Document {
             write_figure(figure, if is_said { "" } else { &figure.title })
         };
         let is_beside = !self.tables.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
+        let mut columns: Vec<Column> = self.tables.iter().take(1).flat_map(Table::columns).collect();
+        let mut below = columns.split_off(columns.len().min(if is_beside { BESIDE } else { usize::MAX }));
+        // Each part has the names.
+        below.splice(..0, columns.first().filter(|_| !below.is_empty()).cloned());
         let told = html! {
             @if !(self.tables.is_empty() && self.notes.is_empty()) {
                 div {
-                    @if let Some(table) = self.tables.first() { (write_table(table)) }
+                    @if let Some(table) = self.tables.first() { (write_columns(&table.caption, &columns)) }
                     div class="notes" { (paragraphs(&self.notes)) }
                 }
             }
@@ -61,10 +71,11 @@ impl Document {
                             @if !is_beside { (told) }
                         }
                         div class="figures" { @for one in self.figures.iter().skip(1) { (figure(one)) } }
+                        @if !below.is_empty() { (write_columns("", &below)) }
                         @for table in self.tables.iter().skip(1) { (write_table(table)) }
                         div class="facts" {
                             (paragraphs(&self.facts))
-                            p { (write(&self.glossary)) }
+                            p { (write(ANGLES)) }
                         }
                         @for section in &self.sections { (write_section(section)) }
                     }
@@ -115,22 +126,25 @@ fn write_figure(figure: &Figure, title: &str) -> Markup {
 }
 
 fn write_table(table: &Table) -> Markup {
-    let columns: Vec<Column> = table.columns().collect();
+    write_columns(&table.caption, &table.columns().collect::<Vec<_>>())
+}
+
+fn write_columns(caption: &str, columns: &[Column]) -> Markup {
     let class = |column: &Column| column.is_number.then_some("number");
     // What is wider than a small screen is scrolled, by keys too.
     html! {
-        p class="caption" { (write(&table.caption)) }
-        div class="scroll" tabindex="0" role="group" aria-label=(words(&table.caption)) {
+        p class="caption" { (write(caption)) }
+        div class="scroll" tabindex="0" role="group" aria-label=(words(caption)) {
             table {
                 thead {
                     tr {
-                        @for column in &columns { th scope="col" class=[class(column)] { (write(column.head)) } }
+                        @for column in columns { th scope="col" class=[class(column)] { (write(column.head)) } }
                     }
                 }
                 tbody {
-                    @for row in 0..table.rows.len() {
+                    @for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
                         tr {
-                            @for column in &columns {
+                            @for column in columns {
                                 td class=[class(column)] data-head=(words(column.head)) {
                                     (write(column.cells[row]))
                                 }

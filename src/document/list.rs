@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::phrases::{ANGLES, Expected, facts, intensity, intensity_cells};
+use super::phrases::{Expected, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable};
 use crate::chart::text::literal;
@@ -23,11 +23,11 @@ pub fn document(table: &AnswerTable) -> Document {
     let what =
         if over.is_some() { "how strong a motion overturns them" } else { "how likely they are to overturn" };
     let title = format!("{}: {what}", counted(table.rows.len(), "object"));
-    let (mut tables, same) = tables(&table.rows, &when);
+    let (all, same) = table_of(&table.rows, &when);
     if answered.is_empty() {
-        return Document { title, lead: vec![not_assessed(&table.rows)], tables, ..Document::default() };
+        let lead = vec![not_assessed(&table.rows)];
+        return Document { title, lead, tables: vec![all], ..Document::default() };
     }
-    tables.extend(changes(&table.variants, &when));
     let upstairs = answered.iter().filter(|answer| answer.object.is_upstairs()).count();
     let place = match upstairs {
         0 => "on the ground".to_string(),
@@ -42,8 +42,7 @@ pub fn document(table: &AnswerTable) -> Document {
         lead: lead.into_iter().flatten().filter(|sentence| !sentence.is_empty()).collect(),
         tiles: if over.is_some() { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
-        glossary: ANGLES.to_string(),
-        tables,
+        tables: [all].into_iter().chain(changes(&table.variants, &when)).collect(),
         notes: doubts(&answered),
         figures: vec![match over {
             Some(over) => answers::fragilities(&answered, over),
@@ -112,8 +111,8 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
 /// What stands in a cell of an answer.
 type Cell = fn(&Answer) -> String;
 
-/// Columns beside a figure, and those that stand below it; of those in the time of exposure there is an @.
-const BESIDE: [(&str, Cell); 9] = [
+/// The columns; of those in the time of exposure there is an @.
+const COLUMNS: [(&str, Cell); 17] = [
     ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
     ("95 % limits", limits),
@@ -123,8 +122,6 @@ const BESIDE: [(&str, Cell); 9] = [
     ("place", |answer| answer.object.short_place()),
     ("file", |answer| literal(&answer.file)),
     ("base for the target", base),
-];
-const BELOW: [(&str, Cell); 8] = [
     ("half rock too far, or overturn at", |Answer { fragility, .. }| {
         fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
     }),
@@ -140,29 +137,27 @@ const BELOW: [(&str, Cell); 8] = [
 const ALWAYS: [&str; 3] = ["overturns @, %", "95 % limits", "not assessed"];
 const UNSAID: [&str; 3] = ["place", "file", "responses"];
 
-/// The answers in two tables, and what is the same for all objects.
-fn tables(answers: &[Answer], when: &str) -> (Vec<Table>, Option<String>) {
-    let mut same = Vec::new();
+/// The answers, and what is the same for all objects.
+fn table_of(answers: &[Answer], when: &str) -> (Table, Option<String>) {
     let name =
         |answer: &Answer| answer.object.name().map_or("unnamed".to_string(), |_| answer.object.called());
-    let tables = [&BESIDE[..], &BELOW].map(|columns| {
-        let mut heads = vec!["object".to_string()];
-        let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![name(answer)]).collect();
-        for (head, cell) in columns {
-            let known = answers.iter().filter(|answer| answer.is_answered());
-            let differ: BTreeSet<String> = known.map(cell).collect();
-            if differ.len() > 1 || ALWAYS.contains(head) {
-                heads.push(head.replace('@', when));
-                rows.iter_mut().zip(answers).for_each(|(row, answer)| row.push(cell(answer)));
-            } else if !UNSAID.contains(head) {
-                let value = differ.first().filter(|value| !value.is_empty());
-                same.extend(value.map(|value| format!("{} {value}", head.replace('@', when))));
-            }
+    let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![name(answer)]).collect();
+    let (mut heads, mut same) = (vec!["object".to_string()], Vec::new());
+    for (name, cell) in &COLUMNS {
+        let head = name.replace('@', when);
+        let known = answers.iter().filter(|answer| answer.is_answered());
+        let differ: BTreeSet<String> = known.map(cell).collect();
+        if differ.len() > 1 || ALWAYS.contains(name) {
+            heads.push(head);
+            rows.iter_mut().zip(answers).for_each(|(row, answer)| row.push(cell(answer)));
+        } else if !UNSAID.contains(name) {
+            same.extend(
+                differ.first().filter(|value| !value.is_empty()).map(|value| format!("{head} {value}")),
+            );
         }
-        Table { heads, rows, ..Table::default() }
-    });
-    let tables = tables.into_iter().filter(|table| table.columns().count() > 1).collect();
-    (tables, (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", "))))
+    }
+    let same = (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", ")));
+    (Table { heads, rows, ..Table::default() }, same)
 }
 
 /// What would change the worst objects.

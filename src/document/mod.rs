@@ -38,13 +38,11 @@ pub struct Document {
     pub lead: Vec<String>,
     /// The numbers that answer what is asked first.
     pub tiles: Vec<Tile>,
-    /// Of a page, the first stands beside the first figure if that is of one panel, else below it; others
-    /// below all figures.
+    /// Of a page, the first stands beside the first figure if that is of one panel, as far as it has room
+    /// there, else below it; others below all figures.
     pub tables: Vec<Table>,
     /// What was asked, and what the result rests on.
     pub facts: Vec<String>,
-    /// What words of the tables and figures mean.
-    pub glossary: String,
     /// Warnings that change a decision.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
@@ -77,6 +75,7 @@ pub struct Table {
 }
 
 /// A column of a table that is shown.
+#[derive(Clone)]
 struct Column<'a> {
     head: &'a str,
     /// Whether all its cells are numbers, which are set to the right.
@@ -131,11 +130,6 @@ impl Document {
             [one] => object::document(&sorted, one),
             _ => list::document(&sorted),
         }
-    }
-
-    /// Whether there is something to show.
-    pub fn has_content(&self) -> bool {
-        !(self.lead.is_empty() && self.tables.is_empty() && self.figures.is_empty())
     }
 
     /// The figure that says most, by itself.

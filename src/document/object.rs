@@ -2,7 +2,7 @@
 
 use rockfrag_core::statistics::Interval;
 
-use super::phrases::{ANGLES, facts, intensity, intensity_cells};
+use super::phrases::{facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable, Usual};
 use crate::chart::text::literal;
@@ -23,7 +23,6 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
             .collect(),
         tiles: tiles(&when, variants, table),
         facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
-        glossary: ANGLES.to_string(),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: answer.is_answered().then(|| numbers(&when, answer, variants)).into_iter().collect(),
         figures: vec![match answer.fragility.over {

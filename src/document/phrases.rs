@@ -15,9 +15,6 @@ use crate::answer::{Answer, ObjectColumns};
 use crate::chart::text::literal;
 use crate::number::{self, PERCENT, RATE, count, fixed, period, plain, significant};
 
-/// What two words mean.
-pub const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its \
-                          angular velocity after an impact over that before.";
 const NO_RATE: &str =
     "has no rate of overturning: its model has no probability for some motions of the hazard";
 

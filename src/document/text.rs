@@ -17,9 +17,8 @@ impl Document {
         let first = lead.next().unwrap_or_default();
         let of_title = first.strip_prefix("It ").map(|rest| format!("{}: {rest}", words(&self.title)));
         lines.push(of_title.as_ref().unwrap_or(&first).trim_end_matches('.').to_string());
-        lines.extend(self.whole_table().map(|table| table.text(out)));
-        let is_other = |table: &&Table| !table.caption.is_empty();
-        for table in self.tables.iter().skip(1).filter(is_other) {
+        lines.extend(self.tables.first().map(|table| table.text(out)));
+        for table in self.tables.iter().skip(1) {
             lines.extend([words(&table.caption), table.text(None)]);
         }
         lines.extend(lead);
@@ -33,20 +32,6 @@ impl Document {
             text += &format!("{}\n", shown(line, LONGEST_TEXT));
         }
         text
-    }
-
-    /// The first table, with the columns of those about the same rows.
-    fn whole_table(&self) -> Option<Table> {
-        let (first, others) = self.tables.split_first()?;
-        let names = |table: &Table| table.rows.iter().map(|row| row.first().cloned()).collect::<Vec<_>>();
-        let mut whole = first.clone();
-        for other in others.iter().filter(|other| names(other) == names(first)) {
-            whole.heads.extend_from_slice(&other.heads[1..]);
-            for (row, more) in whole.rows.iter_mut().zip(&other.rows) {
-                row.extend_from_slice(&more[1..]);
-            }
-        }
-        Some(whole)
     }
 }
 

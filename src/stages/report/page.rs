@@ -13,7 +13,6 @@ use super::tables::{Kind, Tables};
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{literal, minus};
-use crate::document::phrases::ANGLES;
 use crate::document::{Document, Section, Table, compare, response};
 use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::figures::*;
@@ -87,9 +86,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     ];
     sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
     head.facts.extend(facts(tables));
-    if !tables.groups.is_empty() {
-        head.glossary = ANGLES.to_string();
-    }
     head.figures.extend(seen);
     Ok((Document { sections, ..head }, all))
 }

@@ -198,31 +198,20 @@ impl Tables {
             Kind::Paper => ("pro", Kind::Curves),
             _ => ("fits", Kind::Calibrations),
         };
-        let is_stranger = |item: &Item| {
+        let all: Vec<(Kind, String)> = self.items.iter().map(|item| (item.kind, item.key.clone())).collect();
+        let is_stranger = |item: &mut Item| {
             let (flag, of) = made_of(item);
-            let keys = self.keys(of);
-            item.input(flag).is_some_and(|key| !keys.is_empty() && !keys.contains(&key))
+            let mut keys = all.iter().filter(|(kind, _)| *kind == of).map(|(_, key)| key).peekable();
+            item.input(flag).is_some_and(|key| keys.peek().is_some() && keys.all(|other| *other != key))
         };
-        let strangers: Vec<bool> = self.items.iter().map(is_stranger).collect();
-        let (mut strange, items) = (strangers.into_iter(), std::mem::take(&mut self.items));
-        let (left_out, kept): (Vec<Item>, _) = items.into_iter().partition(|_| strange.next() == Some(true));
-        self.items = kept;
-        for item in left_out.iter().filter(|item| item.kind.get_bool("silent") != Some(true)) {
-            let what = made_of(item).1;
+        for item in
+            self.items.extract_if(.., is_stranger).filter(|item| item.kind.get_bool("silent") != Some(true))
+        {
+            let what = made_of(&item).1;
             self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
         }
     }
 
-    fn keys(&self, kind: Kind) -> Vec<String> {
-        self.of(kind).map(|item| item.key.clone()).collect()
-    }
-
-    /// The keys of the files that an option of the stage has read.
-    fn inputs(&self, kind: Kind, flag: &str) -> Vec<String> {
-        self.of(kind).filter_map(|item| item.input(flag)).collect()
-    }
-
-    /// The tables of a kind.
     pub fn of(&self, kind: Kind) -> impl Iterator<Item = &Item> {
         self.items.iter().filter(move |item| item.kind == kind)
     }
@@ -249,7 +238,7 @@ impl Tables {
 
     /// The motions of a row group in the middle of the file of them that the responses are to.
     pub fn motions(&self) -> Result<Vec<MotionRow>, TableError> {
-        let used = self.inputs(Kind::Responses, "in");
+        let used: Vec<String> = self.of(Kind::Responses).filter_map(|item| item.input("in")).collect();
         let mut motions = self.of(Kind::Motions);
         let item = motions.find(|item| used.is_empty() || used.contains(&item.key));
         let Some(item) = item else { return Ok(Vec::new()) };
