@@ -20,10 +20,12 @@ use rockfrag_core::hazard::{
     Bases, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, Lognormal, Site,
 };
 use rockfrag_core::object::{Object, RockingObject};
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
+use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
@@ -64,6 +66,27 @@ pub struct Answer {
     /// The name of the file that it was read from.
     #[serde(skip)]
     pub file: String,
+    /// Where two tables are compared.
+    #[serde(skip)]
+    pub before: Option<Box<Before>>,
+}
+
+/// What an object was before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Before {
+    /// The probability of overturning.
+    pub p: Interval<Option<f64>>,
+    /// The rate after over the rate before, with limits; none where one has no rate.
+    pub ratio: Interval<Option<f64>>,
+    /// What differs, in words.
+    pub changes: Vec<String>,
+}
+
+impl Before {
+    /// How many times as often it overturns.
+    pub fn times(&self) -> String {
+        self.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(self.ratio))
+    }
 }
 
 /// The answers of a call, or of files, and what made each.
@@ -152,6 +175,12 @@ impl Answer {
     /// Whether it has an answer: a probability, a range of it, or a fragility.
     pub fn is_answered(&self) -> bool {
         self.severity() >= 0.0
+    }
+
+    /// Whether it is not what it was before.
+    pub fn is_news(&self) -> bool {
+        let is_new = |before: &Before| before.p != self.p.p_overturning || !before.changes.is_empty();
+        self.before.as_deref().is_none_or(is_new)
     }
 
     /// By what answers are sorted, the worst first: the probability of overturning, where there is no value

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use super::phrases::{Expected, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable};
+use crate::answer::{Answer, AnswerTable, Before};
 use crate::chart::text::literal;
 use crate::figures::answers::{self, BANDS};
 use crate::figures::common::by;
-use crate::number::{OF_HUNDRED, PERCENT, count, counted, fixed, listed, period, plain};
+use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, fixed, listed, period, plain};
 
 /// The most files whose expected numbers are shown, and objects that are named in a sentence.
 const FILES: usize = 3;
@@ -20,12 +20,12 @@ pub fn document(table: &AnswerTable) -> Document {
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = worst.when().unwrap_or_default();
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
-    let what =
-        if over.is_some() { "how strong a motion overturns them" } else { "how likely they are to overturn" };
+    let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
     let title = format!("{}: {what}", counted(table.rows.len(), "object"));
-    let (all, same) = table_of(&table.rows, &when);
+    let news: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_news()).collect();
+    let (all, same) = table_of(&news, &when);
     if answered.is_empty() {
-        let lead = vec![not_assessed(&table.rows)];
+        let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![all], ..Document::default() };
     }
     let upstairs = answered.iter().filter(|answer| answer.object.is_upstairs()).count();
@@ -35,18 +35,18 @@ pub fn document(table: &AnswerTable) -> Document {
         _ => format!("{} on the ground, {upstairs} on floors", answered.len() - upstairs),
     };
     let whose = format!(" of {}", worst.object.called());
-    let lead = [Some(worst_of(table)), worst.about_target(&whose), Some(not_assessed(&table.rows))];
+    let lead = [Some(worst_of(table)), worst.about_target(&whose), not_assessed(&table.rows)];
     Document {
         title,
         place: format!("{} free-standing, {place}{}", count(answered.len()), table.conditions()),
-        lead: lead.into_iter().flatten().filter(|sentence| !sentence.is_empty()).collect(),
+        lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         tables: [all].into_iter().chain(changes(&table.variants, &when)).collect(),
         notes: doubts(&answered),
         figures: vec![match over {
             Some(over) => answers::fragilities(&answered, over),
-            None => answers::list(&answered, &when, worst.rates.target),
+            None => answers::list(&news, &when, worst.rates.target),
         }],
         ..Document::default()
     }
@@ -55,9 +55,7 @@ pub fn document(table: &AnswerTable) -> Document {
 /// The object that is the most likely to overturn, if one may.
 fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
-    let several = table.rows.iter().any(|answer| answer.file != worst.file);
-    let file = if several { format!(" ({})", literal(&worst.file)) } else { String::new() };
-    let name = format!("{}{file}, {},", worst.object.called(), worst.object.place());
+    let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
     let how_often = worst.how_often(table.hazard.as_ref());
     match how_often.strip_prefix("overturns ") {
         Some(often) => format!("{name} is the most likely to overturn: {often}."),
@@ -69,16 +67,18 @@ fn worst_of(table: &AnswerTable) -> String {
     }
 }
 
-/// The objects without an answer, and why.
-fn not_assessed(answers: &[Answer]) -> String {
-    let silent: Vec<&Answer> = answers.iter().filter(|answer| !answer.is_answered()).collect();
-    let names = silent.iter().map(|answer| format!("{} ({})", answer.object.called(), answer.reason()));
-    let names: Vec<String> = names.collect();
-    let [some, all] = [silent.len(), answers.len()].map(count);
-    match &names[..] {
-        [] => String::new(),
-        names => format!("Not assessed, {some} of {all}: {}.", listed(names, NAMED)),
-    }
+/// The file of an answer, where there are several.
+fn file_of(answer: &Answer, table: &AnswerTable) -> String {
+    let several = table.rows.iter().any(|other| other.file != answer.file);
+    if several { format!(" ({})", literal(&answer.file)) } else { String::new() }
+}
+
+/// The objects without an answer; the table says why.
+fn not_assessed(answers: &[Answer]) -> Option<String> {
+    let silent = answers.iter().filter(|answer| !answer.is_answered());
+    let names: Vec<String> = silent.map(|answer| answer.object.called()).collect();
+    let [some, all] = [names.len(), answers.len()].map(count);
+    (!names.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", listed(&names, NAMED)))
 }
 
 fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
@@ -87,11 +87,8 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     let files = by(&table.rows, |answer| &answer.file);
     for answers in files.iter().take(FILES) {
         let expected = Expected::new(answers.iter().copied());
-        let file = literal(&answers[0].file);
-        let file = if files.len() > 1 { format!(" ({file})") } else { String::new() };
-        let all = counted(expected.all as usize, "object");
-        let words = format!("of {all} expected to overturn {when}{file}");
-        tiles.push(Tile::new(expected.number(), words));
+        let (all, file) = (counted(expected.all as usize, "object"), file_of(answers[0], table));
+        tiles.push(Tile::new(expected.number(), format!("of {all} expected to overturn {when}{file}")));
     }
     if files.len() == 1 {
         let Expected { together, independent, .. } = Expected::new(&table.rows);
@@ -112,10 +109,14 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
 type Cell = fn(&Answer) -> String;
 
 /// The columns; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 17] = [
+const COLUMNS: [(&str, Cell); 21] = [
+    ("change", |answer| of_before(answer, |before| before.changes.join("; "))),
+    ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
     ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
     ("95 % limits", limits),
+    ("times as often", |answer| of_before(answer, Before::times)),
+    ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
     ("84 %", |answer| of_fragility(answer, 3)),
     ("beta", |answer| of_fragility(answer, 4)),
@@ -134,11 +135,19 @@ const COLUMNS: [(&str, Cell); 17] = [
     ("not assessed", |answer| if answer.is_answered() { String::new() } else { answer.reason() }),
 ];
 /// Columns that are there although all objects have the same; others are then said once, but for these.
-const ALWAYS: [&str; 3] = ["overturns @, %", "95 % limits", "not assessed"];
+const ALWAYS: [&str; 7] = [
+    "change",
+    "before, %",
+    "overturns @, %",
+    "95 % limits",
+    "times as often",
+    "times, 95 % limits",
+    "not assessed",
+];
 const UNSAID: [&str; 3] = ["place", "file", "responses"];
 
 /// The answers, and what is the same for all objects.
-fn table_of(answers: &[Answer], when: &str) -> (Table, Option<String>) {
+fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let name =
         |answer: &Answer| answer.object.name().map_or("unnamed".to_string(), |_| answer.object.called());
     let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![name(answer)]).collect();
@@ -146,7 +155,7 @@ fn table_of(answers: &[Answer], when: &str) -> (Table, Option<String>) {
     for (name, cell) in &COLUMNS {
         let head = name.replace('@', when);
         let known = answers.iter().filter(|answer| answer.is_answered());
-        let differ: BTreeSet<String> = known.map(cell).collect();
+        let differ: BTreeSet<String> = known.map(|answer| cell(answer)).collect();
         if differ.len() > 1 || ALWAYS.contains(name) {
             heads.push(head);
             rows.iter_mut().zip(answers).for_each(|(row, answer)| row.push(cell(answer)));
@@ -175,6 +184,10 @@ fn changes(variants: &[Answer], when: &str) -> Option<Table> {
 /// The cell of an object that has an answer.
 fn answered(answer: &Answer, cell: String) -> String {
     if answer.is_answered() { cell } else { String::new() }
+}
+
+fn of_before(answer: &Answer, cell: fn(&Before) -> String) -> String {
+    answer.before.as_deref().map_or(String::new(), cell)
 }
 
 /// A cell of the intensities that overturn an object.

@@ -127,7 +127,7 @@ impl Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
         match &sorted.rows[..] {
-            [one] => object::document(&sorted, one),
+            [one] if one.before.is_none() => object::document(&sorted, one),
             _ => list::document(&sorted),
         }
     }

@@ -67,12 +67,17 @@ pub fn fragilities(answers: &[&Answer], over: Peak) -> Figure {
 
 /// How likely each object of a list overturns, the worst first; those on floors with their floor.
 pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
+    let answers: Vec<&&Answer> = answers.iter().filter(|answer| answer.is_answered()).collect();
     let drawn = &answers[..answers.len().min(ROWS)];
     let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
     let rows = drawn.iter().map(|answer| {
         let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
-        let name = answer.object.name_and_floor();
-        ProbabilityRow::new(&name, Ink::Step(band), bands[band], answer.p.p_overturning)
+        let (name, p) = (answer.object.name_and_floor(), answer.p.p_overturning);
+        let Some(before) = &answer.before else {
+            return ProbabilityRow::new(&name, Ink::Step(band), bands[band], p);
+        };
+        let values = vec![(before.p, Ink::Muted, "before"), (p, Ink::Data(1), "after")];
+        ProbabilityRow { name, values, words: before.times() }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let rest = match answers.len() - drawn.len() {
