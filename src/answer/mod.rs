@@ -208,17 +208,14 @@ impl FragilityColumns {
 
 /// The answers as a table, without the columns of other questions.
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
-    let objects = rows::batch(answers.iter().map(|answer| &answer.object))?;
-    let states = || rows::batch(answers.iter().map(|answer| &answer.p));
-    let mut parts = match question {
-        Question::Motion(_) => {
-            vec![objects, rows::batch(answers.iter().map(|answer| &answer.tree))?, states()?]
-        }
-        Question::Hazard { .. } => {
-            vec![objects, rows::batch(answers.iter().map(|answer| &answer.rates))?, states()?]
-        }
-        Question::Curve { .. } => vec![objects, rows::batch(answers.iter().map(|answer| &answer.fragility))?],
+    let p = rows::batch(answers.iter().map(|answer| &answer.p))?;
+    let of_question = match question {
+        Question::Motion(_) => vec![rows::batch(answers.iter().map(|answer| &answer.tree))?, p],
+        Question::Hazard { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.rates))?, p],
+        Question::Curve { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.fragility))?],
     };
+    let mut parts = vec![rows::batch(answers.iter().map(|answer| &answer.object))?];
+    parts.extend(of_question);
     parts.push(rows::batch(answers.iter().map(|answer| &answer.uncertainty))?);
     rows::side_by_side(&parts)
 }
@@ -285,11 +282,6 @@ impl AnswerTable {
     /// The name of its file; none of a call's own answers.
     pub fn file(&self) -> String {
         self.rows.first().map_or(String::new(), |answer| literal(&answer.file))
-    }
-
-    /// The key of the hazard: the same for the same files.
-    pub fn hazard_key(&self) -> Option<String> {
-        self.made.first()?.input("hazard")
     }
 
     /// What answers are for, after a place: `; hazard: pga.csv`.

@@ -15,7 +15,8 @@ const NAMED: usize = 20;
 
 /// None where the tables have no object with an answer in common.
 pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
-    let is_same = before.hazard_key() == after.hazard_key();
+    let [old, new] = [before, after].map(|table| table.made.first()?.input("hazard"));
+    let is_same = old == new;
     let mut table = after.clone();
     for answer in &mut table.rows {
         let one = namesake(answer, &before.rows).filter(|one| one.is_answered() || answer.is_answered());

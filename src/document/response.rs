@@ -78,25 +78,17 @@ impl Trace {
         }
     }
 
-    /// What the pictures show.
-    fn caption(&self) -> String {
-        let Range { low, high } = self.span();
-        let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
-        format!(
-            "A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
-             tipping angle, its slenderness *α*."
-        )
-    }
-
     /// From when to when something happens, s.
     fn span(&self) -> Range {
-        let mut events = self.0.iter().filter(|point| point.solver_event.is_some()).map(|point| point.time_s);
         let end = self.0.last().map_or(0.0, |point| point.time_s);
-        let Some(first) = events.next() else { return Range { low: 0.0, high: end.min(10.0) } };
-        let moving = self.0.iter().rev().find(|point| point.theta_over_alpha.abs() > 1e-3);
-        let last =
-            events.next_back().unwrap_or(first).max(moving.map_or(first, |point| point.time_s.min(end)));
-        Range { low: (first - AROUND_S).max(0.0), high: (last + AROUND_S).min(end) }
+        let is_moving =
+            |point: &&TraceRow| point.solver_event.is_some() || point.theta_over_alpha.abs() > 1e-3;
+        match (self.0.iter().find(is_moving), self.0.iter().rfind(is_moving)) {
+            (Some(first), Some(last)) => {
+                Range { low: (first.time_s - AROUND_S).max(0.0), high: (last.time_s + AROUND_S).min(end) }
+            }
+            _ => Range { low: 0.0, high: end.min(10.0) },
+        }
     }
 }
 
@@ -147,7 +139,11 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
     let figure = Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels);
-    Figure { beside: moving(response, id), ..figure }.explained(response.caption())
+    let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
+    Figure { beside: moving(response, id), ..figure }.explained(format!(
+        "A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
+         tipping angle, its slenderness *α*."
+    ))
 }
 
 /// The figures of responses.

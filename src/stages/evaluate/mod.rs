@@ -15,6 +15,7 @@ use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Place, Restitution};
 use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use rockfrag_core::records::implausibility::rarity;
+use rockfrag_core::rocking::Structure;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -214,14 +215,11 @@ impl Evaluate {
     /// The motion that is given.
     fn motion(&self) -> anyhow::Result<GroundMotion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
-        match (pga_m_s2, pgv_m_s) {
-            (Some(_), Some(_)) if self.vs30.is_some() => {
+        if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
+            if self.vs30.is_some() {
                 return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
             }
-            (Some(pga_m_s2), Some(pgv_m_s)) => {
-                Peaks { pga_m_s2, pgv_m_s }.validate().map_err(UsageError::because)?;
-            }
-            _ => {}
+            Peaks { pga_m_s2, pgv_m_s }.validate().map_err(UsageError::because)?;
         }
         Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
@@ -283,30 +281,23 @@ impl Evaluate {
         models: &Models,
         context: &Context,
     ) -> anyhow::Result<Vec<Object>> {
-        let place = self.place;
         if !self.structures.is_given() && self.model.fits.is_some() {
             renames.expect_used()?;
-            let fitted = models.structures()?.into_iter();
-            return Ok(fitted
-                .map(|structure| {
-                    Object::with_parameters(&structure, Restitution::Fitted(structure.eta)).at(&place)
-                })
-                .collect());
+            let object = |of: &Structure| Object::with_parameters(of, Restitution::Fitted(of.eta));
+            return Ok(models.structures()?.iter().map(|of| object(of).at(&self.place)).collect());
         }
-        let (objects, unused) = self.structures.objects(&place, &mut renames)?;
+        let (objects, unused) = self.structures.objects(&self.place, &mut renames)?;
         renames.expect_used()?;
         context.warn(unused);
-        if let Some(reason) = objects.first().and_then(|first| first.sides().err()) {
-            let reason = named(&objects[0], &reason);
-            match &self.structures.structures {
-                _ if !objects.iter().all(Object::is_implausible) => {}
-                Some(path) => {
-                    anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
-                }
-                None => return Err(reason),
+        let are_all = objects.iter().all(Object::is_implausible);
+        match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {
+            (Some(reason), Some(path)) if are_all => {
+                let reason = named(&objects[0], &reason);
+                anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
             }
+            (Some(reason), None) if are_all => Err(named(&objects[0], &reason)),
+            _ => Ok(objects),
         }
-        Ok(objects)
     }
 
     /// Returns a text, or rows of one schema in the form that is asked for.
