@@ -3,7 +3,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::{Column, Document, Section, Table, Tile};
+use super::{Column, Document, Table, Tile};
 use crate::chart::text::{html as marked, words};
 use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
@@ -19,8 +19,7 @@ impl Document {
     /// # Errors
     /// If it has nothing to show.
     pub fn html(&self) -> anyhow::Result<String> {
-        let has_content = !(self.lead.is_empty() && self.tables.is_empty() && self.figures.is_empty());
-        anyhow::ensure!(has_content, "a page without content: expected answers, responses or fits");
+        anyhow::ensure!(self.has_content(), "a page without content: expected answers, responses or fits");
         let (title, first) = (words(&self.title), self.figures.first());
         // The title of the page is not said again.
         let figure = |figure: &Figure| {
@@ -96,11 +95,11 @@ fn paragraphs(all: &[String]) -> Markup {
     html! { @for words in all { p { (write(words)) } } }
 }
 
-fn write_section(section: &Section) -> Markup {
+fn write_section(section: &Document) -> Markup {
     html! {
         details {
-            summary { (write(&section.heading)) }
-            (paragraphs(&section.paragraphs))
+            summary { (write(&section.title)) }
+            (paragraphs(&section.facts))
             @for table in &section.tables { (write_table(table)) }
             @for figure in &section.figures { (write_figure(figure, &figure.title)) }
         }

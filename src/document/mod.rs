@@ -46,8 +46,8 @@ pub struct Document {
     /// Warnings that change a decision.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
-    /// Folded: method, tests, files.
-    pub sections: Vec<Section>,
+    /// Folded, each with a title, facts, tables and figures: method, tests, files.
+    pub sections: Vec<Document>,
 }
 
 /// A number in large letters, with what it is.
@@ -55,14 +55,6 @@ pub struct Document {
 pub struct Tile {
     pub number: String,
     pub words: String,
-}
-
-#[derive(Debug, Clone, Default)]
-pub struct Section {
-    pub heading: String,
-    pub paragraphs: Vec<String>,
-    pub tables: Vec<Table>,
-    pub figures: Vec<Figure>,
 }
 
 /// Rows of cells, of which the last may be missing; the first column has their names. A column in which
@@ -81,12 +73,6 @@ struct Column<'a> {
     /// Whether all its cells are numbers, which are set to the right.
     is_number: bool,
     cells: Vec<&'a str>,
-}
-
-impl Section {
-    pub fn new(heading: &str) -> Section {
-        Section { heading: heading.to_string(), ..Section::default() }
-    }
 }
 
 impl Tile {
@@ -130,6 +116,11 @@ impl Document {
             [one] if one.before.is_none() => object::document(&sorted, one),
             _ => list::document(&sorted),
         }
+    }
+
+    pub fn has_content(&self) -> bool {
+        let is_said = !(self.lead.is_empty() && self.facts.is_empty());
+        is_said || !(self.tables.is_empty() && self.figures.is_empty())
     }
 
     /// The figure that says most, by itself.

@@ -15,9 +15,6 @@ use crate::answer::{Answer, ObjectColumns};
 use crate::chart::text::literal;
 use crate::number::{self, PERCENT, RATE, count, fixed, period, plain, significant};
 
-const NO_RATE: &str =
-    "has no rate of overturning: its model has no probability for some motions of the hazard";
-
 impl ObjectColumns {
     /// The name; none where it was given without one.
     pub fn name(&self) -> Option<&str> {
@@ -151,7 +148,10 @@ impl Answer {
                 let bounds = RATE.value(bounds).replacen(" to ", " and ", 1);
                 format!("overturns between {bounds} times a year, {} {when}{end}", PERCENT.value(p))
             }
-            _ => NO_RATE.to_string(),
+            _ => {
+                let why = "its model has no probability for some motions of the hazard";
+                format!("has no rate of overturning: {why}")
+            }
         }
     }
 
@@ -351,12 +351,10 @@ pub struct Expected {
 impl Expected {
     pub fn new<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Expected {
         let (mut sum, mut ln_none) = (Expected::default(), 0.0);
-        for answer in answers {
-            let (count, Interval { value, low, high }) =
-                (answer.object.count.unwrap_or(1.0), answer.p.p_overturning);
-            let Some((low, high)) = value.or(low).zip(value.or(high)).filter(|_| count > 0.0) else {
-                continue;
-            };
+        for Answer { object, p, .. } in answers {
+            let (count, Interval { value, low, high }) = (object.count.unwrap_or(1.0), p.p_overturning);
+            let ends = value.or(low).zip(value.or(high)).filter(|_| count > 0.0);
+            let Some((low, high)) = ends else { continue };
             sum.all += count;
             sum.least += count * low;
             sum.most += count * high;

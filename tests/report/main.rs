@@ -5,7 +5,7 @@ mod fixtures;
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::answer::AnswerTable;
 use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, png, svg};
-use rockfrag::document::{Document, Section, Table, compare, response};
+use rockfrag::document::{Document, Table, compare, response};
 use rockfrag::figures::common::{estimate, observed_shares, ratio_bins};
 use rockfrag::figures::planes;
 use rockfrag::number;
@@ -82,7 +82,7 @@ fn shares_count_cases_and_events() {
 fn the_page_is_static_and_escapes_what_it_holds() {
     let row = ["<script>alert(1)</script>", "2 *P*_{ro}", "none"].map(str::to_string);
     let table = Table::new(&["a", "b", "c"], vec![row.into()]);
-    let sections = vec![Section { tables: vec![table.clone()], ..Default::default() }];
+    let sections = vec![Document { tables: vec![table.clone()], ..Default::default() }];
     let (title, figures) = ("{sentence} <b>".to_string(), figures(3));
     let panels: usize = figures.iter().map(|figure| figure.panels.len()).sum();
     let page = Document { title, tables: vec![table], figures, sections, ..Default::default() };

@@ -13,10 +13,10 @@ use super::tables::{Kind, Tables};
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{literal, minus};
-use crate::document::{Document, Section, Table, compare, response};
+use crate::document::{Document, Table, compare, response};
 use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::figures::*;
-use crate::number::{self, TWO_DIGITS, listed};
+use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
 use crate::table::responses::CapacityFitRow;
 
@@ -78,14 +78,16 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     if head.figures.is_empty() && head.tables.is_empty() {
         head.tables.append(&mut tests);
     }
+    let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
-        Section { figures: more, ..Section::new("More figures") },
-        Section { paragraphs: method.collect(), ..Section::new("Method") },
-        Section { paragraphs: warnings, tables: tests, ..Section::new("Tests and fits") },
-        Section { tables: vec![files(tables)], ..Section::new("Files") },
+        Document { figures: more, ..section("More figures") },
+        Document { facts: method.collect(), ..section("Method") },
+        Document { facts: warnings, tables: tests, ..section("Tests and fits") },
+        Document { tables: vec![files(tables)], ..section("Files") },
     ];
-    sections.retain(|section| section.figures.len() + section.paragraphs.len() + section.tables.len() > 0);
-    head.facts.extend(facts(tables));
+    sections.retain(Document::has_content);
+    let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.answer_of(stage));
+    head.facts.extend(motions.map(|answer| format!("Motions: {}.", literal(answer))));
     head.figures.extend(seen);
     Ok((Document { sections, ..head }, all))
 }
@@ -159,33 +161,12 @@ fn head(tables: &Tables) -> anyhow::Result<Document> {
     Ok(head)
 }
 
-/// By which motions, of which structures.
-fn facts(tables: &Tables) -> Vec<String> {
-    let mut facts = Vec::new();
-    for answer in ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.answer_of(stage))
-    {
-        facts.push(format!("Motions: {}.", literal(answer)));
-    }
-    let structures: Vec<&Structure> = tables.groups.iter().map(|cases| &cases.structure).collect();
-    let mut all: Vec<String> = Vec::new();
-    for same in by(structures, |structure| structure) {
-        let Structure { p_rad_s, alpha_rad, eta, .. } = same[0];
-        let [p, alpha, eta] = [p_rad_s, alpha_rad, eta].map(|value| number::significant(*value, 3));
-        all.push(format!("{} (*p* {p} rad/s, *α* {alpha}, *η* {eta})", called(same[0])));
-    }
-    if !all.is_empty() {
-        facts.push(format!("Structures: {}.", listed(&all, MOST_NAMED)));
-    }
-    facts
-}
-
 /// Some fields of rows, under their names; those that no row has are left out.
 fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields: &str) -> Table {
     let rows = rows.into_iter().map(|row| json!(row));
     let cells = rows.map(|row| fields.split(' ').map(|field| cell(&row, field)).collect());
-    let heads: Vec<String> = fields.split(' ').map(|field| field.replace('_', " ")).collect();
-    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-    Table::new(&heads, cells.collect()).explained(caption)
+    let heads = fields.split(' ').map(|field| field.replace('_', " ")).collect();
+    Table { caption: caption.to_string(), heads, rows: cells.collect() }
 }
 
 fn cell(row: &Value, field: &str) -> String {
@@ -203,24 +184,22 @@ fn cell(row: &Value, field: &str) -> String {
 
 /// Table II: published over ours.
 fn published_planes(compared: &[Comparison]) -> Table {
-    let mut rows = Vec::new();
-    for [suite, structure, side, numbers @ ..] in table_two(compared) {
-        let names = vec![literal(&structure), literal(&suite), side];
-        rows.push([names, numbers.map(minus).to_vec()].concat());
-    }
+    let rows = table_two(compared).map(|[suite, structure, side, numbers @ ..]| {
+        [vec![literal(&structure), literal(&suite), side], numbers.map(minus).into()].concat()
+    });
     let heads = ["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}"];
-    Table::new(&heads, rows).explained(
+    Table::new(&heads, rows.collect()).explained(
         "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* \
          is their difference over the standard deviation between seeds.",
     )
 }
 
 fn overturned(groups: &[Cases]) -> Option<String> {
-    let mut sentences = Vec::new();
-    for cases in groups.iter().take(MOST_NAMED) {
+    let sentence = |cases: &Cases| {
         let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
-        sentences.push(format!("{events} of {all} motions overturn {}", name(cases)));
-    }
+        format!("{events} of {all} motions overturn {}", name(cases))
+    };
+    let sentences: Vec<String> = groups.iter().take(MOST_NAMED).map(sentence).collect();
     (!sentences.is_empty()).then(|| sentences.join("; ") + ".")
 }
 
@@ -233,7 +212,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let often = "as often as the surface predicts";
-    let heads = ["structure", "motions", "number", "rock", "overturn", often, &median, "dispersion"];
+    let angles = ["*p*, rad/s", "*α*", "*η*"];
+    let counts = ["number", "rock", "overturn", often, &median, "dispersion"];
+    let heads = [&["structure", "motions"][..], &angles, &counts].concat();
     let mut rows = Vec::new();
     for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
@@ -246,6 +227,8 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         let all = cases.all.len();
         let counts = [all, all - cases.count(Outcome::NoRocking), cases.count(Outcome::Overturned)];
         let mut row = vec![called(&cases.structure), literal(cases.suite.as_deref().unwrap_or_default())];
+        let Structure { p_rad_s, alpha_rad, eta, .. } = cases.structure;
+        row.extend([p_rad_s, alpha_rad, eta].map(|value| number::significant(value, 3)));
         row.extend(counts.map(number::count));
         row.push(often.unwrap_or_default());
         row.extend([theta, beta].map(|value| TWO_DIGITS.both(value, "")));
@@ -306,13 +289,10 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
 }
 
 fn files(tables: &Tables) -> Table {
-    let mut rows = Vec::new();
-    for item in &tables.items {
-        let by = match &item.made {
-            Some(made) => format!("{} {}", made.stage, made.version),
-            None => "another program".to_string(),
-        };
-        rows.push(vec![literal(&item.name()), item.kind.to_string(), by, number::count(item.rows)]);
-    }
-    Table::new(&["file", "holds", "made by", "rows"], rows)
+    let rows = tables.items.iter().map(|item| {
+        let made = item.made.as_ref().map(|made| format!("{} {}", made.stage, made.version));
+        let by = made.unwrap_or_else(|| "another program".to_string());
+        vec![literal(&item.name()), item.kind.to_string(), by, number::count(item.rows)]
+    });
+    Table::new(&["file", "holds", "made by", "rows"], rows.collect())
 }
