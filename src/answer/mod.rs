@@ -166,9 +166,7 @@ impl Answer {
             }
         };
         warnings.extend(rocking.warnings(motion));
-        warnings.sort();
-        warnings.dedup();
-        answer.uncertainty = UncertaintyColumns::new(&warnings, &budget);
+        answer.uncertainty = UncertaintyColumns::new(warnings, &budget);
         Ok(answer)
     }
 

@@ -1,5 +1,7 @@
 //! The columns of an answer. Those of another question than the one that was asked are empty.
 
+use std::collections::BTreeSet;
+
 use rockfrag_core::fragility::{LimitStates, MotionKind, Peak, RockingDirection, Tau};
 use rockfrag_core::hazard::{
     Bases, Budget, FragilityPoint, GroundMotion, Lognormal, MotionProbabilities, SiteRates, VelocitySource,
@@ -49,8 +51,8 @@ impl ObjectColumns {
     /// Makes the columns of an object and, if it has an answer, of the direction in which it is weaker.
     pub fn new(object: &Object, weaker: Option<&RockingDirection>) -> ObjectColumns {
         let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
-        let structure = weaker.map(|direction| &direction.structure);
-        let model = weaker.map(|direction| &direction.model);
+        let (structure, model) =
+            weaker.map(|RockingDirection { structure, model }| (structure, model)).unzip();
         ObjectColumns {
             structure: object.name.clone(),
             object_kind: Some(shape.kind().to_string()),
@@ -246,8 +248,8 @@ pub struct UncertaintyColumns {
 const BETWEEN: &str = "; ";
 
 impl UncertaintyColumns {
-    pub fn new(warnings: &[Warning], budget: &Budget) -> UncertaintyColumns {
-        let texts: Vec<&str> = warnings.iter().map(|warning| warning.text()).collect();
+    pub fn new(warnings: Vec<Warning>, budget: &Budget) -> UncertaintyColumns {
+        let texts: Vec<&str> = BTreeSet::from_iter(warnings).into_iter().map(Warning::text).collect();
         UncertaintyColumns {
             warnings: (!texts.is_empty()).then(|| texts.join(BETWEEN)),
             error_fit: budget.source_sd(UncertaintySource::Fit),

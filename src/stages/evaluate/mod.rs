@@ -240,19 +240,17 @@ impl Evaluate {
         models.expect_ground()?;
         let site = if self.hazard.is_empty() { None } else { Some(self.site(renames, context)?) };
         let over = self.over.unwrap_or(Peak::Pga);
+        let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
             Some(site) if self.over.is_none() => {
-                return Ok(Question::Hazard { site, years: self.years, target: self.target });
+                Ok(Question::Hazard { site, years: self.years, target: self.target })
             }
-            Some(Site { hazard: Hazard::Curve(PeakHazard { peak, .. }), .. }) if peak == over => {}
-            Some(_) => {
+            Some(site) if !matches!(&site.hazard, Hazard::Curve(hazard) if hazard.peak == over) => {
                 let problem = format!("over {over}: expected a hazard curve of {over}, of no other peak");
-                return Err(UsageError::because(problem));
+                Err(UsageError::because(problem))
             }
-            None => {}
+            site => Ok(Question::Curve { general, site }),
         }
-        let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
-        Ok(Question::Curve { general, site })
     }
 
     /// Reads the hazard and what rates over it need.

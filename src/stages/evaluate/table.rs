@@ -107,8 +107,6 @@ fn with_probabilities<'a>(
         let peaks = given[row].clamp_to_recorded();
         let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
         warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
-        warnings.sort();
-        warnings.dedup();
         let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
             pgv_m_s: Some(peaks.pgv_m_s),
@@ -116,7 +114,7 @@ fn with_probabilities<'a>(
             vs30_m_s: None,
         };
         let (tree, _, budget) = TreeColumns::new(&motion, rocking_object);
-        (tree, UncertaintyColumns::new(&warnings, &budget))
+        (tree, UncertaintyColumns::new(warnings, &budget))
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
