@@ -119,8 +119,7 @@ impl Document {
     }
 
     pub fn has_content(&self) -> bool {
-        let is_said = !(self.lead.is_empty() && self.facts.is_empty());
-        is_said || !(self.tables.is_empty() && self.figures.is_empty())
+        self.lead.len() + self.facts.len() + self.tables.len() + self.figures.len() > 0
     }
 
     /// The figure that says most, by itself.

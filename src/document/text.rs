@@ -38,13 +38,13 @@ impl Document {
 impl Table {
     fn text(&self, out: Option<&Path>) -> String {
         let columns: Vec<_> = self.columns().collect();
-        let most = if out.is_some() || self.rows.len() > PRINTED[1] { PRINTED[0] } else { self.rows.len() };
-        let most = most.min(self.rows.len());
+        let all = self.rows.len();
+        let most = if out.is_some() || all > PRINTED[1] { all.min(PRINTED[0]) } else { all };
         let plain = |cell: &str| words(cell).replace('\u{a0}', " ");
         let heads = columns.iter().map(|column| plain(column.head)).collect();
         let rows = (0..most).map(|row| columns.iter().map(|column| plain(column.cells[row])).collect());
         let lines: Vec<Vec<String>> = std::iter::once(heads).chain(rows).collect();
-        let others = match (self.rows.len() - most, out) {
+        let others = match (all - most, out) {
             (0, _) => String::new(),
             (others, Some(out)) => format!("and {} more, in {}\n", number::count(others), out.display()),
             (others, None) => format!("and {} more, by --out or --format csv\n", number::count(others)),

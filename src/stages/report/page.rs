@@ -20,8 +20,7 @@ use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
 use crate::table::responses::CapacityFitRow;
 
-/// Warnings under the table; the others are folded. Structures in the first sentence; the table has all.
-const MOST_WARNINGS: usize = 3;
+/// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
 /// of a list there are only these.
@@ -53,7 +52,7 @@ evaluate: Probabilities are those of the model; annual rates integrate them over
 /// The page of all tables, and all their figures, of which the page shows some.
 pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let others = figures(tables)?;
-    let mut head = head(tables)?;
+    let mut head = head(tables);
     head.figures.retain(|figure| !figure.panels.is_empty());
     let all = [head.figures.clone(), others.clone()].concat();
     let is_client = !tables.answers.is_empty();
@@ -66,23 +65,21 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
         others.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
-    let mut warnings = joined.lines();
-    let seen_warnings = if is_client { 0 } else { warnings.len().min(MOST_WARNINGS) };
-    let notes = tables.left_out.iter().cloned().chain(head.notes).chain(warnings.drain(..seen_warnings));
-    head.notes = notes.collect();
+    let (warnings, folded) = if is_client { (vec![], joined.lines()) } else { (joined.lines(), vec![]) };
+    head.notes = [tables.left_out.clone(), head.notes, warnings].concat();
     let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
     let more = if is_client { Vec::new() } else { more };
     let mut tests = tests(tables)?;
-    if head.figures.is_empty() && head.tables.is_empty() {
-        head.tables.append(&mut tests);
+    if head.tables.is_empty() {
+        head.tables.extend(tests.drain(..tests.len().min(1)));
     }
     let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
         Document { figures: more, ..section("More figures") },
         Document { facts: method.collect(), ..section("Method") },
-        Document { facts: warnings, tables: tests, ..section("Tests and fits") },
+        Document { facts: folded, tables: tests, ..section("Tests and fits") },
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
     sections.retain(Document::has_content);
@@ -127,7 +124,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
 
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
 /// of responses.
-fn head(tables: &Tables) -> anyhow::Result<Document> {
+fn head(tables: &Tables) -> Document {
     let Tables { answers, compared, traces, groups, .. } = tables;
     let before_and_after = match &answers[..] {
         [before, after] if tables.are_files => compare::document(before, after),
@@ -143,22 +140,18 @@ fn head(tables: &Tables) -> anyhow::Result<Document> {
             tables: vec![published_planes(compared)],
             ..Document::default()
         },
-        None if !traces.is_empty() => return Ok(response::document(traces)),
-        None => {
-            let outcomes = outcomes(tables)?;
-            Document {
-                title: match groups.is_empty() {
-                    true => "Fits and motions".to_string(),
-                    false => "What rocks and what overturns".to_string(),
-                },
-                lead: overturned(groups).into_iter().collect(),
-                tables: if outcomes.rows.is_empty() { Vec::new() } else { vec![outcomes] },
-                ..Document::default()
-            }
-        }
+        None if !traces.is_empty() => return response::document(traces),
+        None => Document {
+            title: match groups.is_empty() {
+                true => "Fits and motions".to_string(),
+                false => "What rocks and what overturns".to_string(),
+            },
+            lead: overturned(groups).into_iter().collect(),
+            ..Document::default()
+        },
     };
     head.figures.extend(response::figures(traces));
-    Ok(head)
+    head
 }
 
 /// Some fields of rows, under their names; those that no row has are left out.
@@ -251,17 +244,11 @@ fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, I
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let published = tables
-        .compared
-        .iter()
-        .filter(|number| !["low_", "high_"].iter().any(|side| number.quantity.starts_with(side)));
+    let is_of_plane = |quantity: &str| quantity.starts_with("low_") || quantity.starts_with("high_");
+    let published = tables.compared.iter().filter(|number| !is_of_plane(&number.quantity));
     let planes = tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
-    let mut all = Vec::new();
-    // The page of responses has their outcomes above.
-    if !(tables.answers.is_empty() && tables.compared.is_empty()) {
-        all.push(outcomes(tables)?);
-    }
+    let mut all = vec![outcomes(tables)?];
     // A client's page has no curves and planes of the paper.
     if tables.answers.is_empty() {
         all.extend([
