@@ -3,7 +3,7 @@
 use rockfrag_core::hazard::Site;
 use rockfrag_core::object::Object;
 
-use super::{Answer, ModelsOf, ObjectColumns, Question};
+use super::{Answer, ModelsOf, Question};
 
 /// The answers for an object at a site: as it is; with a wider base, a lower centre of mass, on another floor;
 /// with a restitution as a test may find it. What would not rock, or lies outside the model, has none.
@@ -16,14 +16,4 @@ pub fn variants(object: &Object, site: &Site, years: f64, models: ModelsOf) -> V
         Some(Answer { variant: Some(words), ..answer })
     });
     all.collect()
-}
-
-impl Answer {
-    /// Whether nothing of an object is changed: it is only known better.
-    pub fn is_measured(&self, as_it_is: &Answer) -> bool {
-        let sizes = |ObjectColumns { width_m, depth_m, centre_height_m, floor_level, .. }: &ObjectColumns| {
-            [*width_m, *depth_m, *centre_height_m, *floor_level]
-        };
-        sizes(&self.object) == sizes(&as_it_is.object)
-    }
 }

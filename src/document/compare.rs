@@ -68,13 +68,9 @@ type Side = (&'static str, fn(&Answer) -> String);
 const SIDES: [Side; 2] =
     [("", |answer| answer.object.place()), ("", |answer| answer.object.size().replace(' ', "\u{a0}"))];
 const PARAMETERS: [Side; 2] = [
-    ("tips at ", |answer| digits(answer.object.alpha_rad.map(f64::to_degrees)) + "°"),
-    ("restitution ", |answer| digits(answer.object.eta)),
+    ("tips at ", |answer| significant(answer.object.alpha_rad.map_or(f64::NAN, f64::to_degrees), 3) + "°"),
+    ("restitution ", |answer| significant(answer.object.eta.unwrap_or(f64::NAN), 3)),
 ];
-
-fn digits(value: Option<f64>) -> String {
-    value.map_or("-".to_string(), |value| significant(value, 3))
-}
 
 /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle or eta where nothing else does.
 fn changes(both: [&Answer; 2]) -> Vec<String> {

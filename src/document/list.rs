@@ -29,16 +29,12 @@ pub fn document(table: &AnswerTable) -> Document {
         return Document { title, lead, tables: vec![all], ..Document::default() };
     }
     let upstairs = answered.iter().filter(|answer| answer.object.is_upstairs()).count();
-    let place = match upstairs {
-        0 => "on the ground".to_string(),
-        _ if upstairs == answered.len() => "on floors".to_string(),
-        _ => format!("{} on the ground, {upstairs} on floors", answered.len() - upstairs),
-    };
+    let [all_free, upstairs] = [answered.len(), upstairs].map(count);
     let whose = format!(" of {}", worst.object.called());
     let lead = [Some(worst_of(table)), worst.about_target(&whose), not_assessed(&table.rows)];
     Document {
         title,
-        place: format!("{} free-standing, {place}{}", count(answered.len()), table.conditions()),
+        place: format!("{all_free} free-standing, {upstairs} of them on floors{}", table.conditions()),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
@@ -60,10 +56,7 @@ fn worst_of(table: &AnswerTable) -> String {
     match how_often.strip_prefix("overturns ") {
         Some(often) => format!("{name} is the most likely to overturn: {often}."),
         None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
-        None if table.rows.iter().any(|answer| answer.p.p_rocking > Some(0.0)) => {
-            "Nothing overturns.".to_string()
-        }
-        None => "Nothing rocks.".to_string(),
+        None => "Nothing overturns.".to_string(),
     }
 }
 
@@ -148,9 +141,7 @@ const UNSAID: [&str; 3] = ["place", "file", "responses"];
 
 /// The answers, and what is the same for all objects.
 fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
-    let name =
-        |answer: &Answer| answer.object.name().map_or("unnamed".to_string(), |_| answer.object.called());
-    let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![name(answer)]).collect();
+    let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![answer.object.called()]).collect();
     let (mut heads, mut same) = (vec!["object".to_string()], Vec::new());
     for (name, cell) in &COLUMNS {
         let head = name.replace('@', when);
@@ -206,11 +197,12 @@ fn limits(answer: &Answer) -> String {
 
 /// The base with which an object meets the target, if there is one.
 fn base(answer: &Answer) -> String {
-    let target = answer.rates.target;
-    match answer.base(|side| side.value) {
-        _ if target.is_some_and(|target| answer.meets(target)) => "meets it".to_string(),
-        None if target.is_some() && answer.is_answered() => "none".to_string(),
-        base => base.unwrap_or_default().replace(' ', "\u{a0}"),
+    match answer.rates.target.filter(|_| answer.is_answered()) {
+        None => String::new(),
+        Some(target) if answer.severity() <= target => "meets it".to_string(),
+        Some(_) => {
+            answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}"))
+        }
     }
 }
 

@@ -1,13 +1,16 @@
 //! The document of one object.
 
+use std::iter;
+
+use rockfrag_core::hazard::Fragility;
 use rockfrag_core::statistics::Interval;
 
 use super::phrases::{facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, Usual};
+use crate::answer::{Answer, AnswerTable};
 use crate::chart::text::literal;
-use crate::figures::answers::{self, years};
-use crate::number::{PERCENT, RATE, significant};
+use crate::figures::answers;
+use crate::number::{PERCENT, RATE};
 
 pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     let when = answer.when().unwrap_or_default();
@@ -17,9 +20,8 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     Document {
         title: answer.object.title(),
         place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),
-        lead: [Some(format!("It {}.", answer.how_often(hazard))), answer.about_target("")]
-            .into_iter()
-            .flatten()
+        lead: iter::once(format!("It {}.", answer.how_often(hazard)))
+            .chain(answer.about_target(""))
             .collect(),
         tiles: tiles(&when, variants, table),
         facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
@@ -40,29 +42,23 @@ fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
     if let [as_it_is, others @ ..] = variants {
         let p = |one: &Answer| one.p.p_overturning.value.unwrap_or(1.0);
         let is_moved = |one: &Answer| one.object.floor_level != as_it_is.object.floor_level;
-        let changed = others.iter().filter(|one| !one.is_measured(as_it_is));
+        // Where its angle stays it is only known better.
+        let is_leaner = |one: &Answer| one.object.alpha_rad != as_it_is.object.alpha_rad;
+        let changed = others.iter().filter(|one| is_leaner(one) || is_moved(one));
         let best = changed.clone().min_by(|a, b| p(a).total_cmp(&p(b)));
         let best = best.filter(|best| p(best) < p(as_it_is));
         let moved = changed.clone().find(|one| is_moved(one) && best.is_none_or(|best| !is_moved(best)));
-        let more = [format!(", {when}"), ", which helps most".to_string(), String::new()];
-        for (change, more) in [Some(as_it_is), best, moved].into_iter().zip(more) {
-            let Some(Answer { variant: Some(variant), p, .. }) = change else { continue };
+        for Answer { variant, p, .. } in [Some(as_it_is), best, moved].into_iter().flatten() {
             let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
-            let words = format!("overturns: {variant}{more}{limits}");
+            let words = format!("overturns {when}: {}{limits}", variant.as_deref().unwrap_or_default());
             tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
         }
     }
-    let drawn = table.at_site.as_ref();
-    if let Some((drawn, fragility)) = drawn.and_then(|drawn| Some((drawn, drawn.fragility.as_ref()?))) {
-        let usual = drawn.usual().next().map_or(String::new(), |Usual { intensity, years: period }| {
-            let (intensity, symbol) = (significant(intensity, 2), drawn.peak.name_and_unit().2);
-            format!("; {intensity} {symbol} comes once in {}", years(period))
-        });
-        let words =
-            format!("{} at which half of the motions overturn it{usual}", fragility.over.name_and_unit().0);
-        let unit = fragility.over.name_and_unit().1;
-        let half = fragility.overturning.theta.value.map(|theta| theta / unit);
-        tiles.push(Tile::new(intensity(fragility.over, half), words));
+    let drawn = table.at_site.as_ref().and_then(|drawn| drawn.fragility.as_ref());
+    if let Some(Fragility { over, overturning, .. }) = drawn {
+        let (what, unit, _) = over.name_and_unit();
+        let half = intensity(*over, overturning.theta.value.map(|theta| theta / unit));
+        tiles.push(Tile::new(half, format!("{what} at which half of the motions overturn it")));
     }
     tiles
 }

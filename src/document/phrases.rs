@@ -121,10 +121,8 @@ impl Answer {
         if let Some(over) = self.fragility.over {
             let [half, limits, ..] = intensity_cells(over, &self.fragility.overturning);
             let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
-            return format!(
-                "is overturned by half of the motions at a {} of {half}{limits}",
-                over.name_and_unit().0
-            );
+            let what = over.name_and_unit().0;
+            return format!("is overturned by half of the motions at a {what} of {half}{limits}");
         }
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
@@ -149,8 +147,7 @@ impl Answer {
                 format!("overturns between {bounds} times a year, {} {when}{end}", PERCENT.value(p))
             }
             _ => {
-                let why = "its model has no probability for some motions of the hazard";
-                format!("has no rate of overturning: {why}")
+                "has no rate of overturning: its model has no probability for some of the motions".to_string()
             }
         }
     }
@@ -173,19 +170,14 @@ impl Answer {
         }
     }
 
-    pub fn meets(&self, target: f64) -> bool {
-        self.p.p_overturning.value.or(self.p.p_overturning.high).is_some_and(|p| p <= target)
-    }
-
     /// The base with which it meets its target, by the estimate and by the upper limit, or why none does;
     /// `whose` names it among others: ` of rack`.
     pub fn about_target(&self, whose: &str) -> Option<String> {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
         let Some(base) = self.base(|side| side.value) else {
-            return Some(format!(
-                "No base{whose} reaches {target}: {why_none}. Anchored, it would not rock."
-            ));
+            let anchored = "Anchored, it would not rock.";
+            return Some(format!("No base{whose} reaches {target}: {why_none}. {anchored}"));
         };
         let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.value.is_none());
         let depth = depth.map_or(String::new(), |depth| {
@@ -268,13 +260,11 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
     [half, limits, at_16, at_84, beta.map_or(String::new(), |beta| significant(beta, 2))]
 }
 
-/// What answers rest on, the worst of which is the first: a line each.
+/// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
-    let Some(worst) = all.first() else { return Vec::new() };
-    let beyond = worst
-        .rates
-        .share_extrapolated
-        .map(|share| format!("{} of the rate lies beyond the curve.", PERCENT.one(share)));
+    let worst = all[0];
+    let share = worst.rates.share_extrapolated.map(|share| PERCENT.one(share));
+    let beyond = share.map(|share| format!("{share} of the rate lies beyond the curve."));
     let valid = match all {
         [one] => {
             let friction = one.object.friction_needed().map(|friction| fixed(friction, 2));
@@ -308,10 +298,10 @@ fn model_of_all(all: &[&Answer]) -> Option<String> {
     let models: BTreeSet<&str> = all.iter().filter_map(|answer| answer.object.model.as_deref()).collect();
     let (first, object) = (models.first()?, &all[0].object);
     Some(match object.motions.filter(|_| models.len() > 1 && first.contains("surface")) {
-        Some(kind) => format!(
-            "rockfrag's universal surface, calibrated to the simulated responses ({})",
-            kind.description()
-        ),
+        Some(kind) => {
+            let motions = kind.description();
+            format!("rockfrag's universal surface, calibrated to the simulated responses ({motions})")
+        }
         None => literal(object.model.as_deref().unwrap_or(first)),
     })
 }

@@ -106,30 +106,24 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let mut rotation = line(Ink::Data(1), |point| point.theta_over_alpha);
     rotation.marks.retain(|mark| mark.y.abs() < MOST);
     let most = rotation.marks.iter().map(|mark| mark.y.abs()).fold(1.1, f64::max) * 1.08;
-    let mut layers = Vec::new();
-    for limit in [-1.0, 1.0] {
-        layers.push(Layer::guide(
-            "tipping angle",
-            Ink::Muted,
-            [low, high].map(|time_s| Mark::new(time_s, limit)),
-        ));
-    }
-    layers.push(rotation);
-    for (name, ink, event) in
-        [("uplift", Ink::Data(2), SolverEvent::Uplift), ("impact", Ink::Data(0), SolverEvent::Impact)]
-    {
-        let marks = response.times(event).into_iter().map(|time_s| Mark::new(time_s, 0.0));
-        layers.push(Layer::points(name, ink, marks));
-    }
+    let guide = |limit: f64| [low, high].map(|time_s| Mark::new(time_s, limit));
+    let guides = [-1.0, 1.0].map(|limit| Layer::guide("tipping angle", Ink::Muted, guide(limit)));
+    let dots = |event| response.times(event).into_iter().map(|time_s| Mark::new(time_s, 0.0));
+    let events = [
+        Layer::points("uplift", Ink::Data(2), dots(SolverEvent::Uplift)),
+        Layer::points("impact", Ink::Data(0), dots(SolverEvent::Impact)),
+    ];
+    let layers = guides.into_iter().chain([rotation]).chain(events).collect();
     let time = |label: &str| Axis::linear(label).over(low, high);
     let y = Axis::linear("*θ*/*α*: beyond 1 it tips unless it is brought back").over(-most, most);
-    let mut panels = vec![Panel::new("Rotation", time(""), y, layers)];
-    for (title, unit, label, line) in [
-        ("Ground acceleration", "g", "", line(Ink::Text, |point| point.ground_acceleration_m_s2 / G_M_S2)),
-        ("Ground velocity", "m/s", "time, s", line(Ink::Data(0), |point| point.ground_velocity_m_s)),
-    ] {
-        panels.push(Panel::new(title, time(label), Axis::linear(unit), vec![line]));
-    }
+    let ground = |title, unit, label, line| Panel::new(title, time(label), Axis::linear(unit), vec![line]);
+    let acceleration = line(Ink::Text, |point| point.ground_acceleration_m_s2 / G_M_S2);
+    let velocity = line(Ink::Data(0), |point| point.ground_velocity_m_s);
+    let mut panels = vec![
+        Panel::new("Rotation", time(""), y, layers),
+        ground("Ground acceleration", "g", "", acceleration),
+        ground("Ground velocity", "m/s", "time, s", velocity),
+    ];
     for (moment, words) in [(response.tipped_at(), "tips"), (response.overturned_at(), "lies")] {
         let Some(x) = moment else { continue };
         let words =
@@ -139,9 +133,9 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
     let figure = Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels);
-    let [start, end] = [low, high].map(|time_s| number::fixed(time_s, 1));
+    let ([start, end], sentence) = ([low, high].map(|time_s| number::fixed(time_s, 1)), response.sentence());
     Figure { beside: moving(response, id), ..figure }.explained(format!(
-        "A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
+        "{sentence} A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. Dashed: the \
          tipping angle, its slenderness *α*."
     ))
 }
@@ -161,11 +155,7 @@ pub fn document(all: &[Trace]) -> Document {
             format!("{overturned} of {} overturn.", all.len()),
         ),
     };
-    let mut figures = figures(all);
-    for (figure, response) in figures.iter_mut().zip(all).filter(|_| all.len() > 1) {
-        figure.caption = format!("{} {}", response.sentence(), figure.caption);
-    }
-    Document { title, lead: vec![sentence], figures, ..Document::default() }
+    Document { title, lead: vec![sentence], figures: figures(all), ..Document::default() }
 }
 
 /// The block as it moves in real time, from a click on its button: a picture without any code. All blocks are

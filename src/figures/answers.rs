@@ -22,7 +22,7 @@ const ROWS: usize = 60;
 const CURVES: usize = 6;
 
 /// How rare an intensity is: `475 years`.
-pub fn years(years: f64) -> String {
+fn years(years: f64) -> String {
     format!("{} years", count(years as usize))
 }
 
