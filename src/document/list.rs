@@ -36,7 +36,7 @@ pub fn document(table: &AnswerTable) -> Document {
         title,
         place: format!("{all_free} free-standing, {upstairs} of them on floors{}", table.conditions()),
         lead: lead.into_iter().flatten().collect(),
-        tiles: if over.is_some() { Vec::new() } else { tiles(table, &when) },
+        tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         tables: [all].into_iter().chain(changes(&table.variants, &when)).collect(),
         notes: doubts(&answered),
@@ -54,6 +54,7 @@ fn worst_of(table: &AnswerTable) -> String {
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
     let how_often = worst.how_often(table.hazard.as_ref());
     match how_often.strip_prefix("overturns ") {
+        _ if table.rows.len() == 1 => format!("{name} {how_often}."),
         Some(often) => format!("{name} is the most likely to overturn: {often}."),
         None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None => "Nothing overturns.".to_string(),

@@ -77,7 +77,8 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
             return ProbabilityRow::new(&name, Ink::Step(band), bands[band], p);
         };
         let values = vec![(before.p, Ink::Muted, "before"), (p, Ink::Data(1), "after")];
-        ProbabilityRow { name, values, words: before.times() }
+        let words = before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()));
+        ProbabilityRow { name, values, words }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let rest = match answers.len() - drawn.len() {
