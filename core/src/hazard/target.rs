@@ -22,7 +22,8 @@ use crate::statistics::Interval;
 /// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).states.overturning;
 /// // Once in 10,000 years.
 /// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
-/// assert!(0.5 < bases.target_width_m.value.unwrap() && bases.target_width_m.value < bases.target_width_m.high);
+/// let width = bases.target_width_m;
+/// assert!(0.5 < width.value.unwrap() && width.value < width.high);
 /// # Ok::<(), rockfrag_core::hazard::HazardError>(())
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -26,9 +26,9 @@ use crate::table::writer::MOTIONS_IN_GROUP;
 /// The most responses that are drawn of a file.
 const MOST_TRACES: usize = 50;
 
-/// What a table holds, in words. Each has the stages that make it, and columns that tell it from others of the
-/// same stage, and from those of all stages where no footer says which; of those that are silent the page shows
-/// nothing of their own: others are made of them, or stand beside them.
+/// What a table holds, in words. Each has the stages that make it, and columns that tell it from others of
+/// the same stage, and from those of all stages where no footer says which; of those that are silent the page
+/// shows nothing of their own: others are made of them, or stand beside them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumProperty, strum::VariantArray)]
 #[strum(serialize_all = "snake_case")]
 pub enum Kind {
