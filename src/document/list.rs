@@ -34,7 +34,7 @@ pub fn document(table: &AnswerTable) -> Document {
     let lead = [Some(worst_of(table)), worst.about_target(&whose), not_assessed(&table.rows)];
     Document {
         title,
-        place: format!("{all_free} free-standing, {upstairs} of them on floors{}", table.conditions()),
+        place: format!("{all_free} free-standing ({upstairs} on floors){}", table.conditions()),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),

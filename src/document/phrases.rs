@@ -320,7 +320,7 @@ fn limits_cover(all: &[&Answer]) -> Option<String> {
     let sources: BTreeSet<UncertaintySource> = sds.map(|(source, _)| source).collect();
     let names: Vec<&str> = sources.into_iter().map(|source| of_source(source)[0]).collect();
     let names = (!names.is_empty()).then(|| names.join(", "))?;
-    Some(format!("The 95 % limits cover uncertainty only in: {names}."))
+    Some(format!("The 95 % limits cover only the uncertainty of: {names}."))
 }
 
 /// How many objects of a list are expected to overturn, and how likely at least one does.

@@ -212,7 +212,7 @@ fn summary(objects: &[Vec<Structure>], overturning: &[usize], motions: usize, ou
     all.sort_by_key(|(_, count)| Reverse(**count));
     let motions = counted(motions, "motion");
     let lines = all.into_iter().map(|(directions, count)| {
-        format!("{}: {} of {motions} overturn it\n", name(&directions[0].name), number::count(*count))
+        format!("{}: overturned by {} of {motions}\n", name(&directions[0].name), number::count(*count))
     });
     first_lines(&lines.collect::<String>(), 0, out)
 }
