@@ -10,7 +10,7 @@ use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
 /// Columns of a table that have room beside a figure.
-const BESIDE: usize = 7;
+const BESIDE: usize = 6;
 /// What two words mean.
 const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
                       velocity after an impact over that before.";
