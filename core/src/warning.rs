@@ -25,6 +25,8 @@ pub enum Warning {
     HazardExtrapolated,
     HazardStartsLate,
     MedianHazard,
+    UnusualMagnitude,
+    UnusualGround,
     NotFitted,
     OtherStructure,
     Extrapolated,
@@ -60,6 +62,10 @@ impl Warning {
             HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
             HazardStartsLate => "the hazard curve starts above the uplift intensity: rates are too low",
             MedianHazard => "a median hazard curve, usually below the mean: rates are too low",
+            UnusualMagnitude => {
+                "above 7.9, the largest magnitude of the records that the surface was fitted to"
+            }
+            UnusualGround => "Vs30 outside 200 to 1,500 m/s, for which PGV/PGA by Vs30 was fitted",
             NotFitted => "not among the fitted structures: the universal surface is used",
             OtherStructure => "calibrated on responses of a different structure (--name)",
             Extrapolated => "outside the range of motions that the model was fitted to",

@@ -20,6 +20,8 @@ DRAWS = 10_000
 # the level), the scatter of a line by two curves and the sds of its level by SA(1.0 s) or not; PGV by SA(1.0 s).
 GIVEN_PGA, SCATTER, SD_BY_CURVES = (-2.86, -0.06, 0.58, 0.30, 0.28), 0.42, {False: 0.08, True: 0.12}
 BY_SPECTRUM = 0.090, 0.36, 0.13
+# Sd of a mean magnitude that PGV/PGA tells.
+INFERRED = 0.5
 # Mean and sd of an unknown magnitude, the middle of the line; by how much that of what overturns lies above the mean
 # of the disaggregation of PGA and of SA(1.0 s), and its sd.
 MAGNITUDE, MIDDLE = (6.35, 0.6), 6.3
@@ -75,7 +77,10 @@ def rates(k, truth, line, scatter, above, draws):
         loss = np.clip(loss, R.LN_LOSS[0], R.LN_LOSS[-1])
         z = of(np.stack(np.broadcast_arrays(loss, ln_pga[:, None], ln_pgv), -1))
         # By two curves PGV / PGA tells an unknown magnitude.
-        mw = intercept + slope * (ln_pgv - ln_pga[:, None]) if np.isnan(mw) else mw + above
+        if above is None:
+            mw = intercept + slope * (ln_pgv - ln_pga[:, None]) + mw
+        else:
+            mw = mw + above
         of_mw = (truth.m + m) * (np.clip(mw, *R.RANGE) - R.MIDDLE)
         result.append(weight @ (expit(truth.c + c + np.exp(ln_s) * z + of_mw) @ WEIGHT))
     return np.array(result)
@@ -98,8 +103,9 @@ def case(k, name, route, random):
             pgv[:, 0] = factor * pgv[:, 0] ** (1 - of_pga) * as_often**of_pga
         level, slope = matched(pga, pgv, scatter)
         if given not in ABOVE:
-            mw, sd_mw = np.nan, 0.0
-    known = lambda mw: np.where(np.isnan(mw), MAGNITUDE[0], mw)
+            mw, sd_mw, above = 0.0, INFERRED, None
+    # What PGV/PGA leaves open moves the part of PGV/PGA that depends on the magnitude, too.
+    known = lambda mw: MAGNITUDE[0] + MAGNITUDE[1] / INFERRED * mw if above is None else mw
     line = lambda ln_pga, mw: level + slope * (ln_pga - AT) + per_mw * (known(mw) - MIDDLE)
     sds = np.array([*truth.sds, sd_mw, sd_level, R.SD_OF_LOSS])
     draws = random.normal(size=(DRAWS, 6)) * sds + [0, 0, 0, mw, 0, 0]

@@ -1,8 +1,8 @@
 """Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy:
 python fragility.py > core/tests/reference/fits/fragility_answers.csv
 
-The surface is that of scripts/universal/surface.py; the lines of PGV/PGA and the usual magnitude are those of
-sites.py. Intensities are PGA in g or PGV in m/s.
+The surface is that of scripts/universal/surface.py. The line of PGV/PGA given PGA is that of recorded_peaks.py, that given PGV
+that of sites.py. Without a magnitude it is that of the motions that overturn, with its scatter. Intensities are PGA in g or PGV in m/s.
 """
 
 import itertools
@@ -21,7 +21,9 @@ from surface import Surface  # noqa: E402
 
 G = 9.81
 # ln(PGV/PGA) at 0.4 g or 0.4 m/s and M 6.3, its slope over ln of the peak, its scatter, its rise with magnitude.
-LINES = {"pga": (-2.86, -0.06, 0.58, 0.30), "pgv": (-2.21, 0.25, 0.50, 0.33)}
+LINES = {"pga": (-2.58, -0.15, 0.43, 0.49), "pgv": (-2.21, 0.25, 0.50, 0.33)}
+# Mean and scatter of the magnitude of the motions that overturn (site_rates.py).
+MAGNITUDE = 6.65, 0.3
 LEVEL_AT = {"pga": 0.4 * G, "pgv": 0.4}
 STRUCTURES = [(2.2, 0.25, 0.91), (1.5, 0.15, 0.95), (3.5, 0.35, 0.85)]
 INTENSITIES = {"pga": (0.3, 0.5, 0.8, 1.5, 3.0), "pgv": (0.15, 0.4, 0.9, 2.5)}
@@ -49,6 +51,8 @@ def probabilities(structure, pga, pgv, mw):
 
 def averaged(over, structure, intensity, mw):
     level, slope, sd, per_magnitude = LINES[over]
+    if mw is None:
+        mw, sd = MAGNITUDE[0], np.hypot(sd, per_magnitude * MAGNITUDE[1])
     median = level + slope * np.log(intensity / LEVEL_AT[over]) + per_magnitude * (mw - 6.3)
     uplift = G * np.tan(structure[1])
     if over == "pga":
@@ -65,8 +69,9 @@ def averaged(over, structure, intensity, mw):
     return simpson(probabilities(structure, *peaks, mw) * norm.pdf(z), x=z)
 
 
-print("over,p_rad_s,alpha_rad,eta,mw,intensity,p_failure,p_overturning")
-for over, structure, mw in itertools.product(LINES, STRUCTURES, (6.35, 7.4)):
-    for intensity in INTENSITIES[over]:
-        answer = averaged(over, structure, intensity * (G if over == "pga" else 1.0), mw)
-        print(over, *structure, mw, intensity, *(f"{p:.9e}" for p in answer), sep=",")
+if __name__ == "__main__":
+    print("over,p_rad_s,alpha_rad,eta,mw,intensity,p_failure,p_overturning")
+    for over, structure, mw in itertools.product(LINES, STRUCTURES, (None, 7.4)):
+        for intensity in INTENSITIES[over]:
+            answer = averaged(over, structure, intensity * (G if over == "pga" else 1.0), mw)
+            print(over, *structure, mw or "", intensity, *(f"{p:.9e}" for p in answer), sep=",")

@@ -3,9 +3,11 @@
 The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
 magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
 whose c, ln s and eta are drawn from their distributions. A second table tells how far the mean magnitude of the
-motions that overturn lies above the mean of the disaggregation of PGA, and of SA(1.0 s).
+motions that overturn lies above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their
+PGV/PGA tells; a third has that mean of all sites, its sd between sites and within.
 """
 
+import itertools
 import json
 import pathlib
 import sys
@@ -128,12 +130,20 @@ def judged(truths):
 
 
 def magnitudes(truths):
-    """Of each site and object, how far the mean magnitude of what overturns lies above those of the curves."""
-    for k in np.flatnonzero(names[:, 0] == "magnitude"):
-        for truth in truths.values():
-            rates = np.array([truth.rate(joint[k] * (S.MAGNITUDES == mw)[:, None, None]) for mw in S.MAGNITUDES])
-            mw = rates @ S.MAGNITUDES / rates.sum()
-            yield names[k, 1].rstrip(" 0123456789") or names[k, 1], *(mw - of[k] for of in MEANS.values())
+    """Of each site and object, how far the mean magnitude of what overturns lies above those of the curves and of
+    PGV/PGA; the mean, and the sd about it."""
+    lines = open(ROOT / "core/data/universal.csv").read().splitlines()
+    line = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
+    intercept, slope, _, *ends = (float(cell) for cell in line[2:7])
+    tells = np.clip(intercept + slope * (S.Y - S.X[:, None]), *ends)
+    for k, truth in itertools.product(range(len(names)), truths.values()):
+        rates = np.array([truth.rate(joint[k] * (S.MAGNITUDES == mw)[:, None, None]) for mw in S.MAGNITUDES])
+        mw = rates @ S.MAGNITUDES / rates.sum()
+        within = np.sqrt(rates @ (S.MAGNITUDES - mw) ** 2 / rates.sum())
+        p = expit(truth.logits[3] + truth.m * (tells - MIDDLE))
+        told = (joint[k].sum(axis=0) * p * tells).sum() / (joint[k].sum(axis=0) * p).sum()
+        site = names[k, 1].rstrip(" 0123456789") or names[k, 1]
+        yield *names[k, :1], site, *(mw - of[k] for of in MEANS.values()), mw - told, mw, within
 
 
 def summary(rows):
@@ -155,5 +165,8 @@ if __name__ == "__main__":
     print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
     by_site = np.exp(areas.groupby(["route", "k"], sort=False)["off"].mean())
     print("geometric means of area sites", by_site.groupby("route", sort=False).describe().round(2).to_string(), sep="\n")
-    above = pd.DataFrame(magnitudes(of_objects), columns=["sites", "above that of PGA", "above that of SA"])
-    print(above.groupby("sites", sort=False).agg(["mean", "min", "max"]).round(2).to_string())
+    columns = ["kind", "sites", "above that of PGA", "above that of SA", "above that of PGV/PGA", "mean", "within"]
+    above = pd.DataFrame(magnitudes(of_objects), columns=columns)
+    of_mean = above[above["kind"] == "magnitude"][columns[1:5]]
+    print(of_mean.groupby("sites", sort=False).agg(["mean", "min", "max"]).round(2).to_string())
+    print(above.groupby("kind", sort=False)[columns[4:]].agg(["mean", "std"]).round(2).to_string())

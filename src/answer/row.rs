@@ -101,7 +101,7 @@ impl TreeColumns {
     /// Predicts for an object under a motion; returns also the probabilities of its limit states, and the
     /// budget of the logit of P_ro.
     pub fn new(motion: &GroundMotion, object: &RockingObject) -> (TreeColumns, StateColumns, Budget) {
-        let MotionProbabilities { states, budget } = motion.probabilities(object);
+        let MotionProbabilities { states, budget, .. } = motion.probabilities(object);
         let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {

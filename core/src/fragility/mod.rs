@@ -7,6 +7,7 @@
 //! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: their parameters
 //! tree         the event tree that joins them (Eq. 12)
 //! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
+//! magnitude    the magnitude that an answer assumes
 //! model_point  the estimate, a limit, or the value with one error of the model
 //! model        the model that predicts: the calibrated surface, or the paper's fits
 //! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
@@ -20,6 +21,7 @@ mod cases;
 mod demand;
 mod given_peak;
 mod joint_peaks;
+mod magnitude;
 mod measure_names;
 mod model;
 mod model_point;
@@ -39,7 +41,9 @@ pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transiti
 pub use demand::{ln_median_demand, p_exceeding};
 pub use given_peak::GivenPeak;
 pub use joint_peaks::{JointPeaks, Peak, RatioGiven};
+pub use magnitude::{AssumedMagnitude, MagnitudeSource};
 pub use measure_names::{Measure, Predictors};
+pub(crate) use model::at_higher_magnitude;
 pub use model::{Model, RockingDirection, paper_probabilities};
 pub(crate) use model_point::ModelPoint;
 pub use model_point::Tau;

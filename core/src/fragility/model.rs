@@ -1,6 +1,7 @@
 use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::joint_peaks::JointPeaks;
+use super::magnitude::AssumedMagnitude;
 use super::model_point::{ModelPoint, Tau};
 use super::on_floor::{self, UpliftIntensities};
 use super::overturning::CurveFit;
@@ -38,6 +39,18 @@ impl RockingDirection {
             None => UpliftIntensities { least: uplift, usual: uplift },
         }
     }
+}
+
+/// Directions under motions of magnitudes higher by `off`: the level c of both branches is then by m off.
+pub(crate) fn at_higher_magnitude(directions: &[RockingDirection], off: f64) -> Vec<RockingDirection> {
+    let mut directions = directions.to_vec();
+    for RockingDirection { model, .. } in &mut directions {
+        if let Model::Surface { overturning, exceeding, .. } = model {
+            overturning.c += overturning.m * off;
+            exceeding.c += exceeding.m * off;
+        }
+    }
+    directions
 }
 
 /// The confidence of limits by the paper's model.
@@ -154,8 +167,15 @@ impl Model {
         }
     }
 
-    pub fn depends_on_magnitude(&self) -> bool {
-        matches!(self, Model::Surface { .. })
+    /// The magnitude of a motion, if nobody gives it; none where probabilities do not depend on it.
+    pub fn inferred_magnitude(&self, motion: Peaks) -> Option<AssumedMagnitude> {
+        let ln_pgv_pga = (motion.pgv_m_s / motion.pga_m_s2).ln();
+        match self {
+            Model::Surface { overturning, .. } => {
+                Some(surface::inferred_magnitude(overturning.kind, ln_pgv_pga))
+            }
+            Model::Paper { .. } => None,
+        }
     }
 
     /// The values of ln(PGV / PGA), s, at which probabilities bend.

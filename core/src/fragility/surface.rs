@@ -4,6 +4,7 @@
 use std::sync::LazyLock;
 
 use super::joint_peaks::{JointPeaks, RatioGiven};
+use super::magnitude::{AssumedMagnitude, MagnitudeSource};
 use crate::motion::{IntensityMeasures, Suite};
 use crate::rocking::Structure;
 use crate::spelling::unknown_word;
@@ -178,6 +179,13 @@ impl SurfaceAtIm4 {
     pub fn uplift_term(&self, ln_pgv_pga: f64) -> f64 {
         -(self.ln_uplift_term + self.slope * ln_pgv_pga).exp()
     }
+}
+
+/// The magnitude of a motion with this ln(PGV / PGA), s, where it is not known.
+pub(super) fn inferred_magnitude(kind: MotionKind, ln_pgv_pga: f64) -> AssumedMagnitude {
+    let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
+    let mw = range.clamp(intercept + slope * ln_pgv_pga);
+    AssumedMagnitude { mw, sd, source: MagnitudeSource::Inferred }
 }
 
 /// The PGA (m/s2) at which IM4 is held, the end of its domain.

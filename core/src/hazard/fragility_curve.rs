@@ -4,15 +4,16 @@
 use super::budget::Budget;
 use super::conditional_motions::ConditionalMotions;
 use super::ground_motion::logit;
-use super::pgv_pga::PgvPgaRatio;
 use super::site::{Hazard, Site, strongest};
-use crate::fragility::{GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection};
+use crate::fragility::{
+    AssumedMagnitude, GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection,
+};
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject};
 use crate::statistics::numerics::{bisect_first_true, equal_ratios};
 use crate::statistics::{Interval, least_squares, normal};
 
-/// Motions of generic sites conditional on one peak, and what narrows the other.
+/// Motions as recorded at generic sites, conditional on one peak, and what narrows the other.
 ///
 /// ```
 /// use rockfrag_core::fragility::{MotionKind, Peak};
@@ -54,6 +55,7 @@ pub struct Fragility {
     pub budget: Budget,
     /// The median motion there.
     pub motion: Peaks,
+    pub magnitude: Option<AssumedMagnitude>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,8 +103,8 @@ impl GenericSites {
     }
 
     fn motions(&self, directions: &[RockingDirection]) -> ConditionalMotions {
-        let by_model = || PgvPgaRatio::by_model(&directions[0].model, self.over, self.vs30_m_s);
-        ConditionalMotions::new(self.over, self.ratio_s.map_or_else(by_model, PgvPgaRatio::given), self.mw)
+        let GenericSites { over, mw, vs30_m_s, ratio_s } = *self;
+        ConditionalMotions::as_recorded(&directions[0].model, over, ratio_s, vs30_m_s, mw)
     }
 }
 
@@ -118,11 +120,12 @@ impl Site {
 }
 
 impl Fragility {
-    /// From points alone, such as those of a file: without error budget and motion.
+    /// From points alone, such as those of a file: without error budget, motion and magnitude.
     pub fn from_points(over: Peak, points: Vec<FragilityPoint>) -> Fragility {
         let [failure, overturning] =
             [LimitState::Failure, LimitState::Overturning].map(|state| Lognormal::between(&points, state));
-        Fragility { over, points, failure, overturning, budget: Budget::default(), motion: Peaks::default() }
+        let (budget, motion) = (Budget::default(), Peaks::default());
+        Fragility { over, points, failure, overturning, budget, motion, magnitude: None }
     }
 
     fn new(motions: &ConditionalMotions, object: &RockingObject) -> Fragility {
@@ -152,12 +155,14 @@ impl Fragility {
         let points: Vec<FragilityPoint> = points.collect();
         let is_half = |p: &LimitStates<Option<f64>>| p.overturning.is_some_and(|p| p >= 0.5);
         let median = values.iter().position(is_half).unwrap_or(intensities.len() - 1);
+        let motion = middle.peaks(intensities[median], 0.0);
         Fragility {
             over: motions.peak,
             failure: Lognormal::new(&middle, &points, LimitState::Failure),
             overturning: Lognormal::new(&middle, &points, LimitState::Overturning),
             budget: budget(median, LimitState::Overturning),
-            motion: middle.peaks(intensities[median], 0.0),
+            motion,
+            magnitude: motions.magnitude(&object.directions[0].model, motion),
             points,
         }
     }

@@ -1,9 +1,11 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::conditional_motions::ConditionalMotions;
-use super::pgv_pga::PgvPgaRatio;
-use crate::fragility::{LimitState, LimitStates, Model, ModelPoint, Peak, ReadyObject, Tau};
+use super::conditional_motions::{ConditionalMotions, at_inferred_magnitudes};
+use crate::fragility::{
+    AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject,
+    RockingDirection, Tau,
+};
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::statistics::Interval;
@@ -41,6 +43,7 @@ pub struct MotionProbabilities {
     pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of the logit of the probability of overturning, by source.
     pub budget: Budget,
+    pub magnitude: Option<AssumedMagnitude>,
 }
 
 impl GroundMotion {
@@ -65,33 +68,42 @@ impl GroundMotion {
     pub fn probabilities(&self, object: &RockingObject) -> MotionProbabilities {
         if self.is_still() {
             let states = LimitStates::all(Interval::exact(0.0).into());
-            return MotionProbabilities { states, budget: Budget::default() };
+            return MotionProbabilities { states, budget: Budget::default(), magnitude: None };
         }
         let directions = &object.directions[..];
         let model = &directions[0].model;
         let taus = [Tau::Averaged, Tau::Included];
-        let (at_quantiles, [averaged, included]) = match self.given_peak(model) {
-            // The limits of one motion include the uncertainty of its magnitude, with tau.
+        let peaks = self.peaks(model);
+        let (at_quantiles, [averaged, included], magnitude) = match self.given_peak(model) {
             None => {
-                let (ready, peaks) = (ReadyObject::new(directions, self.mw), self.peaks(model));
-                let at_quantiles = object.at_quantiles(|directions| {
+                let ready = ReadyObject::new(directions, self.mw);
+                let limit_states = |directions: &[RockingDirection]| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[ModelPoint::Estimate])[0]
-                });
-                (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)))
+                };
+                let mut at_quantiles = object.at_quantiles(limit_states);
+                let inferred = model.inferred_magnitude(peaks);
+                if let Some(AssumedMagnitude { sd, .. }) = inferred.filter(|_| self.mw.is_none()) {
+                    at_quantiles.push(at_inferred_magnitudes(directions, sd, limit_states));
+                }
+                let magnitude = inferred.map(|inferred| self.mw.map_or(inferred, AssumedMagnitude::given));
+                (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)), magnitude)
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
                 let at_quantiles = motions.at_quantiles(object, |given| given.limit_states(intensity));
-                (at_quantiles, taus.map(|tau| given.estimates(intensity, tau)))
+                let magnitude = motions.magnitude(model, peaks);
+                (at_quantiles, taus.map(|tau| given.estimates(intensity, tau)), magnitude)
             }
         };
-        let sensitivity = ProbabilitySensitivity { averaged, included, at_quantiles };
+        let is_inferred = magnitude.is_some_and(|magnitude| magnitude.source == MagnitudeSource::Inferred);
+        let sensitivity = ProbabilitySensitivity { averaged, included, at_quantiles, is_inferred };
         let (_, failure) = sensitivity.limited(LimitState::Failure);
         let (budget, overturning) = sensitivity.limited(LimitState::Overturning);
         let rocking = sensitivity.averaged.rocking;
         MotionProbabilities {
             states: LimitStates { rocking, failure, overturning }.map(Interval::from),
             budget,
+            magnitude,
         }
     }
 
@@ -102,8 +114,7 @@ impl GroundMotion {
             (Some(pga), None) => (Peak::Pga, pga),
             (None, pgv) => (Peak::Pgv, pgv?),
         };
-        let pgv_pga = PgvPgaRatio::by_model(model, peak, self.vs30_m_s);
-        Some((ConditionalMotions::new(peak, pgv_pga, self.mw), intensity))
+        Some((ConditionalMotions::as_recorded(model, peak, None, self.vs30_m_s, self.mw), intensity))
     }
 }
 
@@ -115,6 +126,8 @@ struct ProbabilitySensitivity {
     included: LimitStates<Option<Interval>>,
     /// With each other source at its quantiles.
     at_quantiles: Vec<LowHigh<LimitStates<Option<f64>>>>,
+    /// Whether `included` includes the uncertainty of a magnitude that is inferred.
+    is_inferred: bool,
 }
 
 impl ProbabilitySensitivity {
@@ -126,7 +139,8 @@ impl ProbabilitySensitivity {
         let Some((averaged, included)) = averaged.zip(included) else { return (budget, None) };
         let [fit, in_all] = [averaged, included].map(sd_of_limits);
         budget.add(UncertaintySource::Fit, [fit, fit]);
-        let between = (in_all.powi(2) - fit * fit).max(0.0).sqrt();
+        let inferred = budget.source_sd(UncertaintySource::Magnitude).filter(|_| self.is_inferred);
+        let between = (in_all.powi(2) - fit * fit - inferred.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
         match (averaged.value, values.rocking) {
             (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
                 (budget, Some(budget.limit_probability(p, rocking, between)))

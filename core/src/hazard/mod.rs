@@ -27,6 +27,7 @@ mod site;
 mod target;
 
 pub use budget::Budget;
+pub use conditional_motions::unusual_motions;
 pub use curve::{HazardCurve, HazardError};
 pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal};
 pub use ground_motion::{GroundMotion, MotionProbabilities};

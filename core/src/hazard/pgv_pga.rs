@@ -77,6 +77,13 @@ const GIVEN_PGV: LineOfSites = LineOfSites {
     at: 0.4, level: -2.21, slope: 0.25, sd: 0.50, per_magnitude: 0.33,
     sd_of_level: 0.23, per_ln_vs30: -0.20, sd_at_vs30: 0.21,
 };
+/// Of motions as recorded: 479 components of 28 earthquakes, with a random level for each
+/// (scripts/reference/recorded_peaks.py). Records of a PGA are of larger magnitudes and softer ground than the motions of a site.
+#[rustfmt::skip]
+const RECORDED_GIVEN_PGA: LineOfSites = LineOfSites {
+    level: -2.58, slope: -0.15, sd: 0.43, per_magnitude: 0.49,
+    sd_of_level: 0.25, sd_at_vs30: 0.25, ..GIVEN_PGA
+};
 /// Vs30 at which these lines hold, m/s.
 const USUAL_VS30_M_S: f64 = 440.0;
 /// Standard deviation of ln(PGV / PGA) given PGA, where the curves of both peaks give the line.
@@ -141,6 +148,20 @@ impl PgvPgaRatio {
             Peak::Pga => GIVEN_PGA,
             Peak::Pgv => GIVEN_PGV,
         };
+        PgvPgaRatio::by_line(model, given, line, vs30_m_s)
+    }
+
+    /// Likewise of motions as recorded, of one magnitude or with this standard deviation of magnitudes.
+    pub fn as_recorded(model: &Model, given: Peak, vs30_m_s: Option<f64>, sd_of_mw: f64) -> PgvPgaRatio {
+        let line = match given {
+            Peak::Pga => RECORDED_GIVEN_PGA,
+            Peak::Pgv => GIVEN_PGV,
+        };
+        let line = LineOfSites { sd: line.sd.hypot(line.per_magnitude * sd_of_mw), ..line };
+        PgvPgaRatio::by_line(model, given, line, vs30_m_s)
+    }
+
+    fn by_line(model: &Model, given: Peak, line: LineOfSites, vs30_m_s: Option<f64>) -> PgvPgaRatio {
         let is_of_sites = matches!(model, Model::Surface { overturning, .. }
             if overturning.n == 0 && overturning.kind == MotionKind::Recorded);
         if !is_of_sites {

@@ -1,11 +1,15 @@
 //! Annual rates of an object at a site, with the uncertainty of the hazard and of the rate beyond its curve.
 
 use super::budget::Budget;
-use super::conditional_motions::ConditionalMotions;
+use super::conditional_motions::{
+    ConditionalMotions, SD_OF_INFERRED, at_inferred_magnitudes, unusual_motions,
+};
 use super::curve::HazardCurve;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{GivenPeak, LimitState, LimitStates, ModelPoint, Peak};
+use crate::fragility::{
+    AssumedMagnitude, GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection,
+};
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
@@ -71,8 +75,7 @@ pub fn strongest(peak: Peak) -> f64 {
 pub struct Site {
     pub hazard: Hazard,
     /// Mean magnitude of the disaggregation: of SA(1.0 s) where that curve is given, else of PGA; not used
-    /// with PGV alone. Without it, magnitudes have a median of 6.35 and a standard deviation of 0.6 where
-    /// PGV / PGA is of generic sites or given, and are inferred from PGV / PGA elsewhere.
+    /// with PGV alone. Without it, see [`SiteRates::magnitude`].
     pub mw: Option<f64>,
     pub vs30_m_s: Option<f64>,
     /// Whether to extrapolate a curve that ends too early.
@@ -93,6 +96,8 @@ pub struct SiteRates {
     pub beyond: Option<f64>,
     /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
     pub motion: Peaks,
+    /// None where nothing depends on it, or each motion has its own.
+    pub magnitude: Option<AssumedMagnitude>,
     pub warnings: Vec<Warning>,
 }
 
@@ -114,15 +119,20 @@ impl Site {
             Hazard::Joint(bins) => {
                 let points = ModelPoint::at_errors(&object.directions);
                 let all = rates_over_pairs(&object.directions, self.mw, bins, &points);
-                let sensitivity = RateSensitivity::new(
-                    all,
-                    object.at_quantiles(|directions| {
-                        rates_over_pairs(directions, self.mw, bins, &[ModelPoint::Estimate])[0]
-                    }),
-                );
+                let rates = |directions: &[RockingDirection]| {
+                    rates_over_pairs(directions, self.mw, bins, &[ModelPoint::Estimate])[0]
+                };
+                let mut at_quantiles = object.at_quantiles(rates);
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
                 let motion = strongest.map_or(Peaks::default(), |bin| bin.peaks);
-                sensitivity.with_limits(motion, false)
+                let mut magnitude = self.mw.map(AssumedMagnitude::given);
+                if bins.iter().any(|bin| bin.mw.or(self.mw).is_none()) {
+                    at_quantiles.push(at_inferred_magnitudes(&object.directions, SD_OF_INFERRED, rates));
+                    magnitude = object.directions[0].model.inferred_magnitude(motion);
+                }
+                let warnings = unusual_motions(self.mw, None).collect();
+                let rates = RateSensitivity::new(all, at_quantiles).with_limits(motion, false);
+                SiteRates { magnitude, warnings, ..rates }
             }
         }
     }
@@ -186,6 +196,7 @@ impl Site {
         }
         let motion = middle.peaks(over.median_intensity(), 0.0);
         let [(first, _), _] = hazard.curve.ends();
+        let vs30_m_s = self.vs30_m_s.filter(|_| hazard.pgv_pga.is_none());
         let warnings = [
             beyond.map(|_| Warning::HazardExtrapolated),
             ends_early.then_some(Warning::HazardEndsEarly),
@@ -195,7 +206,8 @@ impl Site {
         SiteRates {
             pgv_pga_source: Some(motions.pgv_pga.source),
             beyond,
-            warnings: warnings.into_iter().flatten().collect(),
+            magnitude: motions.magnitude(&object.directions[0].model, motion),
+            warnings: warnings.into_iter().flatten().chain(unusual_motions(self.mw, vs30_m_s)).collect(),
             ..RateSensitivity::new((0..points.len()).map(|point| over.rates(point)).collect(), at_quantiles)
                 .with_limits(motion, ends_early)
         }
@@ -234,6 +246,7 @@ impl RateSensitivity {
             pgv_pga_source: None,
             beyond: None,
             motion,
+            magnitude: None,
             warnings: Vec::new(),
         }
     }
