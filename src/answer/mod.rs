@@ -16,8 +16,10 @@ use std::path::{Path, PathBuf};
 
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
+use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{
-    Bases, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, Lognormal, Site,
+    Bases, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, Lognormal, MotionProbabilities,
+    Site, unusual_motions,
 };
 use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::statistics::Interval;
@@ -63,6 +65,9 @@ pub struct Answer {
     /// The points of its fragility, of which each is a row of the file.
     #[serde(skip)]
     pub points: Vec<FragilityPoint>,
+    /// The same over PGA, beside its fragility over PGV.
+    #[serde(skip)]
+    pub over_pga: Option<Box<Answer>>,
     /// The name of the file that it was read from.
     #[serde(skip)]
     pub file: String,
@@ -139,11 +144,13 @@ impl Answer {
         let weaker = &rocking.directions[0];
         let columns = ObjectColumns::new(object, Some(weaker));
         let mut answer = Answer { object: columns, ..Answer::default() };
-        let (budget, motion) = match question {
+        let (budget, magnitude, motion) = match question {
             Question::Motion(motion) => {
-                let budget;
-                (answer.tree, answer.p, budget) = TreeColumns::new(motion, &rocking);
-                (budget, motion.peaks(&weaker.model))
+                let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking);
+                answer.tree = TreeColumns::new(motion, &rocking, states);
+                answer.p = StateColumns::new(states);
+                warnings.extend(unusual_motions(motion.mw, motion.vs30_m_s));
+                (budget, magnitude, motion.peaks(&weaker.model))
             }
             Question::Hazard { site, years, target } => {
                 let rates = site.rates(&rocking);
@@ -155,18 +162,19 @@ impl Answer {
                     answer.rates.bases = site.bases(object, &with_models, rate, target);
                 }
                 warnings.extend(rates.warnings);
-                (rates.budget, rates.motion)
+                (rates.budget, rates.magnitude, rates.motion)
             }
             Question::Curve { general, site } => {
                 let at_site = site.as_ref().and_then(|site| site.fragility(&rocking));
                 let fragility = at_site.unwrap_or_else(|| general.fragility(&rocking));
                 answer.fragility = FragilityColumns::new(&fragility);
                 answer.points = fragility.points;
-                (fragility.budget, fragility.motion)
+                warnings.extend(unusual_motions(general.mw, general.vs30_m_s));
+                (fragility.budget, fragility.magnitude, fragility.motion)
             }
         };
         warnings.extend(rocking.warnings(motion));
-        answer.uncertainty = UncertaintyColumns::new(warnings, &budget);
+        answer.uncertainty = UncertaintyColumns::new(warnings, &budget, magnitude, motion);
         Ok(answer)
     }
 
@@ -204,17 +212,23 @@ impl FragilityColumns {
     }
 }
 
+/// The answers, each followed by that over PGA.
+pub fn over_all<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> impl Iterator<Item = &'a Answer> {
+    answers.into_iter().flat_map(|answer| iter::once(answer).chain(answer.over_pga.as_deref()))
+}
+
 /// The answers as a table, without the columns of other questions.
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
-    let p = rows::batch(answers.iter().map(|answer| &answer.p))?;
+    let answers = || over_all(answers);
+    let p = rows::batch(answers().map(|answer| &answer.p))?;
     let of_question = match question {
-        Question::Motion(_) => vec![rows::batch(answers.iter().map(|answer| &answer.tree))?, p],
-        Question::Hazard { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.rates))?, p],
-        Question::Curve { .. } => vec![rows::batch(answers.iter().map(|answer| &answer.fragility))?],
+        Question::Motion(_) => vec![rows::batch(answers().map(|answer| &answer.tree))?, p],
+        Question::Hazard { .. } => vec![rows::batch(answers().map(|answer| &answer.rates))?, p],
+        Question::Curve { .. } => vec![rows::batch(answers().map(|answer| &answer.fragility))?],
     };
-    let mut parts = vec![rows::batch(answers.iter().map(|answer| &answer.object))?];
+    let mut parts = vec![rows::batch(answers().map(|answer| &answer.object))?];
     parts.extend(of_question);
-    parts.push(rows::batch(answers.iter().map(|answer| &answer.uncertainty))?);
+    parts.push(rows::batch(answers().map(|answer| &answer.uncertainty))?);
     rows::side_by_side(&parts)
 }
 
@@ -233,8 +247,8 @@ pub fn variant_table(variants: &[Answer], question: &Question) -> anyhow::Result
 /// The points of the fragilities as a table, each with the columns of its answer; a row without a point for
 /// an object without an answer.
 pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
-    let all = || answers.iter().flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
-    let points = answers.iter().flat_map(|Answer { points, fragility, .. }| {
+    let all = || over_all(answers).flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
+    let points = over_all(answers).flat_map(|Answer { points, fragility, .. }| {
         let empty = points.is_empty().then(CurveRow::default);
         points.iter().map(|point| CurveRow::new(fragility.over, point)).chain(empty)
     });
@@ -298,14 +312,28 @@ pub fn variants_beside(path: &Path) -> PathBuf {
     path.with_extension("variants.parquet")
 }
 
-/// Gives each answer of a table of points its points.
+/// Gives each answer of a table of points its points, and what is over PGV that over PGA.
 fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
     let mut answers: Vec<Answer> = Vec::new();
     for (row, point) in rows.into_iter().zip(points) {
-        if answers.last().is_none_or(|last| last.object.structure != row.object.structure) {
+        let of = |answer: &Answer| (answer.object.structure.clone(), answer.fragility.over);
+        if answers.last().is_none_or(|last| of(last) != of(&row)) {
             answers.push(Answer { p: StateColumns::default(), ..row });
         }
         answers.last_mut().into_iter().for_each(|answer| answer.points.extend(point.point()));
     }
-    answers
+    let mut joined: Vec<Answer> = Vec::new();
+    for answer in answers {
+        match joined.last_mut() {
+            Some(last)
+                if last.object.structure == answer.object.structure
+                    && last.over_pga.is_none()
+                    && [last, &answer].map(|of| of.fragility.over) == [Some(Peak::Pgv), Some(Peak::Pga)] =>
+            {
+                last.over_pga = Some(Box::new(answer));
+            }
+            _ => joined.push(answer),
+        }
+    }
+    joined
 }

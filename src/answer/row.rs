@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use rockfrag_core::fragility::{LimitStates, MotionKind, Peak, RockingDirection, Tau};
+use rockfrag_core::fragility::{
+    AssumedMagnitude, LimitStates, MagnitudeSource, MotionKind, Peak, RockingDirection, Tau,
+};
 use rockfrag_core::hazard::{
-    Bases, Budget, FragilityPoint, GroundMotion, Lognormal, MotionProbabilities, SiteRates, VelocitySource,
-    probability_in_years,
+    Bases, Budget, FragilityPoint, GroundMotion, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::object::{Object, RockingObject, Shape, UncertaintySource};
@@ -98,10 +99,12 @@ pub struct TreeColumns {
 }
 
 impl TreeColumns {
-    /// Predicts for an object under a motion; returns also the probabilities of its limit states, and the
-    /// budget of the logit of P_ro.
-    pub fn new(motion: &GroundMotion, object: &RockingObject) -> (TreeColumns, StateColumns, Budget) {
-        let MotionProbabilities { states, budget, .. } = motion.probabilities(object);
+    /// Of an object with these probabilities under a motion.
+    pub fn new(
+        motion: &GroundMotion,
+        object: &RockingObject,
+        states: LimitStates<Interval<Option<f64>>>,
+    ) -> TreeColumns {
         let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
@@ -117,7 +120,7 @@ impl TreeColumns {
             let rocking = rocking.filter(|rocking| *rocking > 0.0);
             rocking.map_or(Interval::default(), |rocking| p.map(|p| p / rocking))
         };
-        let tree = TreeColumns {
+        TreeColumns {
             pga_m_s2: motion.pga_m_s2,
             pgv_m_s: motion.pgv_m_s,
             p_nr: rocking.map(|p| 1.0 - p),
@@ -125,8 +128,7 @@ impl TreeColumns {
             p_ro: given_rocking(states.overturning),
             p_f_r: given_rocking(states.failure),
             p_f: states.failure.value,
-        };
-        (tree, StateColumns::new(states), budget)
+        }
     }
 }
 
@@ -141,7 +143,7 @@ pub struct StateColumns {
 }
 
 impl StateColumns {
-    fn new(states: LimitStates<Interval<Option<f64>>>) -> StateColumns {
+    pub fn new(states: LimitStates<Interval<Option<f64>>>) -> StateColumns {
         let LimitStates { rocking, failure, overturning } = states;
         StateColumns { p_rocking: rocking.value, p_failure: failure, p_overturning: overturning }
     }
@@ -226,11 +228,17 @@ impl CurveRow {
     }
 }
 
-/// The warnings about an answer, and the parts of the error of overturning: standard deviations of ln of its
+/// What an answer assumes, the warnings about it, and the parts of the error of overturning: standard deviations of ln of its
 /// annual rate, or of the logit of its probability; none where nothing of a part is unknown.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UncertaintyColumns {
+    /// The magnitude, and its standard deviation where it is not given.
+    pub magnitude: Option<f64>,
+    pub magnitude_sd: Option<f64>,
+    pub magnitude_by: Option<MagnitudeSource>,
+    /// PGV / PGA of the motion that the answer is for, or turns on.
+    pub pgv_pga_s: Option<f64>,
     /// Warnings, or why there is no answer.
     pub warnings: Option<String>,
     pub error_fit: Option<f64>,
@@ -248,9 +256,19 @@ pub struct UncertaintyColumns {
 const BETWEEN: &str = "; ";
 
 impl UncertaintyColumns {
-    pub fn new(warnings: Vec<Warning>, budget: &Budget) -> UncertaintyColumns {
+    pub fn new(
+        warnings: Vec<Warning>,
+        budget: &Budget,
+        magnitude: Option<AssumedMagnitude>,
+        motion: Peaks,
+    ) -> UncertaintyColumns {
         let texts: Vec<&str> = BTreeSet::from_iter(warnings).into_iter().map(Warning::text).collect();
+        let pgv_pga_s = motion.pgv_m_s / motion.pga_m_s2;
         UncertaintyColumns {
+            magnitude: magnitude.map(|magnitude| magnitude.mw),
+            magnitude_sd: magnitude.map(|magnitude| magnitude.sd),
+            magnitude_by: magnitude.map(|magnitude| magnitude.source),
+            pgv_pga_s: Some(pgv_pga_s).filter(|ratio| *ratio > 0.0 && ratio.is_finite()),
             warnings: (!texts.is_empty()).then(|| texts.join(BETWEEN)),
             error_fit: budget.source_sd(UncertaintySource::Fit),
             error_magnitude: budget.source_sd(UncertaintySource::Magnitude),

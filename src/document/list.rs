@@ -40,10 +40,10 @@ pub fn document(table: &AnswerTable) -> Document {
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         tables: [all].into_iter().chain(changes(&table.variants, &when)).collect(),
         notes: doubts(&answered),
-        figures: vec![match over {
-            Some(over) => answers::fragilities(&answered, over),
-            None => answers::list(&news, &when, worst.rates.target),
-        }],
+        figures: match over {
+            Some(_) => answers::fragilities(&answered),
+            None => vec![answers::list(&news, &when, worst.rates.target)],
+        },
         ..Document::default()
     }
 }
@@ -103,7 +103,7 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
 type Cell = fn(&Answer) -> String;
 
 /// The columns; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 21] = [
+const COLUMNS: [(&str, Cell); 23] = [
     ("change", |answer| of_before(answer, |before| before.changes.join("; "))),
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
     ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
@@ -114,6 +114,8 @@ const COLUMNS: [(&str, Cell); 21] = [
     ("16 %", |answer| of_fragility(answer, 2)),
     ("84 %", |answer| of_fragility(answer, 3)),
     ("beta", |answer| of_fragility(answer, 4)),
+    ("over PGA half at", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 0))),
+    ("over PGA, limits", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 1))),
     ("place", |answer| answer.object.short_place()),
     ("file", |answer| literal(&answer.file)),
     ("base for the target", base),

@@ -7,7 +7,7 @@ use rockfrag_core::statistics::Interval;
 
 use super::phrases::{facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable};
+use crate::answer::{Answer, AnswerTable, FragilityColumns, over_all};
 use crate::chart::text::literal;
 use crate::figures::answers;
 use crate::number::{PERCENT, RATE};
@@ -27,10 +27,10 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
         facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: answer.is_answered().then(|| numbers(&when, answer, variants)).into_iter().collect(),
-        figures: vec![match answer.fragility.over {
-            Some(over) => answers::fragilities(&[answer], over),
-            None => answers::object(answer, variants, table.at_site.as_ref()),
-        }],
+        figures: match answer.fragility.over {
+            Some(_) => answers::fragilities(&[answer]),
+            None => vec![answers::object(answer, variants, table.at_site.as_ref())],
+        },
         ..Document::default()
     }
 }
@@ -66,13 +66,20 @@ fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
 /// The answer, and what it is with one thing changed; under one motion there are no rates, over a peak
 /// intensities.
 fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
-    let Answer { object, p, rates, fragility, .. } = answer;
+    let Answer { object, p, rates, .. } = answer;
     let (too_far, overturns) = (object.too_far(), "overturns".to_string());
-    if let Some(over) = fragility.over {
-        let rows = [(too_far, &fragility.failure), (overturns, &fragility.overturning)];
-        let rows = rows.map(|(name, of)| [vec![name], intensity_cells(over, of).into()].concat());
-        let half = format!("half at a {} of", over.name_and_unit().0);
-        return Table::new(&["", &half, "95 % limits", "16 %", "84 %", "beta"], rows.into());
+    let (mut over, mut rows) = (Vec::new(), Vec::new());
+    for FragilityColumns { over: peak, failure, overturning } in over_all([answer]).map(|of| &of.fragility) {
+        let Some(peak) = *peak else { continue };
+        over.push(peak.name_and_unit().0);
+        rows.extend(
+            [(&too_far, failure), (&overturns, overturning)]
+                .map(|(name, of)| [vec![name.clone()], intensity_cells(peak, of).into()].concat()),
+        );
+    }
+    if !over.is_empty() {
+        let half = format!("half at a {} of", over.join(" or "));
+        return Table::new(&["", &half, "95 % limits", "16 %", "84 %", "beta"], rows);
     }
     let row = |name: String, p, per_year| {
         let rate = rates.years.map_or(String::new(), |_| RATE.value(per_year));

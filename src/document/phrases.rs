@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rockfrag_core::fragility::Peak;
+use rockfrag_core::fragility::{MagnitudeSource, Peak};
 use rockfrag_core::hazard::{
     Bases, Hazard, Lognormal, PeakHazard, SLENDERNESSES, SearchEnd, Side, strongest,
 };
@@ -11,7 +11,7 @@ use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::UNNAMED;
 
-use crate::answer::{Answer, ObjectColumns};
+use crate::answer::{Answer, ObjectColumns, UncertaintyColumns, over_all};
 use crate::chart::text::literal;
 use crate::number::{self, PERCENT, RATE, count, fixed, period, plain, significant};
 
@@ -118,11 +118,14 @@ impl Answer {
     pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
         let limits = PERCENT.limits(p, "95 % limits ");
-        if let Some(over) = self.fragility.over {
-            let [half, limits, ..] = intensity_cells(over, &self.fragility.overturning);
+        let halves = over_all([self]).filter_map(|Answer { fragility, .. }| {
+            let [half, limits, ..] = intensity_cells(fragility.over?, &fragility.overturning);
             let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
-            let what = over.name_and_unit().0;
-            return format!("is overturned by half of the motions at a {what} of {half}{limits}");
+            Some(format!("a {} of {half}{limits}", fragility.over?.name_and_unit().0))
+        });
+        let halves: Vec<String> = halves.collect();
+        if !halves.is_empty() {
+            return format!("is overturned by half of the motions at {}", halves.join(", or at "));
         }
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
@@ -217,6 +220,24 @@ impl Answer {
         literal(self.uncertainty.warnings.as_deref().unwrap_or("no reason known"))
     }
 
+    /// The magnitude, and of PGV / PGA that of the motion which the answer turns on.
+    fn assumed(&self) -> Option<String> {
+        let UncertaintyColumns { magnitude, magnitude_sd, magnitude_by, .. } = self.uncertainty;
+        let whence = match magnitude_by? {
+            MagnitudeSource::Given => "",
+            MagnitudeSource::Usual => " (not given: that of motions that overturn)",
+            MagnitudeSource::Inferred => " (not given: as PGV/PGA tells)",
+        };
+        let sd = magnitude_sd.filter(|sd| *sd > 0.0).map_or(String::new(), |sd| format!(" ± {}", plain(sd)));
+        let ratios = over_all([self]).filter_map(|answer| {
+            let over = answer.fragility.over.map_or("", |over| over.name_and_unit().0);
+            let over = if over.is_empty() { String::new() } else { format!(" over {over}") };
+            Some(format!("{} s{over}", significant(answer.uncertainty.pgv_pga_s?, 2)))
+        });
+        let ratios = ratios.collect::<Vec<_>>().join(", ");
+        Some(format!("For magnitude {}{sd}{whence} and PGV/PGA {ratios}.", fixed(magnitude?, 2)))
+    }
+
     /// The largest part of the error, and what would narrow it.
     fn largest_uncertainty(&self) -> Option<String> {
         let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
@@ -288,7 +309,7 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
         let [beta, error] = [beta, error].map(|value| significant(value, 2));
         format!("Overturning is lognormal with beta {beta}, within {error}.")
     });
-    let uncertain = [worst.largest_uncertainty(), limits_cover(all), lognormal, beyond];
+    let uncertain = [worst.assumed(), worst.largest_uncertainty(), limits_cover(all), lognormal, beyond];
     let lines = uncertain.into_iter().chain([model, Some(valid.join(" "))]);
     lines.flatten().filter(|line| !line.is_empty()).collect()
 }

@@ -16,11 +16,10 @@ use rockfrag_core::fragility::{LimitStates, Peak};
 /// pelicun, which keeps six digits where it converts units.
 pub const GAP: f64 = 2e-5;
 
-/// Functions of one file, over one peak.
+/// Functions of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FragilityModel {
     pub id: String,
-    pub peak: Peak,
     /// What each limit state is, in their order.
     pub limit_states: Vec<String>,
     pub functions: Vec<Function>,
@@ -30,6 +29,7 @@ pub struct FragilityModel {
 pub struct Function {
     /// Letters, digits and underscores: the programs give other signs a meaning. No other function has it.
     pub id: String,
+    pub peak: Peak,
     /// What falls and what predicts it, for a reader.
     pub description: String,
     /// Intensities, m/s2 or m/s, rising from uplift, below which all probabilities are 0, to the largest for

@@ -10,16 +10,16 @@ use crate::chart::text::escape;
 /// Writes all limit states as tables, between whose levels OpenQuake draws straight lines. Below the first
 /// level, uplift, the no-damage limit makes each probability 0; above the last OpenQuake keeps it.
 pub fn discrete(model: &FragilityModel) -> String {
-    let (imt, unit) = match model.peak {
-        Peak::Pga => ("PGA", G_M_S2),
-        Peak::Pgv => ("PGV", 1.0 / CM_PER_M),
-    };
     let meanings = LimitState::VARIANTS.iter().zip(&model.limit_states);
     let meanings = meanings.map(|(state, meaning)| format!("{state}: {meaning}"));
     let mut description: Vec<String> = meanings.collect();
     let mut tables = String::new();
     for function in &model.functions {
-        let Function { id, description: what, levels, probabilities } = function;
+        let Function { id, peak, description: what, levels, probabilities } = function;
+        let (imt, unit) = match peak {
+            Peak::Pga => ("PGA", G_M_S2),
+            Peak::Pgv => ("PGV", 1.0 / CM_PER_M),
+        };
         let [low, high] = [levels[0], levels[levels.len() - 1]].map(|intensity| intensity / unit);
         description.push(format!("{id}: {what}, from {imt} {low:.4} (uplift) to {high:.4}"));
         let levels = numbers(levels.iter().map(|level| level / unit));

@@ -34,13 +34,13 @@ pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
         names.extend(STATE.map(|name| format!("{state}-{name}")));
     }
     writer.write_record(names)?;
-    let (name, unit_name, unit) = demand(model.peak);
     for function in &model.functions {
+        let (name, unit_name, unit) = demand(function.peak);
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that
         // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
         for state in LimitState::VARIANTS {
-            let (family, theta) = match (model.peak, state) {
+            let (family, theta) = match (function.peak, state) {
                 // PGA alone decides on uplift.
                 (Peak::Pga, LimitState::Rocking) => {
                     ("deterministic", (function.levels[0] / unit).to_string())
@@ -85,12 +85,12 @@ pub fn metadata(model: &FragilityModel) -> Value {
             "ComponentGroups": { "Rocking structures": [] },
         },
     });
-    let (name, unit_name, unit) = demand(model.peak);
     let states = (1..).zip(&model.limit_states).map(|(number, meaning)| {
         (format!("LS{number}"), json!({ format!("DS{number}"): { "Description": meaning } }))
     });
     let states: Map<String, Value> = states.collect();
-    for Function { id, description, levels, .. } in &model.functions {
+    for Function { id, peak, description, levels, .. } in &model.functions {
+        let (name, unit_name, unit) = demand(*peak);
         let [low, high] = [levels[0], levels[levels.len() - 1]].map(|intensity| intensity / unit);
         all[id] = json!({
             "Description": description,

@@ -7,7 +7,7 @@ use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
-use crate::answer::{Answer, AtSite, ObjectColumns, Usual};
+use crate::answer::{Answer, AtSite, ObjectColumns, Usual, over_all};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
@@ -42,13 +42,25 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
     Figure::new("object", &answer.object.title(), 2, HEIGHT, panels)
 }
 
-/// The fragility of one object with all its limit states, or overturning of several, the weakest first.
-pub fn fragilities(answers: &[&Answer], over: Peak) -> Figure {
+/// The fragility of one object with all its limit states, or overturning of several, the weakest first: a
+/// figure for each peak.
+pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
     if let [answer] = answers {
-        let panels = sketch(&answer.object).into_iter();
-        let panels = panels.chain([fragility_panel(over, &answer.points, &answer.object, None)]).collect();
-        return Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels);
+        let curves = over_all([*answer])
+            .filter_map(|one| Some(fragility_panel(one.fragility.over?, &one.points, &answer.object, None)));
+        let panels = sketch(&answer.object).into_iter().chain(curves).collect();
+        return vec![Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels)];
     }
+    let over_pga: Vec<&Answer> = answers.iter().filter_map(|answer| answer.over_pga.as_deref()).collect();
+    let peaks = [("fragility", answers), ("fragility-pga", &over_pga)].into_iter();
+    let drawn = peaks.filter_map(|(name, answers)| {
+        Some(overturning(name, answers, answers.iter().find_map(|answer| answer.fragility.over)?))
+    });
+    drawn.collect()
+}
+
+/// Overturning of several objects over one peak.
+fn overturning(name: &str, answers: &[&Answer], over: Peak) -> Figure {
     let mut layers = Vec::new();
     for (number, answer) in answers.iter().take(CURVES).enumerate() {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
@@ -62,7 +74,7 @@ pub fn fragilities(answers: &[&Answer], over: Peak) -> Figure {
     let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
     let panel = curves_panel("", over, layers);
     let title = "How strong a motion overturns each object";
-    Figure::new("fragility", title, 1, HEIGHT, vec![panel]).explained(caption)
+    Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption)
 }
 
 /// How likely each object of a list overturns, the worst first; those on floors with their floor.

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{LimitStates, Peak};
-use rockfrag_core::hazard::{GenericSites, strongest};
+use rockfrag_core::hazard::{GenericSites, strongest, unusual_motions};
 use rockfrag_core::object::{Object, Place, RockingObject};
+use rockfrag_core::plausibility::MAGNITUDES;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::warning::Warnings;
@@ -19,7 +20,7 @@ use crate::inputs::Renames;
 use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::Rule;
+use crate::pipeline::options::{Rule, number as parsed};
 use crate::pipeline::paths::Read;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
@@ -31,9 +32,12 @@ pub struct Export {
     /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]
     to: Program,
-    /// Fragility over pga or pgv
-    #[arg(long, value_name = "PEAK", default_value = "pga")]
-    over: Peak,
+    /// Fragility over pga or pgv alone [default: over both]
+    #[arg(long, value_name = "PEAK")]
+    over: Option<Peak>,
+    /// Moment magnitude of the motions [default: that of motions that overturn]
+    #[arg(long, value_name = "MW", value_parser = parsed(MAGNITUDES, "a moment magnitude"))]
+    magnitude: Option<f64>,
     /// File to write, without an ending with .xml or, for pelicun, .csv
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "fragility")]
     out: PathBuf,
@@ -95,14 +99,16 @@ impl Stage for Export {
             bar.advance(1)?;
             let (rocking, warnings) = models.rocking_object(object)?;
             let warnings = warnings.into_iter().chain(rocking.structure_warnings());
+            let warnings = warnings.chain(unusual_motions(self.magnitude, None));
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            self.function(id, object, &rocking)
+            let functions = self.peaks().into_iter().map(|peak| self.function(id, peak, object, &rocking));
+            functions.collect()
         });
-        let functions = functions.collect::<anyhow::Result<Vec<Function>>>()?;
+        let functions: Vec<Function> =
+            functions.collect::<anyhow::Result<Vec<Vec<Function>>>>()?.into_iter().flatten().collect();
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
             id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },
-            peak: self.over,
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
             functions,
         };
@@ -116,8 +122,9 @@ impl Stage for Export {
         for (file, content) in files.iter().zip(contents) {
             context.write_file(file, content.as_bytes())?;
         }
-        let functions = number::counted(model.functions.len(), "structure");
-        Ok(format!("{}: {functions} over {}\n", number::path(&files[files.len() - 1]), self.over))
+        let peaks: Vec<String> = self.peaks().iter().map(Peak::to_string).collect();
+        let (structures, peaks) = (number::counted(objects.len(), "structure"), peaks.join(" and "));
+        Ok(format!("{}: {structures} over {peaks}\n", number::path(&files[files.len() - 1])))
     }
 }
 
@@ -128,16 +135,26 @@ impl Export {
         Ok((objects, unused))
     }
 
+    fn peaks(&self) -> Vec<Peak> {
+        self.over.map_or(vec![Peak::Pgv, Peak::Pga], |over| vec![over])
+    }
+
     /// Tabulates the probabilities of an object, in either of its directions, from uplift to where all are 1
     /// or nothing was ever recorded, and on either side of a jump.
-    fn function(&self, id: &str, object: &Object, rocking: &RockingObject) -> anyhow::Result<Function> {
-        let general = GenericSites { over: self.over, mw: None, vs30_m_s: None, ratio_s: None };
+    fn function(
+        &self,
+        id: &str,
+        peak: Peak,
+        object: &Object,
+        rocking: &RockingObject,
+    ) -> anyhow::Result<Function> {
+        let general = GenericSites { over: peak, mw: self.magnitude, vs30_m_s: None, ratio_s: None };
         let given_peak = general.given_peak(&rocking.directions);
         let is_whole = |intensity: f64| {
             given_peak.limit_states(intensity).into_array().iter().all(|p| p.is_some_and(|p| p >= 1.0 - NEAR))
         };
         let uplift = given_peak.uplift().least;
-        let end = bisect_first_true(uplift, strongest(self.over).max(2.0 * uplift), is_whole);
+        let end = bisect_first_true(uplift, strongest(peak).max(2.0 * uplift), is_whole);
         let jumps = given_peak.jumps().into_iter().filter(|&jump| uplift < jump && jump < end);
         let mut levels: Vec<f64> = jumps.flat_map(|jump| [jump * (1.0 - GAP), jump]).collect();
         levels.extend(equal_ratios(uplift, end, STEPS));
@@ -153,11 +170,13 @@ impl Export {
             most = most.zip(states, |most, p| p.map_or(most, |p| most.max(p.clamp(0.0, 1.0))));
             probabilities.push(most);
         }
+        let magnitude = self.magnitude.map_or(String::new(), |mw| format!(", magnitude {mw}"));
         let directions = if rocking.directions.len() > 1 { " in both directions" } else { "" };
         Ok(Function {
-            id: format!("{id}_{}", self.over),
+            id: format!("{id}_{peak}"),
+            peak,
             description: format!(
-                "{}{directions}, by {}",
+                "{}{directions}{magnitude}, by {}",
                 object.name,
                 rocking.directions[0].model.description()
             ),

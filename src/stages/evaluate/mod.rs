@@ -62,8 +62,9 @@ pub struct Evaluate {
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
-    /// Moment magnitude of motions without one; at a site the mean of the disaggregation at 2475 years, of
-    /// SA(1.0 s) with that curve, else of PGA (not used with PGV alone)
+    /// Moment magnitude of motions without one [default: as PGV/PGA tells, else that of motions that overturn];
+    /// at a site the mean of the disaggregation at 2475 years, of SA(1.0 s) with that curve, else of PGA (not
+    /// used with PGV alone)
     #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
@@ -82,8 +83,8 @@ pub struct Evaluate {
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", value_parser = parse_target)]
     target: Option<f64>,
-    /// Fragility over pga or pgv: without a motion or hazard [default: pga]; beside a hazard curve, at its
-    /// site
+    /// Fragility over pga or pgv alone: without a motion or hazard [default: over both]; beside a hazard
+    /// curve, at its site
     #[arg(long, value_name = "PEAK")]
     over: Option<Peak>,
     /// Continue the hazard curve with its last slope
@@ -180,7 +181,17 @@ impl Stage for Evaluate {
         let question = self.question(&mut renames, &models, context)?;
         let objects = self.objects(renames, &models, context)?;
         let models_of = |object: &Object| models.rocking_object(object);
-        let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
+        let mut rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
+        if let Question::Curve { general, site: None } = &question
+            && self.over.is_none()
+        {
+            let general = GenericSites { over: Peak::Pga, ..*general };
+            let over_pga = Question::Curve { general, site: None };
+            let others = assess(&objects, &over_pga, &models_of, &context.bar(objects.len()))?;
+            for (row, other) in rows.iter_mut().zip(others) {
+                row.over_pga = other.is_answered().then(|| Box::new(other));
+            }
+        }
         warn(&rows, context);
         let all = answer::table(&rows, &question)?;
         let made = vec![context.plan.made.clone()];
@@ -239,7 +250,7 @@ impl Evaluate {
         }
         models.expect_ground()?;
         let site = if self.hazard.is_empty() { None } else { Some(self.site(renames, context)?) };
-        let over = self.over.unwrap_or(Peak::Pga);
+        let over = self.over.unwrap_or(Peak::Pgv);
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
             Some(site) if self.over.is_none() => {
@@ -354,7 +365,7 @@ fn worst<'a>(answers: &[Answer], objects: &'a [Object], most: usize) -> impl Ite
 fn warn(answers: &[Answer], context: &Context) {
     // The text states them, or a warning of the file that is read.
     let told = [Warning::HazardEndsEarly, Warning::HazardExtrapolated, Warning::MedianHazard];
-    for answer in answers {
+    for answer in answer::over_all(answers) {
         let warnings = answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
         context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::GroundMotion;
+use rockfrag_core::hazard::{GroundMotion, MotionProbabilities, unusual_motions};
 use rockfrag_core::motion::{Peaks, validate_medians};
 use rockfrag_core::object::{Object, Restitution, RockingObject};
 use rockfrag_core::rocking::Structure;
@@ -113,8 +113,10 @@ fn with_probabilities<'a>(
             mw: mw[row].or(magnitude),
             vs30_m_s: None,
         };
-        let (tree, _, budget) = TreeColumns::new(&motion, rocking_object);
-        (tree, UncertaintyColumns::new(warnings, &budget))
+        warnings.extend(unusual_motions(motion.mw, None));
+        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(rocking_object);
+        let tree = TreeColumns::new(&motion, rocking_object, states);
+        (tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks))
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
