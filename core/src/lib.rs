@@ -35,8 +35,8 @@
 //! ```
 //!
 //! The limits account for the uncertainty of the model, PGV, restitution, object and floor, and for that of
-//! the magnitude unless this is inferred from PGV / PGA, as here. An [`Object`](object::Object) can carry
-//! more detail: depth, floor, what was measured. A [`GroundMotion`](hazard::GroundMotion) in place of a site
+//! the magnitude, which is inferred from PGV / PGA here. An [`Object`](object::Object) can carry more
+//! detail: depth, floor, what was measured. A [`GroundMotion`](hazard::GroundMotion) in place of a site
 //! gives probabilities.
 //!
 //! # The response to a record

@@ -228,7 +228,9 @@ impl Answer {
             MagnitudeSource::Usual => " (not given: that of motions that overturn)",
             MagnitudeSource::Inferred => " (not given: as PGV/PGA tells)",
         };
-        let sd = magnitude_sd.filter(|sd| *sd > 0.0).map_or(String::new(), |sd| format!(" ± {}", plain(sd)));
+        let sd = magnitude_sd
+            .filter(|sd| *sd > 0.0)
+            .map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
         let ratios = over_all([self]).filter_map(|answer| {
             let over = answer.fragility.over.map_or("", |over| over.name_and_unit().0);
             let over = if over.is_empty() { String::new() } else { format!(" over {over}") };

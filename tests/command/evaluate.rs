@@ -156,7 +156,7 @@ fn an_exported_curve_is_that_of_evaluate_and_rises() {
     let folder = folder(&[]);
     let here = folder.path();
     for object in [BLOCK, "--width 0.5 --depth 0.5 --height 1.9"] {
-        succeed(here, &format!("export --to openquake {object} --force"));
+        succeed(here, &format!("export --to openquake --over pga {object} --force"));
         let xml = std::fs::read_to_string(here.join("fragility.xml")).unwrap();
         let numbers = |opening: &str| -> Vec<f64> {
             let after = xml.split_once(opening).unwrap().1.split_once('>').unwrap().1;
@@ -165,13 +165,8 @@ fn an_exported_curve_is_that_of_evaluate_and_rises() {
         let (levels, p) = (numbers("<imls"), numbers("<poes ls=\"LS3\""));
         assert!((0.25..0.27).contains(&(levels[0] + 1e-9)) && levels.is_sorted() && p.is_sorted());
         for at in [levels.len() / 4, levels.len() / 2] {
-            // A hazard of this PGA alone.
-            let rate = |k: i32| 1e-5 * 10f64.powi(-3 * k);
-            let line = |k: i32| format!("{},{}\n", levels[at] * (1.0 + 1e-9 * f64::from(k)), rate(k));
-            let curve = (0..5).map(line).collect::<String>();
-            std::fs::write(here.join("h.csv"), format!("pga_g,annual_rate_of_exceedance\n{curve}")).unwrap();
-            let row = &evaluated(here, &format!("{object} --hazard h.csv"))[0];
-            assert!((1e5 * number(row, "overturning_per_year") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
+            let row = &evaluated(here, &format!("{object} --pga {}", levels[at]))[0];
+            assert!((number(row, "p_overturning") - p[at]).abs() < 1e-5, "at {} g", levels[at]);
         }
     }
 }
@@ -180,7 +175,7 @@ fn an_exported_curve_is_that_of_evaluate_and_rises() {
 fn an_export_names_each_structure_once_with_its_own_description() {
     let list = "name,width,height\na b,0.5,1.9\na-b,0.6,1.9\n\u{8868},0.7,1.9\n\u{67b6},0.8,1.9\n";
     let folder = folder(&[("list.csv", list)]);
-    succeed(folder.path(), "export --to openquake --structures list.csv");
+    succeed(folder.path(), "export --to openquake --over pga --structures list.csv");
     let xml = std::fs::read_to_string(folder.path().join("fragility.xml")).unwrap();
     let mut ids: Vec<&str> =
         xml.split("<fragilityFunction id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
@@ -235,10 +230,11 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
 fn a_block_without_motion_or_hazard_has_a_fragility() {
     let list = "name,width_m,height_m\nthin,0.3,1.9\nsquat,1.5,1.9\n";
     let folder = folder(&[("list.csv", list), ("hazard.csv", CURVE)]);
-    let row = &evaluated(folder.path(), BLOCK)[0];
-    let theta = number(row, "overturning_theta");
-    let at = &evaluated(folder.path(), &format!("{BLOCK} --pga {theta}"))[0];
-    assert!((number(at, "p_ro") - 0.5).abs() < 1e-6);
+    for (row, peak) in evaluated(folder.path(), BLOCK).iter().zip(["pgv", "pga"]) {
+        let theta = number(row, "overturning_theta");
+        let at = &evaluated(folder.path(), &format!("{BLOCK} --{peak} {theta}"))[0];
+        assert!((number(at, "p_overturning") - 0.5).abs() < 1e-6 && row["magnitude_by"] == "usual");
+    }
     // A list has its curves by name, one below the other.
     succeed(folder.path(), "evaluate --structures list.csv --out curve.json");
     let curve: Vec<Value> = serde_json::from_slice(&bytes(&folder.path().join("curve.json"))).unwrap();

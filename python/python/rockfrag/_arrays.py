@@ -277,8 +277,8 @@ class Fragility(_plots.Shown):
         return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
 
 
-def fragility(*, over: str = "pga", **options: Any) -> Fragility:
-    """The fragility of one object over ``pga`` or ``pgv``; of a list :func:`rockfrag.evaluate` has all curves.
+def fragility(*, over: str = "pgv", **options: Any) -> Fragility:
+    """The fragility of one object over ``pgv`` or ``pga``; of a list :func:`rockfrag.evaluate` has all curves.
 
     The options are those of :func:`rockfrag.evaluate`: the object, ``magnitude``, ``vs30``, ``ratio``, ``hazard`` ...
     """
