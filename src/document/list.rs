@@ -123,7 +123,7 @@ const COLUMNS: [(&str, Cell); 23] = [
         fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
     }),
     ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
-    ("rocks too far @, %", |answer| answered(answer, OF_HUNDRED.value(answer.p.p_failure))),
+    ("rocks too far @, %", failure),
     ("friction needed", |answer| answer.object.friction_needed().map_or(String::new(), |of| fixed(of, 2))),
     ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
@@ -196,6 +196,12 @@ fn limits(answer: &Answer) -> String {
     }
     let p = answer.p.p_overturning;
     answered(answer, if p.value.is_some() { OF_HUNDRED.span(p) } else { OF_HUNDRED.value(p) })
+}
+
+/// Of a fragility there is none.
+fn failure(answer: &Answer) -> String {
+    let is_curve = answer.fragility.over.is_some();
+    if is_curve { String::new() } else { answered(answer, OF_HUNDRED.value(answer.p.p_failure)) }
 }
 
 /// The base with which an object meets the target, if there is one.
