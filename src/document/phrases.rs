@@ -232,8 +232,8 @@ impl Answer {
             .filter(|sd| *sd > 0.0)
             .map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
         let ratios = over_all([self]).filter_map(|answer| {
-            let over = answer.fragility.over.map_or("", |over| over.name_and_unit().0);
-            let over = if over.is_empty() { String::new() } else { format!(" over {over}") };
+            let over = answer.fragility.over.map(|over| format!(" over {}", over.name_and_unit().0));
+            let over = over.unwrap_or_default();
             Some(format!("{} s{over}", significant(answer.uncertainty.pgv_pga_s?, 2)))
         });
         let ratios = ratios.collect::<Vec<_>>().join(", ");

@@ -189,7 +189,7 @@ fn fragility_panel(
         Layer::line(&too_far, Ink::Data(0), failure),
         Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
     ];
-    let mut panel = curves_panel("Fragility", over, layers);
+    let mut panel = curves_panel(&format!("Fragility over {}", over.name_and_unit().0), over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
     for Usual { intensity: x, years: period } in drawn.iter().flat_map(|drawn| drawn.usual()) {
         panel.add_upright(upright(x, 100.0, years(period)), 0.0);

@@ -90,6 +90,15 @@ fn half_of_the_motions_overturn_at_the_median_of_a_fragility() {
 }
 
 #[test]
+fn what_both_peaks_leave_open_of_the_magnitude_is_m_times_its_spread() {
+    // m and the standard deviation of M by PGV / PGA: rows of universal.csv.
+    let motion = |mw| GroundMotion { pga_m_s2: Some(5.0), pgv_m_s: Some(0.6), mw, vs30_m_s: None };
+    let of = |mw| motion(mw).probabilities(&block(0.5)).budget.source_sd(UncertaintySource::Magnitude);
+    close(of(None).unwrap(), 0.857 * 0.5398, 1e-6);
+    assert_eq!(of(Some(6.5)), None);
+}
+
+#[test]
 fn the_fragility_of_a_thin_block_never_falls() {
     // IM4 ends in the domain of the surface at 1.6 g.
     let thin = uncalibrated(&Object::block("thin", 0.2, 2.4));
