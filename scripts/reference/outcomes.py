@@ -2,7 +2,7 @@
 
 outcomes.csv has four lists of blocks: `town`, of one earthquake; `towns`, of twelve; `stood` and `fell`, in which
 all did. outcomes_answers.csv: c, ln s and m of greatest posterior density by scipy (the root of its gradient), and
-their covariance, of 12 earthquakes with clusters. Prints how often 95 % limits of a calibration to 20 outcomes of
+their covariance, with a shift for each earthquake. Prints how often 95 % limits of a calibration to 20 outcomes of
 a town, half of which fell, hold the probabilities of other stones: 400 draws."""
 
 import pathlib
@@ -15,7 +15,7 @@ from scipy.optimize import root
 
 root_folder = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root_folder / "scripts/universal"))
-from calibration import apply, calibrate, cluster_sums, logistic, tangent  # noqa: E402
+from calibration import apply, calibrate, logistic, tangent  # noqa: E402
 from surface import NO_LIMIT, Surface  # noqa: E402
 
 G = 9.81
@@ -45,24 +45,21 @@ def parts(rows):
     return surface.parts("pro", "recorded", pl.DataFrame({name: np.asarray(of) for name, of in cases.items()}))
 
 
-def gradient(b, of, fell):
-    """Of the negative log posterior."""
-    z = b[0] + np.exp(b[1]) * of[:, 0] + b[2] * of[:, 1] + of[:, 2]
-    by = np.column_stack([np.ones(len(of)), np.exp(b[1]) * of[:, 0], of[:, 1]])
-    return by.T @ (1 / (1 + np.exp(-z)) - fell) + (b - PRIOR[:3]) / PRIOR[3:] ** 2
+def gradient(b, of, fell, shifted):
+    """Of the negative log posterior, by c, ln s, m and the shifts of the earthquakes."""
+    z = b[0] + np.exp(b[1]) * of[:, 0] + b[2] * of[:, 1] + of[:, 2] + shifted @ b[3:]
+    by = np.column_stack([np.ones(len(of)), np.exp(b[1]) * of[:, 0], of[:, 1], shifted])
+    away = np.append((b[:3] - PRIOR[:3]) / PRIOR[3:] ** 2, b[3:] / TAU**2)
+    return by.T @ (1 / (1 + np.exp(-z)) - fell) + away
 
 
 def answer(rows):
-    of, fell = parts(rows), rows.fell.to_numpy()
-    b = root(gradient, PRIOR[:3], args=(of, fell), tol=1e-13).x
-    information = np.array([(gradient(b + h, of, fell) - gradient(b - h, of, fell)) / 2e-5 for h in 1e-5 * np.eye(3)])
-    v = np.linalg.inv(information)
-    if rows.earthquake.nunique() >= 10:
-        scores = tangent(b, of) * (logistic(apply(b, of)) - fell)[:, None]
-        sums = cluster_sums(scores, rows.earthquake.to_numpy())
-        g, n = len(sums), len(rows)
-        v = v @ (g / (g - 1) * (n - 1) / (n - 3) * sums.T @ sums + np.diag(1 / PRIOR[3:] ** 2)) @ v
-    numbers = dict(zip(("c", "ln_s", "m"), b)) | {"n": len(rows), "n_events": int(fell.sum())}
+    earthquake = rows.earthquake.to_numpy()
+    known = parts(rows), rows.fell.to_numpy(), np.equal.outer(earthquake, np.unique(earthquake)).astype(float)
+    b = root(gradient, np.append(PRIOR[:3], np.zeros(known[2].shape[1])), args=known, tol=1e-13).x
+    steps = 1e-5 * np.eye(len(b))
+    v = np.linalg.inv([(gradient(b + h, *known) - gradient(b - h, *known)) / 2e-5 for h in steps])
+    numbers = dict(zip(("c", "ln_s", "m"), b)) | {"n": len(rows), "n_events": int(rows.fell.sum())}
     return numbers | {f"v_{i}{j}": v[i, j] for i in range(3) for j in range(i, 3)}
 
 
@@ -86,7 +83,7 @@ def coverage(rng, draws=400, n=20):
         z = apply(b, of) + BETWEEN * rng.normal(size=len(of))
         z -= np.median(z[np.isfinite(z)])
         fell = rng.random(len(z)) < logistic(z)
-        fitted, v = calibrate(of[:n], fell[:n], PRIOR)
+        fitted, v = calibrate(of[:n], fell[:n], PRIOR, np.zeros(n), TAU)
         by, found = tangent(fitted, of[n:]), apply(fitted, of[n:])
         half = 1.96 * np.hypot(np.sqrt(np.einsum("ij,jk,ik->i", by, v, by)), TAU)
         held.append(np.mean(np.abs(found - z[n:]) < half))

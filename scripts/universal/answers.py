@@ -4,8 +4,7 @@ RECORDS_RESPONSES OUT_FOLDER
 universal_answers.csv: at 60 points of the domain and beyond it L, M - 6.9 (of a third with M unknown, mw
 -1) and what is added near uplift. calibration_cases.csv: cases of a structure under csgm and of one under
 records (edp -1 where it overturned); calibration_answers.csv: c, ln s and m (P_ex at 0.1), the upper triangle
-of their covariance as the inverse Hessian (v) and with clusters (clustered), by the priors of SURFACE.csv
-(calibration.py)."""
+of their covariance with clusters (clustered) and as one cluster (v), by the priors of SURFACE.csv (calibration.py)."""
 
 import sys
 
@@ -42,8 +41,9 @@ def calibration(surface, event, cases):
     kind, cases = cases["kind"][0], of.counted(event, cases, LIMIT)
     known = [surface.parts(event, kind, cases), cases["happened"].to_numpy()]
     prior = surface.prior(event, kind)
-    (c, ln_s, m), plain = calibrate(*known, prior)
-    _, clustered = calibrate(*known, prior, cases["cluster"].to_numpy())
+    tau = surface.numbers["calibration", kind, event][6]
+    (c, ln_s, m), clustered = calibrate(*known, prior, cases["cluster"].to_numpy(), tau)
+    _, plain = calibrate(*known, prior, np.zeros(len(cases)), tau)
     out = {"kind": kind, "structure": cases["structure"][0], "event": event, "n": len(cases)}
     out |= {"n_events": cases["happened"].sum(), "n_clusters": cases["cluster"].n_unique()}
     out |= {"c": c, "ln_s": ln_s, "m": m}

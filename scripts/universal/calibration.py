@@ -1,9 +1,10 @@
 """logit P = c + s L + m (M - 6.9) + what is added near uplift: c, ln s and m by maximum a posteriori, their
-covariance and tau. L, M - 6.9 and what is added are `parts` of n cases, n x 3 (Surface.parts)."""
+covariance and tau. L, M - 6.9 and what is added are `parts` of n cases, n x 3 (Surface.parts). A prior is k means
+and k standard deviations: of c, ln s and m, and of the shifts of clusters, if any."""
 
 import numpy as np
 
-LEAST_CLUSTERS = 10
+MANY_CLUSTERS = 30
 WIDE = np.array([0.0, 0.0, 0.0, 5.0, 5.0, 5.0])
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(15)
 
@@ -21,10 +22,11 @@ def apply(b, parts):
     return b[0] + np.exp(b[1]) * parts[:, 0] + b[2] * parts[:, 1] + parts[:, 2]
 
 
-def derivatives(b, parts, happened, prior):
-    """Returns the negative log posterior, its gradient and Hessian, and the scores of the cases (n x 3)."""
-    away, precision = b - prior[:3], 1.0 / np.square(prior[3:6])
-    z, by = apply(b, parts), tangent(b, parts)
+def derivatives(b, parts, happened, prior, shifted):
+    """Returns the negative log posterior, its gradient and Hessian, and the scores of the cases (n x k). `shifted`
+    are ones where a case is of a cluster with a shift: n x (k - 3)."""
+    away, precision = b - prior[: len(b)], 1.0 / np.square(prior[len(b) :])
+    z, by = apply(b, parts) + shifted @ b[3:], np.hstack([tangent(b, parts), shifted])
     p = logistic(z)
     loss = (np.logaddexp(0, z) - happened * z).sum() + 0.5 * (precision * away) @ away
     scores = by * (p - happened)[:, None]
@@ -39,29 +41,33 @@ def cluster_sums(values, clusters):
     return np.stack([np.bincount(at, column) for column in values.T], axis=1)
 
 
-def calibrate(parts, happened, prior, clusters=None):
-    """Returns (c, ln s, m) and their covariance: the inverse Hessian H^-1 of the posterior; of ten clusters
-    or more H^-1 (M + P) H^-1, M = G/(G-1) (n-1)/(n-3) times the sum over the G clusters of u u', u the sum
-    of the scores of their cases, n in all, P the precision of the prior (without data the covariance is
-    that of the prior)."""
+def calibrate(parts, happened, prior, clusters=None, tau=None):
+    """Returns (c, ln s, m) and their covariance: its part of the inverse Hessian H^-1 of the posterior, in which
+    each of fewer than 30 clusters has a shift of standard deviation tau; of 30 or more H^-1 (M + P) H^-1,
+    M = G/(G-1) (n-1)/(n-3) times the sum over the G clusters of u u', u the sum of the scores of their cases, n in
+    all, P the precision of the prior (without data the covariance is that of the prior)."""
     happened = happened.astype(float)
-    b = prior[:3]
+    kinds = np.unique(clusters) if clusters is not None else []
+    shifted = np.equal.outer(clusters, kinds) if 0 < len(kinds) < MANY_CLUSTERS else np.zeros((len(happened), 0))
+    shifts = np.ones(shifted.shape[1])
+    prior = np.concatenate([prior[:3], 0.0 * shifts, prior[3:6], (tau or 0.0) * shifts])
+    b = prior[: 3 + len(shifts)]
     for _ in range(100):
-        loss, gradient, hessian, scores = derivatives(b, parts, happened, prior)
+        loss, gradient, hessian, scores = derivatives(b, parts, happened, prior, shifted)
         if np.abs(gradient).max() < 1e-9:
             break
         values, vectors = np.linalg.eigh(hessian)
         step = -vectors @ (vectors.T @ gradient / np.maximum(np.abs(values), 1e-3))
         size = min(1.0, 2.0 / np.abs(step).max())
-        while derivatives(b + size * step, parts, happened, prior)[0] > loss + 1e-12 * (1 + loss):
+        while derivatives(b + size * step, parts, happened, prior, shifted)[0] > loss + 1e-12 * (1 + loss):
             size /= 2
         b = b + size * step
-    covariance = np.linalg.inv(hessian)
-    if clusters is not None and len(sums := cluster_sums(scores, clusters)) >= LEAST_CLUSTERS:
-        g, n = len(sums), len(happened)
+    covariance = np.linalg.inv(hessian)[:3, :3]
+    if len(kinds) >= MANY_CLUSTERS:
+        sums, g, n = cluster_sums(scores, clusters), len(kinds), len(happened)
         meat = g / (g - 1) * (n - 1) / (n - 3) * sums.T @ sums + np.diag(1.0 / np.square(prior[3:6]))
         covariance = covariance @ meat @ covariance
-    return b, covariance
+    return b[:3], covariance
 
 
 def spread(groups, mean):

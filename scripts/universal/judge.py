@@ -112,11 +112,12 @@ def of_draws(event, mine, n, prior):
     """Four draws of n of the cases of one block: whether limits of P without tau hold the truth (a
     calibration to all cases), their width, and scores on the cases that were not drawn."""
     parts, y, clusters = surface.parts(event, "recorded", mine), happened(mine), mine["cluster"].to_numpy()
+    tau = surface.numbers["calibration", "recorded", event][6]
     truth, _ = calibrate(parts, y, np.array([*prior[:3], 2.0, 1.0, 0.5]))
     pool = np.flatnonzero(np.abs(apply(truth, parts)) < 3.9)
     for _ in range(4):
         drawn = rng.choice(len(y), n, replace=False)
-        b, v = calibrate(parts[drawn], y[drawn], prior, clusters[drawn])
+        b, v = calibrate(parts[drawn], y[drawn], prior, clusters[drawn], tau)
         points = parts[rng.choice(pool, 8)]
         by, z = tangent(b, points), apply(b, points)
         half = 1.96 * np.sqrt(np.einsum("ij,jk,ik->i", by, v, by))

@@ -2,6 +2,8 @@
 //! of the surface, the magnitude M and a term g by which P is 0 at uplift. c, s and m are estimated from the
 //! responses of a structure to a suite of motions; without responses they are those of the kind of motion.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +17,7 @@ use crate::rocking::Structure;
 use crate::statistics::clusters::{MIN_CLUSTERS, sandwich};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::Z_95;
-use crate::statistics::{Bounds, Interval, delta_variance, independent_errors};
+use crate::statistics::{Bounds, FEW_EVENTS, Interval, delta_variance, independent_errors};
 use crate::warning::Warning;
 
 /// The universal surface, calibrated for one structure and suite.
@@ -76,8 +78,8 @@ pub struct ObservedOutcome {
 
 /// The suite of calibrations to observed outcomes.
 const OUTCOMES: &str = "outcomes";
-/// With fewer events, or fewer other cases, the level is uncertain.
-const FEW_EVENTS: i64 = 10;
+/// From so many clusters on their scores tell the errors; else the usual spread between clusters does.
+const MANY_CLUSTERS: usize = 30;
 /// A peak within this factor of the fitted ones is covered.
 const LIKE: f64 = 1.2;
 
@@ -235,7 +237,7 @@ impl Calibration {
         if self.n == 0 {
             return Vec::new();
         }
-        let rarer = self.n_events.min(self.n - self.n_events);
+        let rarer = self.n_events.min(self.n - self.n_events) as usize;
         let few_events = match (rarer, self.limit_state) {
             (0, None) => Some(Warning::NoEvents),
             (0..FEW_EVENTS, _) => Some(Warning::FewEvents),
@@ -358,61 +360,82 @@ fn observed(cases: &Cases, uncalibrated: &Calibration) -> Vec<Observation> {
     counts.collect()
 }
 
-/// c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With B
-/// the inverse of the information, prior included, V = B; from [`MIN_CLUSTERS`] clusters on V = B (M + P) B,
-/// M the sum over clusters of the squares of their scores and P the information of the prior, which counts as
-/// one more cluster.
+/// What the posterior density is of: c, ln s, m and, of few clusters, a shift of the logit for each.
+struct Unknowns<'a> {
+    cases: &'a [Observation],
+    mean: DVector<f64>,
+    /// Inverse variances.
+    precision: DVector<f64>,
+    /// The clusters that have a shift, rising.
+    shifted: Vec<u32>,
+}
+
+/// c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With fewer than
+/// [`MANY_CLUSTERS`] each cluster has a shift of standard deviation tau, and V is the part of the inverse B of
+/// the information, prior included, without the shifts. Else V = B (M + P) B, M the sum over clusters of the
+/// squares of their scores and P the information of the prior, which counts as one more cluster.
 fn maximum(cases: &[Observation], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
-    let found = maximise(|at| log_posterior(cases, prior, at), DVector::from_vec(prior.mean.to_vec()));
+    let clusters: Vec<u32> = cases.iter().map(|case| case.cluster).collect();
+    let mut shifted: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
+    let n_clusters = shifted.len();
+    shifted.truncate(if n_clusters < MANY_CLUSTERS { n_clusters } else { 0 });
+    let of_shifts = |value: f64| std::iter::repeat_n(value, shifted.len());
+    let k = 3 + shifted.len();
+    let mean = DVector::from_iterator(k, prior.mean.into_iter().chain(of_shifts(0.0)));
+    let sds = prior.sd.into_iter().chain(of_shifts(prior.tau));
+    let precision = DVector::from_iterator(k, sds.map(|sd| 1.0 / (sd * sd)));
+    let unknowns = Unknowns { cases, mean, precision, shifted };
+    let found = maximise(|at| unknowns.log_posterior(at), unknowns.mean.clone());
     let bread = found.objective.information.try_inverse().expect("the prior makes it definite");
     let (c, s, m) = (found.at[0], found.at[1].exp(), found.at[2]);
+    if n_clusters < MANY_CLUSTERS {
+        return (found.at, bread.view((0, 0), (3, 3)).into_owned(), n_clusters);
+    }
     let slopes: Vec<f64> = cases.iter().map(|case| s * case.terms.logit).collect();
     let magnitudes: Vec<f64> = cases.iter().map(|case| case.terms.magnitude).collect();
     let scores = cases.iter().map(|Observation { terms, happened, .. }| {
         let z = c + s * terms.logit + m * terms.magnitude + terms.uplift_term;
         f64::from(*happened) - logistic(z)
     });
-    let (scores, clusters): (Vec<f64>, Vec<u32>) = scores.zip(cases.iter().map(|case| case.cluster)).unzip();
-    let (clustered, clusters) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &clusters);
-    let prior = DMatrix::from_diagonal(&information(prior));
-    let covariance = clustered.map(|clustered| clustered + &bread * prior * &bread);
-    (found.at, covariance.unwrap_or(bread), clusters)
+    let scores: Vec<f64> = scores.collect();
+    let (clustered, _) = sandwich(&[&slopes, &magnitudes], &scores, &bread, &clusters);
+    let prior = DMatrix::from_diagonal(&unknowns.precision);
+    (found.at, clustered + &bread * prior * &bread, n_clusters)
 }
 
-/// ln likelihood + ln prior with its derivatives by c, ln s and m: of z = c + s L + m (M - 6.9) + g the sum
-/// of y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
-/// derivatives are not those of a maximum, their expectation stands for them.
-fn log_posterior(cases: &[Observation], prior: &Prior, at: &DVector<f64>) -> Objective {
-    let s = at[1].exp();
-    let mut sum = Objective::sum(cases.len(), 3, |case, sum| {
-        let Observation { terms, happened, .. } = &cases[case];
-        let by = [1.0, s * terms.logit, terms.magnitude];
-        let z = at[0] + by[1] + at[2] * by[2] + terms.uplift_term;
-        let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });
-        let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
-        sum.value -= softplus(-sign * z);
-        for row in 0..3 {
-            sum.gradient[row] += score * by[row];
-            (0..3).for_each(|column| sum.information[(row, column)] += weight * by[row] * by[column]);
+impl Unknowns<'_> {
+    /// ln likelihood + ln prior with its derivatives: of z = c + s L + m (M - 6.9) + shift + g the sum of
+    /// y z - ln(1 + e^z), whose second derivative by ln s has the slope s L itself. Where the second
+    /// derivatives are not those of a maximum, their expectation stands for them.
+    fn log_posterior(&self, at: &DVector<f64>) -> Objective {
+        let s = at[1].exp();
+        let mut sum = Objective::sum(self.cases.len(), at.len(), |case, sum| {
+            let Observation { terms, happened, cluster, .. } = &self.cases[case];
+            let shift = self.shifted.binary_search(cluster).ok().map(|number| (3 + number, 1.0));
+            let by = [(0, 1.0), (1, s * terms.logit), (2, terms.magnitude)].into_iter().chain(shift);
+            let z = at[0] + s * terms.logit + at[2] * terms.magnitude + terms.uplift_term;
+            let z = shift.map_or(z, |(place, _)| z + at[place]);
+            let (p, sign) = (logistic(z), if *happened { 1.0 } else { -1.0 });
+            let (score, weight) = (0.5 * (1.0 + sign) - p, p * (1.0 - p));
+            sum.value -= softplus(-sign * z);
+            for (row, slope) in by.clone() {
+                sum.gradient[row] += score * slope;
+                by.clone()
+                    .for_each(|(column, other)| sum.information[(row, column)] += weight * slope * other);
+            }
+        });
+        let away = at - &self.mean;
+        let bend = sum.gradient[1];
+        sum.value -= 0.5 * away.component_mul(&self.precision).dot(&away);
+        sum.gradient -= away.component_mul(&self.precision);
+        sum.information += DMatrix::from_diagonal(&self.precision);
+        let mut observed = sum.information.clone();
+        observed[(1, 1)] -= bend;
+        if observed.clone().cholesky().is_some() {
+            sum.information = observed;
         }
-    });
-    let away = at - DVector::from_vec(prior.mean.to_vec());
-    let precision = information(prior);
-    let bend = sum.gradient[1];
-    sum.value -= 0.5 * away.component_mul(&precision).dot(&away);
-    sum.gradient -= away.component_mul(&precision);
-    sum.information += DMatrix::from_diagonal(&precision);
-    let mut observed = sum.information.clone();
-    observed[(1, 1)] -= bend;
-    if observed.clone().cholesky().is_some() {
-        sum.information = observed;
+        sum
     }
-    sum
-}
-
-/// Inverse variances of c, ln s and m.
-fn information(prior: &Prior) -> DVector<f64> {
-    DVector::from_vec(prior.sd.map(|sd| 1.0 / (sd * sd)).to_vec())
 }
 
 /// ln(1 + e^x).

@@ -1,12 +1,13 @@
 //! The lognormal distribution of the capacities of an incremental dynamic analysis, some of which are only
 //! known to lie above or below an intensity.
 
+use std::collections::BTreeSet;
+
 use nalgebra::DVector;
 
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
 use crate::statistics::newton::{Objective, maximise};
-use crate::statistics::normal::Z_95;
 use crate::statistics::normal::ln_cdf_and_slope;
 use crate::statistics::{FitStatus, Interval};
 
@@ -27,9 +28,9 @@ pub struct CapacityFit {
 /// Exact capacities alone are fitted by mean and standard deviation of their logarithms (divisor n - 1), with
 /// the exact limits of a normal sample. Others are fitted by maximum likelihood (Baker 2015, Efficient
 /// analytical fragility function fitting using dynamic structural analysis, Earthquake Spectra 31, 579-599),
-/// with limits from the information in ln theta and ln beta, which are too narrow for few capacities.
+/// with limits from the information in ln theta and ln beta, and t quantiles by the number of exact ones.
 /// Motions of one cluster (`clusters`, one number per capacity) may depend on each other: limits widen by the
-/// ratio of the clustered to the unclustered standard error of the mean.
+/// ratio of the clustered to the unclustered standard error of the mean, each times its t quantile.
 ///
 /// # Errors
 /// The status, if fewer than two capacities are known, or all are the same.
@@ -41,7 +42,11 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     let (ln_x, clusters): (Vec<f64>, Vec<u32>) = known.unzip();
     let fit = fit_independent(capacities, &ln_x)?;
     let alone: Vec<u32> = (0..ln_x.len() as u32).collect();
-    let wider = (clustered_mean(&ln_x, &clusters).1 / clustered_mean(&ln_x, &alone).1).max(1.0);
+    let half_width = |clusters: &[u32]| {
+        let distinct = clusters.iter().collect::<BTreeSet<&u32>>().len();
+        clustered_mean(&ln_x, clusters).1 * t_quantile(0.975, distinct as f64 - 1.0)
+    };
+    let wider = (half_width(&clusters) / half_width(&alone)).max(1.0);
     // The responses to one earthquake say nothing about others.
     let wider = if wider.is_finite() { wider } else { 1.0 };
     let [theta, beta] = [fit.theta, fit.beta]
@@ -61,7 +66,7 @@ fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<Capaci
         return Err(FitStatus::Degenerate);
     }
     if known.len() < capacities.len() {
-        return censored(capacities, mean, (squares / n).sqrt());
+        return censored(capacities, mean, (squares / n).sqrt(), t_quantile(0.975, n - 1.0));
     }
     let beta = (squares / (n - 1.0)).sqrt();
     let half_width = t_quantile(0.975, n - 1.0) * beta / n.sqrt();
@@ -73,7 +78,12 @@ fn fit_independent(capacities: &[KnownCapacity], known: &[f64]) -> Result<Capaci
 /// Maximises the likelihood in 1/beta and (mu - mean)/beta, in which its logarithm is concave (Olsen 1978,
 /// Note on the uniqueness of the maximum likelihood estimator for the Tobit model, Econometrica 46,
 /// 1211-1215).
-fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<CapacityFit, FitStatus> {
+fn censored(
+    capacities: &[KnownCapacity],
+    mean: f64,
+    sd: f64,
+    quantile: f64,
+) -> Result<CapacityFit, FitStatus> {
     let likelihood = |at: &DVector<f64>| {
         let per_beta = at[0];
         let mut likelihood = Objective::sum(capacities.len(), 2, |case, sum| {
@@ -108,8 +118,8 @@ fn censored(capacities: &[KnownCapacity], mean: f64, sd: f64) -> Result<Capacity
     let covariance = covariance.ok_or(FitStatus::NotConverged)?;
     let (per_beta, shift) = (maximum.at[0], maximum.at[1]);
     let by_mu = DVector::from_column_slice(&[-shift / (per_beta * per_beta), 1.0 / per_beta]);
-    let theta_factor = (Z_95 * (&covariance * &by_mu).dot(&by_mu).sqrt()).exp();
-    let beta_factor = (Z_95 * covariance[(0, 0)].sqrt() / per_beta).exp();
+    let theta_factor = (quantile * (&covariance * &by_mu).dot(&by_mu).sqrt()).exp();
+    let beta_factor = (quantile * covariance[(0, 0)].sqrt() / per_beta).exp();
     let (theta, beta) = ((mean + shift / per_beta).exp(), 1.0 / per_beta);
     Ok(CapacityFit {
         theta: Interval { value: theta, low: theta / theta_factor, high: theta * theta_factor },

@@ -246,12 +246,13 @@ impl Model {
             }
             Model::Paper { demand, overturning, .. } => {
                 let demand = demand.iter().find(|fit| fit.holds_at(measures.im4));
-                let is_ok = overturning.status == FitStatus::Ok
-                    && demand.is_some_and(|demand| demand.status == FitStatus::Ok);
+                let is_poor = overturning.status == FitStatus::PoorFit
+                    || demand.is_none_or(|demand| demand.status != FitStatus::Ok);
                 let outside = (rocks && !overturning.covers(measures)).then_some(Warning::Extrapolated);
                 let few = (!overturning.is_clustered).then_some(Warning::FewClusters);
-                let poor = (!is_ok).then_some(Warning::PoorFit);
-                outside.into_iter().chain(few).chain(poor).collect::<Vec<Warning>>()
+                let rare = (overturning.status == FitStatus::FewEvents).then_some(Warning::FewEvents);
+                let poor = is_poor.then_some(Warning::PoorFit);
+                [outside, few, rare, poor].into_iter().flatten().collect::<Vec<Warning>>()
             }
         };
         warnings.sort_unstable();

@@ -11,6 +11,8 @@ use super::normal;
 
 /// A fit needs this many events, and this many cases without an event.
 const LEAST_EVENTS: usize = 5;
+/// With fewer events, or fewer other cases, the limits are too narrow.
+pub const FEW_EVENTS: usize = 10;
 /// With a larger standard error of z the likelihood has no maximum.
 const SEPARATION_SE: f64 = 1e3;
 
@@ -120,8 +122,12 @@ pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<
     let signs = events.iter().map(|&event| if event { 1.0 } else { -1.0 });
     let scores: Vec<f64> =
         z.iter().zip(signs).map(|(&z, sign)| sign * normal::ln_cdf_and_slope(sign * z).1).collect();
-    (probit.fit.clustered, probit.fit.clusters) = sandwich(x, &scores, &probit.fit.covariance, clusters);
     probit.fit.note_misfit(misfit(&probit, x, events));
+    let count = events.iter().filter(|event| **event).count();
+    if count.min(events.len() - count) < FEW_EVENTS {
+        probit.fit.status = FitStatus::FewEvents;
+    }
+    probit.fit.note_clusters(sandwich(x, &scores, &probit.fit.covariance, clusters));
     Ok(probit)
 }
 

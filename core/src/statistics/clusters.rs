@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use super::fit::Fit;
 
-/// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI).
+/// With fewer clusters the standard errors are too small (Cameron & Miller 2015, section VI): they only widen
+/// the model's own.
 pub const MIN_CLUSTERS: usize = 10;
 const FOLDS: usize = 10;
 
@@ -25,13 +26,13 @@ fn cluster_sums(clusters: &[u32], k: usize, add: impl Fn(usize, &mut [f64])) -> 
 /// Computes the sandwich covariance of coefficients (k x k), with the factor G/(G - 1) (n - 1)/(n - k) for G
 /// clusters (Cameron & Miller 2015, A practitioner's guide to cluster-robust inference, J. Human Resources
 /// 50, 317-372), and G. `x` are the columns of predictors, `scores` the derivatives of the log-likelihood
-/// with respect to z of each case, `bread` the inverse information. None for fewer than [`MIN_CLUSTERS`].
+/// with respect to z of each case, `bread` the inverse information. Not finite for one cluster.
 pub fn sandwich(
     x: &[&[f64]],
     scores: &[f64],
     bread: &DMatrix<f64>,
     clusters: &[u32],
-) -> (Option<DMatrix<f64>>, usize) {
+) -> (DMatrix<f64>, usize) {
     let (n, k) = (scores.len() as f64, x.len() + 1);
     let sums = cluster_sums(clusters, k, |case, sum| {
         sum[0] += scores[case];
@@ -43,8 +44,19 @@ pub fn sandwich(
         .map(DVector::from_vec)
         .fold(DMatrix::zeros(k, k), |meat, sum| meat + &sum * sum.transpose());
     let factor = g / (g - 1.0) * (n - 1.0) / (n - k as f64);
-    let covariance = bread * meat * bread * factor;
-    ((g >= MIN_CLUSTERS as f64).then_some(covariance), g as usize)
+    (bread * meat * bread * factor, g as usize)
+}
+
+/// Widens the model's covariance (k x k) to that of few clusters, times the square of the ratio of their
+/// quantiles, in the directions in which this is larger: L Q max(1, D) Q' L', where the model's is L L' and
+/// that of the clusters is L Q D Q' L'. None where the model's is not definite.
+pub fn widened(model: &DMatrix<f64>, clustered: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let factor = model.clone().cholesky()?.unpack();
+    let inverse = factor.clone().try_inverse()?;
+    let ratio = (&inverse * clustered * inverse.transpose()).symmetric_eigen();
+    let errors = factor * ratio.eigenvectors;
+    let larger = DMatrix::from_diagonal(&ratio.eigenvalues.map(|ratio| ratio.max(1.0)));
+    Some(&errors * larger * errors.transpose())
 }
 
 /// Computes the mean and its standard error, sqrt(C/(C - 1) sum (S_c - n_c mean)^2) / n for C clusters, where

@@ -1,5 +1,7 @@
 use nalgebra::{DMatrix, DVector};
 
+use super::clusters::{MIN_CLUSTERS, widened};
+use super::distributions::t_quantile;
 use crate::spelling::unknown_word;
 
 /// Whether a fit is usable, and if not, why.
@@ -11,6 +13,8 @@ pub enum FitStatus {
     Ok,
     /// Squares and products of the predictors improve the fit (p < 0.01).
     PoorFit,
+    /// Fewer than ten events or other cases: the limits are too narrow.
+    FewEvents,
     /// Demand or probability decreases with the measure.
     WrongSign,
     /// The predictors separate events from the other cases: the likelihood has no maximum.
@@ -25,7 +29,7 @@ pub enum FitStatus {
 
 impl FitStatus {
     pub fn is_usable(self) -> bool {
-        matches!(self, FitStatus::Ok | FitStatus::PoorFit)
+        matches!(self, FitStatus::Ok | FitStatus::PoorFit | FitStatus::FewEvents)
     }
 }
 
@@ -36,7 +40,7 @@ const POOR_FIT: f64 = 0.01;
 pub struct Fit {
     /// Intercept first.
     pub coefficients: DVector<f64>,
-    /// Covariance of the coefficients of independent cases, k x k.
+    /// Covariance of the coefficients, k x k: of independent cases, widened where few clusters differ.
     pub covariance: DMatrix<f64>,
     /// Cluster-robust covariance, k x k; `None` for too few clusters.
     pub clustered: Option<DMatrix<f64>>,
@@ -47,7 +51,7 @@ pub struct Fit {
     pub n: usize,
     /// p-value of the squares and products of the predictors; none if not tested, or degenerate.
     pub misfit_p: Option<f64>,
-    /// [`FitStatus::Ok`] or [`FitStatus::PoorFit`].
+    /// A usable one.
     pub status: FitStatus,
 }
 
@@ -60,6 +64,19 @@ impl Fit {
     ) -> Fit {
         let (clustered, clusters, misfit_p, status) = (None, 0, None, FitStatus::Ok);
         Fit { coefficients, covariance, clustered, clusters, degrees_of_freedom, n, misfit_p, status }
+    }
+
+    /// Takes the clustered covariance of many clusters; that of two and more only widens the model's.
+    pub(super) fn note_clusters(&mut self, (clustered, clusters): (DMatrix<f64>, usize)) {
+        self.clusters = clusters;
+        if clusters >= MIN_CLUSTERS {
+            self.clustered = Some(clustered);
+        } else if clusters > 1 {
+            let quantile = |degrees: f64| t_quantile(0.975, degrees);
+            let ratio = quantile(clusters as f64 - 1.0) / quantile(self.degrees_of_freedom);
+            let wider = widened(&self.covariance, clustered * (ratio * ratio));
+            self.covariance = wider.unwrap_or_else(|| self.covariance.clone());
+        }
     }
 
     pub(super) fn note_misfit(&mut self, p: Option<f64>) {

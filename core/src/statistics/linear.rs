@@ -51,7 +51,7 @@ pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result
     let fitted = predict(linear.fit.coefficients.as_slice(), x);
     let residuals: Vec<f64> = y.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
     let bread = &linear.fit.covariance * (linear.fit.degrees_of_freedom / linear.rss);
-    (linear.fit.clustered, linear.fit.clusters) = sandwich(x, &residuals, &bread, clusters);
+    linear.fit.note_clusters(sandwich(x, &residuals, &bread, clusters));
     linear.fit.note_misfit(misfit(&linear, x, y));
     Ok(linear)
 }

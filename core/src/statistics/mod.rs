@@ -31,7 +31,7 @@ pub mod numerics;
 mod range;
 pub mod scores;
 
-pub use binary::{ProbitFit, log_likelihood, probit, tested_probit};
+pub use binary::{FEW_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
 pub use clusters::{Folds, held_out_log_score};
 pub use fit::{Fit, FitStatus, delta_variance, independent_errors, predict};
 pub use interval::Interval;

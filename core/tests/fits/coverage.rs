@@ -62,14 +62,13 @@ fn limits_hold_the_truth_as_often_as_they_say() {
     ];
     // The slope of z shrinks with the noise of cells, mu does not.
     let (all, kept) = (&truths[..], &[truths[0], truths[1], truths[5]][..]);
-    // Nine cells leave the errors to the model, twelve are few for clustered ones.
-    for (cells, shared, truths) in [(9, false, all), (12, false, all), (35, false, all), (35, true, kept)] {
+    // Up to nine cells widen the errors of the model where they differ, twelve are few for clustered ones.
+    let sets = [(9, false, all), (9, true, kept), (12, false, all), (35, false, all), (35, true, kept)];
+    for (cells, shared, truths) in sets {
         for (share, (parameter, _)) in coverage(cells, shared, truths).into_iter().zip(truths) {
             assert!((0.89..=0.99).contains(&share), "{cells} cells, {shared}: {parameter:?} in {share}");
         }
     }
-    // Nine cells are too few to tell what they share: the model's errors leave it out.
-    assert!(coverage(9, true, kept)[0] < 0.7);
 }
 
 #[test]

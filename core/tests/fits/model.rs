@@ -95,6 +95,7 @@ fn calibrations_are_those_of_python() {
             assert!((ours - theirs).abs() < 1e-9, "{ours} {theirs}");
         }
         expect_covariance(&own, answer, "clustered", 1e-9);
+        // All in one cluster, which has a shift.
         let alone = Calibration::fit(&of_structure(&rows, answer, false), limit_state);
         expect_covariance(&alone, answer, "v", 1e-9);
     }

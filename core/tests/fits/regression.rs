@@ -179,6 +179,8 @@ fn want_of_cases_of_variation_and_of_events_are_statuses() {
     assert_eq!(probit(&[&[2.0; 50]], &mixed).unwrap_err(), FitStatus::Degenerate);
     assert_eq!(probit(&[&x], &events(|k| k > 25)).unwrap_err(), FitStatus::Separated);
     assert_eq!(probit(&[&x], &mixed).unwrap().fit.status, FitStatus::Ok);
+    let of_nine = tested_probit(&[&x], &events(|k| k % 6 == 0), &[0; 50]).unwrap();
+    assert_eq!(of_nine.fit.status, FitStatus::FewEvents);
 }
 
 #[test]
