@@ -18,8 +18,8 @@ use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{
-    Bases, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, Lognormal, MotionProbabilities,
-    Site, unusual_motions,
+    Bases, Budget, Fragility, FragilityPoint, GenericSites, GroundMotion, Hazard, ListProbabilities,
+    ListedObject, Lognormal, MotionProbabilities, Site, unusual_motions,
 };
 use rockfrag_core::object::{Object, RockingObject};
 use rockfrag_core::statistics::Interval;
@@ -62,6 +62,8 @@ pub struct Answer {
     pub rates: RateColumns,
     pub fragility: FragilityColumns,
     pub uncertainty: UncertaintyColumns,
+    /// What happens to the objects of the table, where there are several: the same in all rows.
+    pub list: ListProbabilities,
     /// The points of its fragility, of which each is a row of the file.
     #[serde(skip)]
     pub points: Vec<FragilityPoint>,
@@ -127,18 +129,44 @@ pub fn assess(
         })
         .collect();
     // The first error in the order of the objects, whichever thread meets one first.
-    answers.into_iter().collect()
+    let answers: Vec<AnswerOfObject> = answers.into_iter().collect::<anyhow::Result<_>>()?;
+    let list = of_list(&answers, question);
+    Ok(answers.into_iter().map(|(answer, _)| Answer { list, ..answer }).collect())
+}
+
+/// An answer and, if the object has one, the object with what is unknown of it.
+type AnswerOfObject = (Answer, Option<(RockingObject, Budget)>);
+
+/// What happens to several objects; nothing of one.
+fn of_list(answers: &[AnswerOfObject], question: &Question) -> ListProbabilities {
+    let listed = answers.iter().filter_map(|(answer, known)| {
+        let (object, budget) = known.as_ref()?;
+        let overturning = match question {
+            Question::Hazard { .. } => answer.rates.overturning_per_year,
+            _ => answer.p.p_overturning,
+        };
+        let count = answer.object.count.unwrap_or(1.0);
+        Some(ListedObject { object, count, overturning, budget })
+    });
+    let listed: Vec<ListedObject> = listed.collect();
+    let are_several = listed.iter().map(|of| of.count).sum::<f64>() > 1.0;
+    match question {
+        Question::Hazard { site, years, .. } if are_several => site.list(&listed, *years),
+        Question::Motion(motion) if are_several => motion.list(&listed),
+        _ => ListProbabilities::default(),
+    }
 }
 
 impl Answer {
-    fn new(object: &Object, question: &Question, models: ModelsOf) -> anyhow::Result<Answer> {
+    fn new(object: &Object, question: &Question, models: ModelsOf) -> anyhow::Result<AnswerOfObject> {
         if let Err(reason) = object.sides() {
             let warnings = Some(reason.to_string());
-            return Ok(Answer {
+            let answer = Answer {
                 object: ObjectColumns::new(object, None),
                 uncertainty: UncertaintyColumns { warnings, ..UncertaintyColumns::default() },
                 ..Answer::default()
-            });
+            };
+            return Ok((answer, None));
         }
         let (rocking, mut warnings) = models(object)?;
         let weaker = &rocking.directions[0];
@@ -175,7 +203,7 @@ impl Answer {
         };
         warnings.extend(rocking.warnings(motion));
         answer.uncertainty = UncertaintyColumns::new(warnings, &budget, magnitude, motion);
-        Ok(answer)
+        Ok((answer, Some((rocking, budget))))
     }
 
     /// Whether it has an answer: a probability, a range of it, or a fragility.
@@ -221,9 +249,10 @@ pub fn over_all<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> impl Itera
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
     let answers = || over_all(answers);
     let p = rows::batch(answers().map(|answer| &answer.p))?;
+    let list = rows::batch(answers().map(|answer| &answer.list))?;
     let of_question = match question {
-        Question::Motion(_) => vec![rows::batch(answers().map(|answer| &answer.tree))?, p],
-        Question::Hazard { .. } => vec![rows::batch(answers().map(|answer| &answer.rates))?, p],
+        Question::Motion(_) => vec![rows::batch(answers().map(|answer| &answer.tree))?, p, list],
+        Question::Hazard { .. } => vec![rows::batch(answers().map(|answer| &answer.rates))?, p, list],
         Question::Curve { .. } => vec![rows::batch(answers().map(|answer| &answer.fragility))?],
     };
     let mut parts = vec![rows::batch(answers().map(|answer| &answer.object))?];

@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     Bases, Budget, FragilityPoint, GroundMotion, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{Object, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{LowHigh, Object, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
@@ -53,7 +53,7 @@ impl ObjectColumns {
     pub fn new(object: &Object, weaker: Option<&RockingDirection>) -> ObjectColumns {
         let (shape, floor) = (&object.shape, object.place.floor().ok().flatten());
         let (structure, model) =
-            weaker.map(|RockingDirection { structure, model }| (structure, model)).unzip();
+            weaker.map(|RockingDirection { structure, model, .. }| (structure, model)).unzip();
         ObjectColumns {
             structure: object.name.clone(),
             object_kind: Some(shape.kind().to_string()),
@@ -109,7 +109,7 @@ impl TreeColumns {
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             _ if motion.is_still() => None,
-            ([RockingDirection { structure, model }], Some(pga_m_s2), Some(pgv_m_s)) => {
+            ([RockingDirection { structure, model, .. }], Some(pga_m_s2), Some(pgv_m_s)) => {
                 let measures = IntensityMeasures::new(structure, Peaks { pga_m_s2, pgv_m_s }, None, None);
                 model.probabilities(structure, &measures, motion.mw, Tau::Included).given_rocking
             }
@@ -160,6 +160,9 @@ pub struct RateColumns {
     pub years: Option<f64>,
     /// Whether the hazard ends too early for a rate of overturning.
     pub is_range: Option<bool>,
+    /// What each unknown changes in ln of the rate of overturning at its low and high quantile, by standard
+    /// deviation: `eta -0.36 0.31; velocity -0.4 0.4`.
+    pub rate_changes: Option<String>,
     /// Source of PGV / PGA.
     pub velocity_by: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
@@ -179,6 +182,7 @@ impl RateColumns {
             return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
             years: Some(years),
             is_range: overturning.low.map(|_| overturning.value.is_none()),
+            rate_changes: overturning.value.map(|_| changes_in_words(&rates.budget)),
             velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,
             target: None,
@@ -187,6 +191,24 @@ impl RateColumns {
         let in_years = rates.states.map(|rate| rate.map(|rate| probability_in_years(rate, years)));
         (columns, StateColumns::new(in_years))
     }
+
+    /// What is unknown of the rate of overturning.
+    pub fn budget(&self) -> Option<Budget> {
+        let change = |words: &str| {
+            let [source, low, high] = words.split(' ').collect::<Vec<_>>().try_into().ok()?;
+            let [low, high] = [low, high].map(|number: &str| number.parse().ok());
+            Some(LowHigh { source: source.parse().ok()?, low: low?, high: high? })
+        };
+        let changes: Option<Vec<LowHigh<f64>>> =
+            self.rate_changes.as_ref()?.split_terminator(BETWEEN).map(change).collect();
+        Some(Budget { changes: changes? })
+    }
+}
+
+fn changes_in_words(budget: &Budget) -> String {
+    let changes = budget.changes.iter();
+    let words = changes.map(|LowHigh { source, low, high }| format!("{source} {low:.4} {high:.4}"));
+    words.collect::<Vec<_>>().join(BETWEEN)
 }
 
 /// What the fragility of an object comes to, over PGA in g or PGV in m/s.
@@ -253,7 +275,7 @@ pub struct UncertaintyColumns {
     pub error_largest: Option<UncertaintySource>,
 }
 
-/// Stands between warnings.
+/// Stands between warnings, and between changes.
 const BETWEEN: &str = "; ";
 
 impl UncertaintyColumns {

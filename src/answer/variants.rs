@@ -12,7 +12,8 @@ pub fn variants(object: &Object, site: &Site, years: f64, models: ModelsOf) -> V
     let as_it_is = ("as it is".to_string(), object.clone());
     let changes = object.changes().into_iter().map(|changed| (changed.words, changed.object));
     let all = std::iter::once(as_it_is).chain(changes).filter_map(|(words, object)| {
-        let answer = Answer::new(&object, &question, models).ok().filter(Answer::is_answered)?;
+        let (answer, _) = Answer::new(&object, &question, models).ok()?;
+        let answer = Some(answer).filter(Answer::is_answered)?;
         Some(Answer { variant: Some(words), ..answer })
     });
     all.collect()

@@ -1,12 +1,12 @@
 //! The document of two tables of answers, before and after: the list of those after, each with what it was
 //! before. They are joined by the names of the objects.
 
-use rockfrag_core::hazard::{RateBySource, ratio_of_rates};
+use rockfrag_core::hazard::Budget;
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::Document;
-use super::phrases::Expected;
+use super::list::expected_number;
 use crate::answer::{Answer, AnswerTable, Before};
 use crate::number::{counted, listed, significant};
 
@@ -29,11 +29,14 @@ pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
     let gone = (!gone.is_empty()).then(|| format!("Only before: {}.", listed(&gone, NAMED)));
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let shared = if is_same { "" } else { ", but for PGV/PGA, as the hazards differ" };
-    let ratios = format!("The limits of a ratio leave out uncertainty that both rates share{shared}.");
+    let ratios = format!(
+        "The limits of a ratio leave out uncertainty that both rates share{shared}; restitution is taken as \
+         the same before and after."
+    );
     let mut now = Document::of_answers(&table);
     now.lead.insert(0, format!("{changed} of {} changed.", counted(both, "object")));
     for tile in now.tiles.iter_mut().take(1) {
-        tile.number = format!("{} → {}", Expected::new(&before.rows).number(), tile.number);
+        tile.number = format!("{} → {}", expected_number(&before.rows), tile.number);
     }
     (both > 0).then(|| Document {
         title: format!("{}, before and after", now.title),
@@ -52,12 +55,14 @@ fn namesake<'a>(answer: &Answer, others: &'a [Answer]) -> Option<&'a Answer> {
 fn before_of(before: &Answer, after: &Answer, is_same_hazard: bool) -> Before {
     let [old, new] = [before, after].map(|answer| {
         let rate = answer.rates.overturning_per_year.value.filter(|rate| *rate > 0.0);
-        rate.map(|rate| RateBySource { rate, sds: answer.uncertainty.source_sds() })
+        Some((rate?, answer.rates.budget()?))
     });
     let is_shared = |part: UncertaintySource| {
         is_same_hazard || !matches!(part, UncertaintySource::Velocity | UncertaintySource::Hazard)
     };
-    let ratio = old.zip(new).map(|(old, new)| ratio_of_rates(&old, &new, is_shared));
+    let ratio = old.zip(new).map(|((old, before), (new, after))| {
+        Budget::of_ratio(&before, &after, is_shared).limit_rate(new / old, f64::INFINITY)
+    });
     let ratio = ratio.map_or(Interval::default(), Interval::<Option<f64>>::from);
     Before { p: before.p.p_overturning, ratio, changes: changes([before, after]) }
 }

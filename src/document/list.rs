@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::phrases::{Expected, facts, intensity, intensity_cells};
+use super::phrases::{facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
 use crate::answer::{Answer, AnswerTable, Before};
 use crate::chart::text::literal;
@@ -80,16 +80,17 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     // The same object may stand in several files, under several hazards: their sum would be of nothing.
     let files = by(&table.rows, |answer| &answer.file);
     for answers in files.iter().take(FILES) {
-        let expected = Expected::new(answers.iter().copied());
-        let (all, file) = (counted(expected.all as usize, "object"), file_of(answers[0], table));
-        tiles.push(Tile::new(expected.number(), format!("of {all} expected to overturn {when}{file}")));
+        let answered = answers.iter().filter(|answer| answer.is_answered());
+        let all: f64 = answered.map(|answer| answer.object.count.unwrap_or(1.0)).sum();
+        let (all, file) = (counted(all as usize, "object"), file_of(answers[0], table));
+        let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
+        let words = format!("of {all} expected to overturn {when}{limits}{file}");
+        tiles.push(Tile::new(expected_number(answers.iter().copied()), words));
     }
     if files.len() == 1 {
-        let Expected { together, independent, .. } = Expected::new(&table.rows);
-        tiles.push(Tile::new(
-            format!("{} to {}", OF_HUNDRED.one(together), PERCENT.one(independent)),
-            "probability that at least one overturns: lower if they fall together, higher if independently",
-        ));
+        let any = table.rows[0].list.at_least_one;
+        let words = format!("probability that at least one overturns{}", PERCENT.limits(any, "95 % limits "));
+        tiles.extend(any.value.or(any.high).map(|_| Tile::new(PERCENT.value(any), words)));
         let target = table.rows[0].rates.target;
         let most = target.unwrap_or(BANDS[0]);
         let above = table.rows.iter().filter(|answer| answer.severity() > most).count();
@@ -97,6 +98,14 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         tiles.push(Tile::new(count(above), format!("{words} {}", PERCENT.one(most))));
     }
     tiles
+}
+
+/// The expected number of the objects of a file that overturn.
+pub fn expected_number<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> String {
+    let mut answers = answers.into_iter().peekable();
+    let of_list = answers.peek().and_then(|answer| answer.list.expected_number.value);
+    let number = |answer: &Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
+    TWO_DIGITS.one(of_list.unwrap_or_else(|| answers.filter_map(number).sum()))
 }
 
 /// What stands in a cell of an answer.

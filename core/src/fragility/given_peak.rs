@@ -16,8 +16,9 @@ const FARTHEST: f64 = 6.0;
 /// Nor do those this far below the median at one PGA: probabilities fall with PGV / PGA, and the rest adds
 /// less than a millionth.
 const FARTHEST_BELOW: f64 = 5.0;
-/// Step of the trapezoidal rule on floors, in standard deviations: probabilities have no jumps there.
-const STEP_ON_FLOORS: f64 = 0.8;
+/// Step of the trapezoidal rule on floors and over lists, in standard deviations: probabilities have no jumps
+/// there.
+const SMOOTH_STEP: f64 = 0.8;
 /// Widest panel of the quadrature, in standard deviations, over the motions of a PGA and over those of a PGV,
 /// which reach down to uplift.
 const PANEL_OF_PGA: f64 = 3.0;
@@ -53,7 +54,7 @@ impl<'a> GivenPeak<'a> {
         mw: Option<f64>,
     ) -> GivenPeak<'a> {
         let mut bends = Vec::new();
-        for RockingDirection { structure, model } in directions {
+        for RockingDirection { structure, model, .. } in directions {
             let ln_held_pga = surface::held_pga_m_s2(structure).ln();
             bends.extend(model.bends(mw).into_iter().map(|ln_pgv_pga| Bend { ln_pgv_pga, ln_held_pga }));
         }
@@ -125,8 +126,9 @@ impl<'a> GivenPeak<'a> {
     /// PGV / PGA bends.
     pub(crate) fn breaks(&self) -> Vec<f64> {
         let mut all = self.jumps();
+        all.truncate(if self.is_list() { 1 } else { all.len() });
         if self.peak == Peak::Pga {
-            all.extend(self.jumps().into_iter().map(|jump| STEEP * jump));
+            all.extend(all.clone().into_iter().map(|jump| STEEP * jump));
         }
         if self.ratio.bend != 0.0 {
             all.push(self.ratio.knot.exp());
@@ -178,15 +180,20 @@ impl<'a> GivenPeak<'a> {
         };
         if self.ratio.is_exact() {
             visit((0.0, 1.0 / normal::density(0.0)));
-        } else if self.peak == Peak::Pga && self.is_on_floor() {
-            let [first, last] = [-FARTHEST_BELOW, FARTHEST].map(|end| (end / STEP_ON_FLOORS).round() as i32);
-            (first..=last).for_each(|k| visit((STEP_ON_FLOORS * f64::from(k), STEP_ON_FLOORS)));
+        } else if self.is_list() || self.peak == Peak::Pga && self.is_on_floor() {
+            let first = if self.peak == Peak::Pga { -FARTHEST_BELOW } else { -FARTHEST };
+            let [first, last] = [first, FARTHEST].map(|end| (end / SMOOTH_STEP).round() as i32);
+            (first..=last).for_each(|k| visit((SMOOTH_STEP * f64::from(k), SMOOTH_STEP)));
         } else {
             let widest = if self.peak == Peak::Pga { PANEL_OF_PGA } else { PANEL_OF_PGV };
             for edge in self.edges(ln_intensity).windows(2) {
                 panels(edge[0], edge[1], widest).flat_map(QuadraturePanel::nodes).for_each(&mut visit);
             }
         }
+    }
+
+    fn is_list(&self) -> bool {
+        self.directions.iter().any(|direction| direction.count.is_some())
     }
 
     fn is_on_floor(&self) -> bool {

@@ -29,6 +29,8 @@ pub enum Model {
 pub struct RockingDirection {
     pub structure: Structure,
     pub model: Model,
+    /// Number of such objects in a list of which any may rock so; none of a single object.
+    pub count: Option<f64>,
 }
 
 impl RockingDirection {

@@ -43,6 +43,7 @@ pub(super) fn uplift_m_s2(structure: &Structure) -> UpliftIntensities {
 }
 
 pub(super) struct OnFloor {
+    pub floor: Floor,
     modes: FloorModes,
     /// Added to the logits of P_ro and P_ex by a motion that is all resonance.
     shifts_at_resonance: PerBranch<f64>,
@@ -56,7 +57,7 @@ impl OnFloor {
             p_ro: OVERTURNING[0] + OVERTURNING[1] * ln_periods,
             p_ex: a + by_limit * limit_state.map_or(0.0, |limit| (limit / 0.1).ln()) + b * ln_periods,
         };
-        OnFloor { modes: floor.modes(), shifts_at_resonance }
+        OnFloor { floor, modes: floor.modes(), shifts_at_resonance }
     }
 
     /// For motions of the ground with this ln(PGV / PGA), s.

@@ -11,8 +11,8 @@ use super::model::{Model, RockingDirection};
 use super::model_point::{ModelPoint, Tau};
 use super::on_floor::{FloorMotion, FloorMotionDistribution, OnFloor};
 use super::surface::{Im4Terms, SurfaceAtIm4};
-use super::tree::{LimitStates, p_failure_given_rocking};
-use crate::motion::{IntensityMeasures, Peaks};
+use super::tree::{LimitStates, NoneOf, p_failure_given_rocking};
+use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::rocking::Structure;
 use crate::statistics::Interval;
 
@@ -120,11 +120,11 @@ pub(super) enum DirectionAtPga<'a> {
 impl DirectionAtPga<'_> {
     /// Third stage: joins the probabilities at each point under motions with this ln(PGV / PGA), s, to those
     /// of other directions: an object rocks in each independently under one motion. `motions` are those of
-    /// the floor, the same for all directions: the first that needs them computes them.
+    /// a floor, the same for all directions of an object: the first that needs them computes them.
     pub fn combine_into(
         &self,
         ln_pgv_pga: f64,
-        motions: &mut Option<FloorMotionDistribution>,
+        motions: &mut Option<(Floor, FloorMotionDistribution)>,
         points: &[ModelPoint],
         joined: &mut [LimitStates<Option<f64>>],
     ) {
@@ -138,7 +138,9 @@ impl DirectionAtPga<'_> {
                 join(joined, points, |point| branches.limit_states(&terms, point).known(ln_pgv_pga));
             }
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
-                let motions = motions.get_or_insert_with(|| on_floor.motions(ln_pgv_pga));
+                let known = motions.filter(|(floor, _)| *floor == on_floor.floor);
+                let known = known.unwrap_or_else(|| (on_floor.floor, on_floor.motions(ln_pgv_pga)));
+                let (_, motions) = motions.insert(known);
                 let shifts = on_floor.logit_shifts(motions);
                 let terms = |node: &FloorMotion| {
                     let at = Im4Terms::new(im4 * node.pfa, ln_im4 + node.ln_pfa);
@@ -183,19 +185,21 @@ fn join(
 
 /// The first two stages for all directions of an object.
 pub(crate) struct ReadyObject<'a> {
-    directions: Vec<ReadyDirection<'a>>,
+    /// With the number of such objects in a list.
+    directions: Vec<(ReadyDirection<'a>, Option<f64>)>,
     pub mw: Option<f64>,
 }
 
 impl<'a> ReadyObject<'a> {
     pub fn new(directions: &'a [RockingDirection], mw: Option<f64>) -> ReadyObject<'a> {
-        let ready =
-            |direction: &'a RockingDirection| ReadyDirection::new(&direction.structure, &direction.model, mw);
+        let ready = |RockingDirection { structure, model, count }: &'a RockingDirection| {
+            (ReadyDirection::new(structure, model, mw), *count)
+        };
         ReadyObject { directions: directions.iter().map(ready).collect(), mw }
     }
 
     pub fn at(&self, pga_m_s2: f64) -> ObjectAtPga<'_> {
-        ObjectAtPga(self.directions.iter().map(|direction| direction.at(pga_m_s2)).collect())
+        ObjectAtPga(self.directions.iter().map(|(one, count)| (one.at(pga_m_s2), *count)).collect())
     }
 
     pub fn limit_states(&self, peaks: Peaks, points: &[ModelPoint]) -> Vec<LimitStates<Option<f64>>> {
@@ -210,7 +214,7 @@ impl<'a> ReadyObject<'a> {
     }
 }
 
-pub(crate) struct ObjectAtPga<'a>(Vec<DirectionAtPga<'a>>);
+pub(crate) struct ObjectAtPga<'a>(Vec<(DirectionAtPga<'a>, Option<f64>)>);
 
 impl ObjectAtPga<'_> {
     /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none.
@@ -222,8 +226,18 @@ impl ObjectAtPga<'_> {
     ) {
         let mut motions = None;
         states.fill(LimitStates::all(Some(0.0)));
-        for direction in &self.0 {
+        let mut none_of = vec![LimitStates::all(Some(NoneOf::EMPTY)); points.len()];
+        for (direction, count) in &self.0 {
             direction.combine_into(ln_pgv_pga, &mut motions, points, states);
+            if let Some(count) = count {
+                for (none, of) in none_of.iter_mut().zip(&mut *states) {
+                    let one = std::mem::replace(of, LimitStates::all(Some(0.0)));
+                    *none = none.zip(one, |none, p| Some(none?.and(p?, *count)));
+                }
+            }
+        }
+        if self.0.iter().any(|(_, count)| count.is_some()) {
+            states.iter_mut().zip(none_of).for_each(|(of, none)| *of = none.map(|none| Some(none?.p_any())));
         }
     }
 }

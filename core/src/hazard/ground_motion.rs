@@ -38,7 +38,7 @@ pub struct GroundMotion {
 }
 
 /// With limits; empty where the model has no probability.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MotionProbabilities {
     pub states: LimitStates<Interval<Option<f64>>>,
     /// Standard deviations of the logit of the probability of overturning, by source.
@@ -138,12 +138,13 @@ impl ProbabilitySensitivity {
         let mut budget = Budget::new(&values, &self.at_quantiles, |states| states.get(state).map(logit));
         let Some((averaged, included)) = averaged.zip(included) else { return (budget, None) };
         let [fit, in_all] = [averaged, included].map(sd_of_limits);
-        budget.add(UncertaintySource::Fit, [fit, fit]);
+        budget.add(LowHigh { source: UncertaintySource::Fit, low: -fit, high: fit });
         let inferred = budget.source_sd(UncertaintySource::Magnitude).filter(|_| self.is_inferred);
         let between = (in_all.powi(2) - fit * fit - inferred.unwrap_or(0.0).powi(2)).max(0.0).sqrt();
         match (averaged.value, values.rocking) {
             (p, Some(rocking)) if p > 0.0 && p < 1.0 => {
-                (budget, Some(budget.limit_probability(p, rocking, between)))
+                let limits = budget.limit_probability(p, rocking, between);
+                (budget, Some(limits))
             }
             _ => (budget, Some(averaged)),
         }

@@ -7,7 +7,7 @@
 //! budget              the sources of uncertainty, and the limits by them
 //! ground_motion       the limit states under one motion, with limits
 //! conditional_motions the motions conditional on PGA or PGV, and their uncertainty
-//! ratio               the rate after a change over that before
+//! list                at least one of several objects, and their expected number
 //! share               the shares of a rate by intensity
 //! site                the rates of a structure at a site, with limits and warnings
 //! target              the base with which the rate of overturning is a target, all else unchanged
@@ -19,9 +19,9 @@ mod conditional_motions;
 mod curve;
 mod fragility_curve;
 mod ground_motion;
+mod list;
 mod pgv_pga;
 mod rates;
-mod ratio;
 mod share;
 mod site;
 mod target;
@@ -31,9 +31,9 @@ pub use conditional_motions::unusual_motions;
 pub use curve::{HazardCurve, HazardError};
 pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal};
 pub use ground_motion::{GroundMotion, MotionProbabilities};
+pub use list::{ListProbabilities, ListedObject};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
-pub use ratio::{RateBySource, ratio_of_rates};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 pub use target::{Bases, SLENDERNESSES, SearchEnd, Side};

@@ -30,6 +30,14 @@ pub enum UncertaintySource {
     Hazard,
 }
 
+impl UncertaintySource {
+    /// Whether it is the same for all objects of a list at a site.
+    pub fn is_of_site(self) -> bool {
+        use UncertaintySource::{Fit, Hazard, Magnitude, Velocity};
+        matches!(self, Fit | Magnitude | Velocity | Hazard)
+    }
+}
+
 /// An object in its directions, and its uncertainties.
 ///
 /// ```
@@ -119,7 +127,7 @@ impl RockingObject {
             }));
         }
         let directions = sides.into_iter().zip(models).map(|(side, model)| {
-            Some(RockingDirection { structure: side.structure, model: model.on(floor)? })
+            Some(RockingDirection { structure: side.structure, model: model.on(floor)?, count: None })
         });
         let problem = "period: the paper's model is that of the ground";
         let directions: Option<Vec<RockingDirection>> = directions.collect();
@@ -139,6 +147,18 @@ impl RockingObject {
         let sides = object.sides()?;
         let models = sides.iter().map(|side| Model::uncalibrated(kind, &side.structure, limit_state));
         RockingObject::new(object, models.collect())
+    }
+
+    /// One or more objects of a list, each as often as it is there: what happens to it happens to at least one
+    /// of them. What is unknown of each object is left out.
+    pub fn any_of<'a>(list: impl IntoIterator<Item = (&'a RockingObject, f64)>) -> RockingObject {
+        let directions = list.into_iter().flat_map(|(object, count)| {
+            object
+                .directions
+                .iter()
+                .map(move |direction| RockingDirection { count: Some(count), ..direction.clone() })
+        });
+        RockingObject { directions: directions.collect(), perturbations: Vec::new() }
     }
 
     pub fn perturbed(&self, perturbation: &Perturbation) -> Vec<RockingDirection> {
@@ -173,7 +193,8 @@ impl RockingObject {
     /// Warnings about hardly possible structures, and about predictions under a motion.
     pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
         let mut warnings = self.structure_warnings();
-        for RockingDirection { structure, model } in self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0)
+        for RockingDirection { structure, model, .. } in
+            self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0)
         {
             let measures = IntensityMeasures::new(structure, motion, None, None);
             warnings.extend(model.warnings(structure, &measures));

@@ -4,13 +4,12 @@
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
-    FragilityPoint, GenericSites, GroundMotion, Hazard, HazardCurve, Lognormal, PeakHazard, PgvPgaRatio,
-    RateBySource, Site, ratio_of_rates,
+    Budget, FragilityPoint, GenericSites, GroundMotion, Hazard, HazardCurve, ListProbabilities, ListedObject,
+    Lognormal, PeakHazard, PgvPgaRatio, Site, SiteRates, probability_in_years,
 };
-use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
-use strum::VariantArray;
 
 use crate::common::{close, pair, random};
 
@@ -149,30 +148,59 @@ fn of_one_ratio() -> Site {
 
 #[test]
 fn the_limits_of_a_ratio_are_those_of_draws_in_which_shared_unknowns_move_both() {
-    let [before, after] = [0.5, 0.6].map(|width| {
-        let rates = of_one_ratio().rates(&block(width));
-        let known = |source: &UncertaintySource| Some((*source, rates.budget.source_sd(*source)?));
-        RateBySource {
-            rate: rates.states.overturning.value.unwrap(),
-            sds: UncertaintySource::VARIANTS.iter().filter_map(known).collect(),
+    // The restitution of a base of 0.9 m ends where the model does: limits upwards are the wider ones.
+    for widths in [[0.5, 0.6], [0.6, 0.9]] {
+        let [before, after] = widths.map(|width| of_one_ratio().rates(&block(width)));
+        let [old, new] = [&before, &after].map(|rates| rates.states.overturning.value.unwrap());
+        let limits = |shared: bool| {
+            Budget::of_ratio(&before.budget, &after.budget, |_| shared).limit_rate(new / old, f64::INFINITY)
+        };
+        let mut random = random(7);
+        let mut draws: Vec<f64> = (0..1000)
+            .map(|_| {
+                let z: Vec<f64> = (0..5).map(|_| StandardNormal.sample(&mut random)).collect();
+                drawn(widths[1], &z) / drawn(widths[0], &z)
+            })
+            .collect();
+        draws.sort_by(f64::total_cmp);
+        let (ratio, apart) = (limits(true), limits(false));
+        for (limit, drawn) in [(ratio.low, draws[25]), (ratio.high, draws[974])] {
+            assert!((limit / drawn).ln().abs() < 0.15, "{limit} for {drawn}");
         }
-    });
-    let ratio = ratio_of_rates(&before, &after, |_| true);
-    assert!((ratio.value - drawn(0.6, &[0.0; 5]) / drawn(0.5, &[0.0; 5])).abs() < 1e-9, "two runs");
-    let mut random = random(7);
-    let mut draws: Vec<f64> = (0..1000)
-        .map(|_| {
-            let z: Vec<f64> = (0..5).map(|_| StandardNormal.sample(&mut random)).collect();
-            drawn(0.6, &z) / drawn(0.5, &z)
-        })
-        .collect();
-    draws.sort_by(f64::total_cmp);
-    for (limit, drawn) in [(ratio.low, draws[25]), (ratio.high, draws[974])] {
-        assert!((limit / drawn).ln().abs() < 0.15, "{limit} for {drawn}");
+        // What is not shared counts twice: the limits are wider.
+        assert!(apart.low < ratio.low && apart.high > ratio.high);
     }
-    // What is not shared counts twice: the limits are wider.
-    let apart = ratio_of_rates(&before, &after, |_| false);
-    assert!(apart.low < ratio.low && apart.high > ratio.high);
+}
+
+#[test]
+fn a_list_falls_as_its_objects_do_apart_or_together() {
+    let objects = [0.4, 0.5, 0.6].map(block);
+    for site in [
+        over_pga(),
+        Site::new(Hazard::Joint((1..13).map(|k| pair(k.into(), 0.1 * f64::from(k), 1e-3)).collect())),
+    ] {
+        let rates = objects.each_ref().map(|object| site.rates(object));
+        let listed = |number: usize, count: f64| {
+            let SiteRates { states, budget, .. } = &rates[number];
+            ListedObject { object: &objects[number], count, overturning: states.overturning, budget }
+        };
+        let rate = |number: usize| rates[number].states.overturning.estimate().unwrap();
+        // One object alone is what it is by itself.
+        let ListProbabilities { at_least_one, expected_number } = site.list(&[listed(0, 1.0)], 50.0);
+        for found in [at_least_one, expected_number].map(|found| found.estimate().unwrap()) {
+            let p = rate(0).map(|rate| probability_in_years(rate, 50.0));
+            for (found, expected) in [(found.value, p.value), (found.low, p.low), (found.high, p.high)] {
+                assert!((found / expected).ln().abs() < 0.02, "{found} for {expected}");
+            }
+        }
+        let all = [listed(0, 1.0), listed(1, 2.0), listed(2, 1.0)];
+        let ListProbabilities { at_least_one, expected_number } = site.list(&all, 1e-6);
+        let [one, number] = [at_least_one, expected_number].map(|found| found.estimate().unwrap());
+        let sum = rate(0).value + 2.0 * rate(1).value + rate(2).value;
+        assert!((number.value / (1e-6 * sum) - 1.0).abs() < 1e-4);
+        assert!(1e-6 * rate(0).value < one.value && one.value < number.value);
+        assert!(number.low < number.value && one.low < one.value && one.value < one.high);
+    }
 }
 
 #[test]

@@ -76,7 +76,7 @@ fn lognormal_over_both_peaks() -> RockingDirection {
     (overturning.coefficients, overturning.covariance) = (B.to_vec(), vec![0.0; 9]);
     let peaks = Model::uncalibrated(MotionKind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
-    RockingDirection { structure: Structure::new("slender", 1.0, 1e-3, 0.9).unwrap(), model }
+    RockingDirection { structure: Structure::new("slender", 1.0, 1e-3, 0.9).unwrap(), model, count: None }
 }
 
 /// The rate of Phi(c + d ln IM) over k0 IM^-k.
@@ -233,8 +233,8 @@ fn limits_are_those_of_normal_errors() {
         by(UncertaintySource::Object, |x| 1.0 + 1.2 * x.abs()),
     ];
     let mut budget = Budget::new(&1.0, &unknowns, |result| Some(*result));
-    budget.add(UncertaintySource::Fit, [0.3, 0.3]);
-    budget.add(UncertaintySource::Floor, [f64::NAN; 2]);
+    budget.add(LowHigh { source: UncertaintySource::Fit, low: -0.3, high: 0.3 });
+    budget.add(LowHigh { source: UncertaintySource::Floor, low: f64::NAN, high: f64::NAN });
     let [down, up] = budget.sds();
     assert!((down - 0.5).abs() < 1e-12 && (up - 1.3).abs() < 1e-12);
     assert_eq!(budget.largest(), Some(UncertaintySource::Object));
@@ -253,7 +253,7 @@ fn averages_over_pgv_pga_are_those_of_scipy() {
     for row in read::<Row>("fragility_answers.csv") {
         let (structure, over, mw) = (row.structure(), row.get("over"), row.text("mw").parse().ok());
         let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.2);
-        let directions = [RockingDirection { structure, model }];
+        let directions = [RockingDirection { structure, model, count: None }];
         let unit = if over == Peak::Pga { 9.81 } else { 1.0 };
         let intensity = unit * row.get::<f64>("intensity");
         let general = GenericSites { over, mw, vs30_m_s: None, ratio_s: None };

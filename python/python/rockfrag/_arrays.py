@@ -88,7 +88,7 @@ def simulate_motion(
 class FragilityCurve(_plots.Shown):
     """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); without a fit numbers are NaN."""
 
-    #: ok, poor_fit, wrong_sign, separated, too_few_events, degenerate or not_converged.
+    #: ok, poor_fit, few_events, wrong_sign, separated, too_few_events, degenerate or not_converged.
     status: str
     #: Cases, and those with the event.
     n: int

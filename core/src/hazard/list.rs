@@ -1,0 +1,99 @@
+use super::budget::Budget;
+use super::ground_motion::GroundMotion;
+use super::probability_in_years;
+use super::site::{Site, SiteRates};
+use crate::object::{LowHigh, RockingObject, UncertaintySource};
+use crate::statistics::Interval;
+use crate::statistics::normal::Z_95;
+use strum::VariantArray;
+
+/// An object of a list: how often it is there, and its annual rate or its probability of overturning.
+#[derive(Debug, Clone, Copy)]
+pub struct ListedObject<'a> {
+    pub object: &'a RockingObject,
+    pub count: f64,
+    pub overturning: Interval<Option<f64>>,
+    pub budget: &'a Budget,
+}
+
+/// What happens to the objects of a list, with 95 % limits; nothing if none may overturn.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct ListProbabilities {
+    /// The probability that one or more overturn.
+    pub at_least_one: Interval<Option<f64>>,
+    /// The expected number of those that overturn.
+    pub expected_number: Interval<Option<f64>>,
+}
+
+impl Site {
+    /// In so many years. What is unknown of the site moves all objects, what is unknown of an object moves it
+    /// alone.
+    pub fn list(&self, list: &[ListedObject], years: f64) -> ListProbabilities {
+        let list = may_overturn(list);
+        let number = |listed: &ListedObject, change: f64| {
+            let rate = listed.overturning.value.unwrap_or(0.0) * (Z_95 * change).exp();
+            listed.count * probability_in_years(rate, years)
+        };
+        let sum: f64 = list.iter().map(|listed| number(listed, 0.0)).sum();
+        let mut budget = Budget::default();
+        for &source in UncertaintySource::VARIANTS {
+            // How far each unknown of each object moves the number.
+            let moves = list.iter().map(|listed| {
+                let at = |change: &f64| number(listed, *change) - number(listed, 0.0);
+                listed.budget.of(source).map(|of| of.map(at)).collect()
+            });
+            let mut moves: Vec<Vec<LowHigh<f64>>> = moves.collect();
+            if source.is_of_site() {
+                let unknowns = 0..moves.iter().map(Vec::len).max().unwrap_or(0);
+                let joined = unknowns.map(|unknown| {
+                    let of_all = || moves.iter().filter_map(|of| of.get(unknown));
+                    let [low, high] = [of_all().map(|of| of.low).sum(), of_all().map(|of| of.high).sum()];
+                    LowHigh { source, low, high }
+                });
+                moves = vec![joined.collect()];
+            }
+            let moves = moves.into_iter().flatten();
+            budget.changes.extend(moves.map(|of| of.map(|moved| (moved / sum).ln_1p() / Z_95)));
+        }
+        if list.is_empty() {
+            return ListProbabilities::default();
+        }
+        let SiteRates { states, budget: mut of_any, .. } = self.rates(&any_of(&list));
+        of_any.changes.extend(budget.changes.iter().filter(|of| !of.source.is_of_site()));
+        let rates = states.overturning.value.zip(states.rocking.value);
+        let rate = rates.map_or(states.overturning, |(rate, most)| of_any.limit_rate(rate, most).into());
+        let count = list.iter().map(|listed| listed.count).sum();
+        ListProbabilities {
+            at_least_one: rate.map(|rate| probability_in_years(rate, years)),
+            expected_number: budget.limit_rate(sum, count).into(),
+        }
+    }
+}
+
+impl GroundMotion {
+    /// Limits hold the spread between earthquakes, which moves all objects; those of at least one leave out
+    /// what is unknown of each object.
+    pub fn list(&self, list: &[ListedObject]) -> ListProbabilities {
+        let list = may_overturn(list);
+        let sum = |end: fn(Interval<Option<f64>>) -> Option<f64>| {
+            list.iter().map(|listed| Some(listed.count * end(listed.overturning)?)).sum()
+        };
+        if list.is_empty() {
+            return ListProbabilities::default();
+        }
+        ListProbabilities {
+            at_least_one: self.probabilities(&any_of(&list)).states.overturning,
+            expected_number: Interval { value: sum(|p| p.value), low: sum(|p| p.low), high: sum(|p| p.high) },
+        }
+    }
+}
+
+fn may_overturn<'a>(list: &[ListedObject<'a>]) -> Vec<ListedObject<'a>> {
+    let all = list.iter().copied();
+    all.filter(|listed| listed.count > 0.0 && listed.overturning.value > Some(0.0)).collect()
+}
+
+fn any_of(list: &[ListedObject]) -> RockingObject {
+    RockingObject::any_of(list.iter().map(|listed| (listed.object, listed.count)))
+}
