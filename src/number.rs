@@ -40,17 +40,9 @@ impl Style {
         (self.number)(value) + self.unit
     }
 
-    fn range(self, low: f64, high: f64) -> String {
-        format!("{} to {}", (self.number)(low), self.one(high))
-    }
-
-    /// Writes a value without its limits; without a value the limits: `0.50 to 0.98 %`.
+    /// Writes a value without its limits.
     pub fn value(self, of: Interval<Option<f64>>) -> String {
-        match (of.value, of.low, of.high) {
-            (Some(value), ..) => self.one(value),
-            (None, Some(low), Some(high)) => self.range(low, high),
-            _ => "-".to_string(),
-        }
+        of.value.map_or("-".to_string(), |value| self.one(value))
     }
 
     /// Writes the limits of a value behind it, after words that name them: ` (95 % limits 0.50 to 0.98 %)`.
@@ -62,7 +54,7 @@ impl Style {
     /// Writes the limits of a value alone.
     pub fn span(self, of: Interval<Option<f64>>) -> String {
         let limits = of.low.zip(of.high).filter(|_| of.value.is_some());
-        limits.map_or(String::new(), |(low, high)| self.range(low, high))
+        limits.map_or(String::new(), |(low, high)| format!("{} to {}", (self.number)(low), self.one(high)))
     }
 
     pub fn both(self, of: Interval<Option<f64>>, words: &str) -> String {

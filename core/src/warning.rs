@@ -22,7 +22,6 @@ pub enum Warning {
     ImplausibleSize,
     LowRestitution,
     HazardEndsEarly,
-    HazardExtrapolated,
     HazardStartsLate,
     MedianHazard,
     UnusualMagnitude,
@@ -58,8 +57,9 @@ impl Warning {
             LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
             ImplausibleSize => "taller or more slender than all but a few monuments: a wrong unit?",
             LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
-            HazardEndsEarly => "the hazard curve ends too early: the result is a range",
-            HazardExtrapolated => "the hazard curve is extrapolated beyond its last point",
+            HazardEndsEarly => {
+                "the hazard curve ends too early: its last slope is continued, with wide limits"
+            }
             HazardStartsLate => "the hazard curve starts above the uplift intensity: rates are too low",
             MedianHazard => "a median hazard curve, usually below the mean: rates are too low",
             UnusualMagnitude => {

@@ -206,7 +206,7 @@ impl Answer {
         Ok((answer, Some((rocking, budget))))
     }
 
-    /// Whether it has an answer: a probability, a range of it, or a fragility.
+    /// Whether it has an answer: a probability or a fragility.
     pub fn is_answered(&self) -> bool {
         self.severity() >= 0.0
     }

@@ -132,8 +132,7 @@ impl TreeColumns {
     }
 }
 
-/// Probabilities of the limit states: under a motion, or in the time of exposure. Where the hazard ends too
-/// early for a value there is a range alone, in the columns of limits.
+/// Probabilities of the limit states: under a motion, or in the time of exposure.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct StateColumns {
@@ -158,14 +157,12 @@ pub struct RateColumns {
     pub overturning_per_year: Interval<Option<f64>>,
     pub return_period_years: Option<f64>,
     pub years: Option<f64>,
-    /// Whether the hazard ends too early for a rate of overturning.
-    pub is_range: Option<bool>,
     /// What each unknown changes in ln of the rate of overturning at its low and high quantile, by standard
     /// deviation: `eta -0.36 0.31; velocity -0.4 0.4`.
     pub rate_changes: Option<String>,
     /// Source of PGV / PGA.
     pub velocity_by: Option<VelocitySource>,
-    /// Share of the rate of overturning beyond the last point of a curve that is extrapolated.
+    /// Share of the rate of overturning beyond the last point of the hazard curve.
     pub share_extrapolated: Option<f64>,
     /// Probability of overturning that is aimed at.
     pub target: Option<f64>,
@@ -181,7 +178,6 @@ impl RateColumns {
             overturning_per_year: overturning,
             return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
             years: Some(years),
-            is_range: overturning.low.map(|_| overturning.value.is_none()),
             rate_changes: overturning.value.map(|_| changes_in_words(&rates.budget)),
             velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,

@@ -52,7 +52,7 @@ pub fn document(table: &AnswerTable) -> Document {
 fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
-    let how_often = worst.how_often(table.hazard.as_ref());
+    let how_often = worst.how_often();
     match how_often.strip_prefix("overturns ") {
         _ if table.rows.len() == 1 => format!("{name} {how_often}."),
         Some(often) => format!("{name} is the most likely to overturn: {often}."),
@@ -198,13 +198,11 @@ fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
     fragility.over.map_or(String::new(), |over| intensity_cells(over, &fragility.overturning)[cell].clone())
 }
 
-/// The limits, or the range without a value.
 fn limits(answer: &Answer) -> String {
     if answer.fragility.over.is_some() {
         return of_fragility(answer, 1);
     }
-    let p = answer.p.p_overturning;
-    answered(answer, if p.value.is_some() { OF_HUNDRED.span(p) } else { OF_HUNDRED.value(p) })
+    answered(answer, OF_HUNDRED.span(answer.p.p_overturning))
 }
 
 /// Of a fragility there is none.

@@ -20,9 +20,7 @@ pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
     Document {
         title: answer.object.title(),
         place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),
-        lead: iter::once(format!("It {}.", answer.how_often(hazard)))
-            .chain(answer.about_target(""))
-            .collect(),
+        lead: iter::once(format!("It {}.", answer.how_often())).chain(answer.about_target("")).collect(),
         tiles: tiles(&when, variants, table),
         facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),

@@ -9,11 +9,11 @@ use rockfrag_core::hazard::{
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
-use rockfrag_core::warning::UNNAMED;
+use rockfrag_core::warning::{UNNAMED, Warning};
 
 use crate::answer::{Answer, ObjectColumns, UncertaintyColumns, over_all};
 use crate::chart::text::literal;
-use crate::number::{self, PERCENT, RATE, count, fixed, period, plain, significant};
+use crate::number::{self, PERCENT, count, fixed, period, plain, significant};
 
 impl ObjectColumns {
     /// The name; none where it was given without one.
@@ -114,8 +114,8 @@ impl Answer {
         self.p.p_rocking.is_some_and(|p| p > 0.0)
     }
 
-    /// How likely it is to overturn, with limits or bounds: the sentence that begins with the object.
-    pub fn how_often(&self, hazard: Option<&Hazard>) -> String {
+    /// How likely it is to overturn, with limits: the sentence that begins with the object.
+    pub fn how_often(&self) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
         let limits = PERCENT.limits(p, "95 % limits ");
         let halves = over_all([self]).filter_map(|Answer { fragility, .. }| {
@@ -136,18 +136,6 @@ impl Answer {
             }
             (_, Interval { value: Some(rate), .. }) => {
                 format!("overturns once in {} years; {} {when}{limits}", period(1.0 / rate), PERCENT.value(p))
-            }
-            (_, bounds @ Interval { low: Some(_), high: Some(_), .. }) => {
-                let end = match hazard {
-                    Some(Hazard::Curve(PeakHazard { peak, curve, .. })) => {
-                        let [_, (last, rate)] = curve.ends();
-                        let years = count((1.0 / rate).round() as usize);
-                        format!(": the curve ends at {} (once in {years} years)", with_unit(*peak, last))
-                    }
-                    _ => ": the hazard ends too early for one number".to_string(),
-                };
-                let bounds = RATE.value(bounds).replacen(" to ", " and ", 1);
-                format!("overturns between {bounds} times a year, {} {when}{end}", PERCENT.value(p))
             }
             _ => {
                 "has no rate of overturning: its model has no probability for some of the motions".to_string()
@@ -180,7 +168,7 @@ impl Answer {
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
         let Some(base) = self.base(|side| side.value) else {
             let anchored = "Anchored, it would not rock.";
-            return Some(format!("No base{whose} reaches {target}: {why_none}. {anchored}"));
+            return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
         };
         let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.value.is_none());
         let depth = depth.map_or(String::new(), |depth| {
@@ -198,7 +186,7 @@ impl Answer {
         match self.rates.bases.target_end {
             None => "its width and height are not known".to_string(),
             Some(SearchEnd::Model) => format!("the model ends at a slenderness of {}", SLENDERNESSES[1]),
-            Some(SearchEnd::Hazard) => "the hazard curve ends too early (--extrapolate)".to_string(),
+            Some(SearchEnd::Hazard) => "the hazard curve ends too early".to_string(),
         }
     }
 
@@ -213,6 +201,24 @@ impl Answer {
         let up = |side_m: f64| number::length((1e3 * side_m - 1e-6).ceil() / 1e3);
         let depth = object.depth_m.map(|depth| format!(" × {}", up(depth.max(least))));
         Some(format!("{}{} m", up(width), depth.unwrap_or_default()))
+    }
+
+    /// What of its rate lies beyond a curve that ends too early.
+    fn beyond_the_curve(&self, hazard: Option<&Hazard>) -> Option<String> {
+        let is_early = self.uncertainty.warnings().contains(&Warning::HazardEndsEarly);
+        let share = PERCENT.one(self.rates.share_extrapolated.filter(|_| is_early)?);
+        let end = match hazard {
+            Some(Hazard::Curve(PeakHazard { peak, curve, .. })) => {
+                let [_, (last, rate)] = curve.ends();
+                let years = count((1.0 / rate).round() as usize);
+                format!(", {} (once in {years} years)", with_unit(*peak, last))
+            }
+            _ => String::new(),
+        };
+        Some(format!(
+            "{share} of the rate lies beyond the end of the hazard curve{end}, continued by its last slope: \
+             the limits hold for none and for each of these motions overturning it."
+        ))
     }
 
     /// Why there is no answer.
@@ -286,8 +292,7 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 /// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let worst = all[0];
-    let share = worst.rates.share_extrapolated.map(|share| PERCENT.one(share));
-    let beyond = share.map(|share| format!("{share} of the rate lies beyond the curve."));
+    let beyond = worst.beyond_the_curve(hazard);
     let valid = match all {
         [one] => {
             let friction = one.object.friction_needed().map(|friction| fixed(friction, 2));

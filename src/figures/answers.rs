@@ -10,7 +10,7 @@ use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns, Usual, over_all};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::document::phrases::of_source;
-use crate::number::{self, OF_HUNDRED, PERCENT, count, counted, significant};
+use crate::number::{self, PERCENT, count, counted, significant};
 
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 150.0;
@@ -307,11 +307,7 @@ pub struct ProbabilityRow {
 impl ProbabilityRow {
     /// A row of one probability, with its value at its end.
     fn new(name: &str, ink: Ink, label: &'static str, p: Interval<Option<f64>>) -> ProbabilityRow {
-        let words = match (p.value, p.high) {
-            (None, Some(high)) => format!("< {} %", OF_HUNDRED.one(high)),
-            _ => PERCENT.value(p),
-        };
-        ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words }
+        ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words: PERCENT.value(p) }
     }
 }
 

@@ -108,7 +108,7 @@ fn value_of(option: &str) -> &'static str {
         "structures" => "paper",
         "over" => "pga",
         "suite" => "pulse",
-        "extrapolate" | "variants" => "true",
+        "variants" => "true",
         "target" => "1%",
         "vs30" | "effective-years" => "400",
         "partition" => "0/2",

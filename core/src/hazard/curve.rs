@@ -74,13 +74,14 @@ impl HazardCurve {
         [self.points[0], self.points[self.points.len() - 1]]
     }
 
-    /// Continued to ten times the last intensity with the slope of the last two points.
-    pub fn extrapolated(&self) -> HazardCurve {
-        const FURTHER: f64 = 10.0;
+    /// Continued to an intensity, if it ends before, with the slope of the last two points.
+    pub fn continued(&self, to: f64) -> HazardCurve {
         let mut points = self.points.clone();
         let [(low, rate), (high, rate_at_high)] = [points[points.len() - 2], points[points.len() - 1]];
-        let slope = (rate / rate_at_high).ln() / (high / low).ln();
-        points.push((FURTHER * high, (rate_at_high * FURTHER.powf(-slope)).max(f64::MIN_POSITIVE)));
+        if high < to {
+            let slope = (rate / rate_at_high).ln() / (high / low).ln();
+            points.push((to, (rate_at_high * (to / high).powf(-slope)).max(f64::MIN_POSITIVE)));
+        }
         HazardCurve { points }
     }
 
@@ -117,10 +118,8 @@ impl HazardCurve {
         widest: f64,
         probabilities: impl Fn(f64) -> [f64; N],
     ) -> [f64; N] {
-        let [_, (last, rate_beyond)] = self.ends();
-        let beyond = Node { intensity: last, annual_rate: rate_beyond };
         let mut rates = [0.0; N];
-        for node in self.nodes(breaks, widest).into_iter().chain([beyond]) {
+        for node in self.nodes(breaks, widest) {
             for (sum, p) in rates.iter_mut().zip(probabilities(node.intensity)) {
                 *sum += p * node.annual_rate;
             }
@@ -128,11 +127,12 @@ impl HazardCurve {
         rates
     }
 
-    /// Nodes of the quadrature, rising. A probability is taken as the polynomial through its values at the
-    /// nodes of each panel of ln IM, at most `widest` and none across one of `breaks`, where it jumps or
-    /// bends: the points of the curve need no panels of their own.
+    /// Nodes of the quadrature, rising; the last stands for all motions beyond the curve. A probability is
+    /// taken as the polynomial through its values at the nodes of each panel of ln IM, at most `widest` and
+    /// none across one of `breaks`, where it jumps or bends: the points of the curve need no panels of their
+    /// own.
     pub(super) fn nodes(&self, breaks: &[f64], widest: f64) -> Vec<Node> {
-        let [(first, _), (last, _)] = self.ends();
+        let [(first, _), (last, rate_beyond)] = self.ends();
         let mut edges = vec![first.ln(), last.ln()];
         edges.extend(breaks.iter().filter(|im| first < **im && **im < last).map(|im| im.ln()));
         edges.sort_by(f64::total_cmp);
@@ -140,7 +140,8 @@ impl HazardCurve {
         edges.dedup_by(|a, b| *a - *b < 1e-12);
         let panels = edges.windows(2).flat_map(|edge| panels(edge[0], edge[1], widest));
         let nodes = panels.flat_map(|panel| panel.nodes_of(self.masses(panel)));
-        nodes.map(|(ln_im, annual_rate)| Node { intensity: ln_im.exp(), annual_rate }).collect()
+        let nodes = nodes.map(|(ln_im, annual_rate)| Node { intensity: ln_im.exp(), annual_rate });
+        nodes.chain([Node { intensity: last, annual_rate: rate_beyond }]).collect()
     }
 
     /// ln IM within a panel, with its annual rate.

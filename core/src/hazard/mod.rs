@@ -33,7 +33,7 @@ pub use fragility_curve::{Fragility, FragilityPoint, GenericSites, Lognormal};
 pub use ground_motion::{GroundMotion, MotionProbabilities};
 pub use list::{ListProbabilities, ListedObject};
 pub use pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
-pub use rates::{PairOfPeaks, Rate, exceedance, rates_over_curve};
+pub use rates::{PairOfPeaks, exceedance, rates_over_curve};
 pub use share::RateByIntensity;
 pub use site::{Hazard, PeakHazard, Site, SiteRates, strongest};
 pub use target::{Bases, SLENDERNESSES, SearchEnd, Side};

@@ -1,8 +1,10 @@
 //! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
 use super::curve::{HazardCurve, Node};
+use super::site::strongest;
 use crate::fragility::{GivenPeak, LimitStates, ModelPoint, ReadyObject, RockingDirection};
 use crate::motion::Peaks;
+use crate::statistics::Interval;
 
 /// Motions of one bin of PGA and PGV; the bins of a hazard do not overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,75 +30,48 @@ pub fn exceedance(bins: &[PairOfPeaks], peak: impl Fn(&PairOfPeaks) -> f64) -> V
     values
 }
 
-/// A mean annual rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rate {
-    pub value: f64,
-    /// The part above the last intensity of the curve, with the probability at that intensity.
-    pub at_last: f64,
-    /// What is added if each stronger motion causes the event.
-    pub beyond: f64,
-}
-
-/// Fraction of a rate that motions beyond the last intensity may add while its value still counts.
-const NEGLIGIBLE: f64 = 0.1;
-
-impl Rate {
-    /// Whether motions beyond the last intensity may add too much.
-    pub(super) fn is_open(&self) -> bool {
-        self.beyond > NEGLIGIBLE * self.value
-    }
-
-    /// The rate if no motion above the last intensity causes the event.
-    pub fn least(&self) -> f64 {
-        self.value - self.at_last
-    }
-
-    /// The rate if each motion above the last intensity causes the event.
-    pub fn most(&self) -> f64 {
-        self.value + self.beyond
-    }
-}
-
-/// None where the model has no probability.
-pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Rate>> {
+/// None where the model has no probability. The limits are those if no motion beyond the last intensity causes
+/// the event, and if each does.
+pub fn rates_over_curve(given_peak: &GivenPeak, curve: &HazardCurve) -> LimitStates<Option<Interval>> {
     OverCurve::new(given_peak, curve, &[ModelPoint::Estimate]).rates(0)
 }
 
-/// The probabilities of an object, at each model point, at the nodes of a hazard curve and at its last
-/// intensity, which stands for all beyond.
+/// The probabilities of an object, at each model point, at the nodes of a hazard curve.
 pub(super) struct OverCurve {
-    within: Vec<(Node, Vec<LimitStates<Option<f64>>>)>,
-    beyond: (Node, Vec<LimitStates<Option<f64>>>),
+    nodes: Vec<(Node, Vec<LimitStates<Option<f64>>>)>,
+    /// How many lie on the curve: the others are where it is continued, to the strongest motions.
+    given: usize,
 }
 
 impl OverCurve {
     pub fn new(given_peak: &GivenPeak, curve: &HazardCurve, points: &[ModelPoint]) -> OverCurve {
+        let ([_, (last, _)], end) = (curve.ends(), strongest(given_peak.peak));
+        let breaks = [given_peak.breaks(), vec![last]].concat();
+        let nodes = curve.continued(end).nodes(&breaks, given_peak.widest_panel());
+        let given = nodes.partition_point(|node| node.intensity < last || last >= end);
         let at = |node: Node| (node, given_peak.at_points(node.intensity, points));
-        let [_, (intensity, annual_rate)] = curve.ends();
-        let nodes = curve.nodes(&given_peak.breaks(), given_peak.widest_panel()).into_iter();
-        OverCurve { within: nodes.map(at).collect(), beyond: at(Node { intensity, annual_rate }) }
+        OverCurve { nodes: nodes.into_iter().map(at).collect(), given }
     }
 
-    pub fn rates(&self, point: usize) -> LimitStates<Option<Rate>> {
-        let mut sums = LimitStates::all(Some(0.0));
-        for (node, states) in self.within.iter().chain([&self.beyond]) {
-            sums = sums.zip(states[point], |sum, p| Some(sum? + p? * node.annual_rate));
+    pub fn rates(&self, point: usize) -> LimitStates<Option<Interval>> {
+        let mut sums = LimitStates::all(Some(Interval::default()));
+        for (k, (node, states)) in self.nodes.iter().enumerate() {
+            sums = sums.zip(states[point], |sum, p| {
+                let (p, is_given) = (p?, k < self.given);
+                let [low, high] = if is_given { [p, p] } else { [0.0, 1.0] };
+                Some(sum?.zip(Interval { value: p, low, high }, |sum, p| sum + p * node.annual_rate))
+            });
         }
-        let annual_rate = self.beyond.0.annual_rate;
-        sums.zip(self.beyond.1[point], |value, at_last| {
-            let (value, at_last) = value.zip(at_last)?;
-            let beyond = (1.0 - at_last).max(0.0) * annual_rate;
-            Some(Rate { value, at_last: at_last * annual_rate, beyond })
-        })
+        sums
     }
 
-    /// The intensity above which half of the annual rate of overturning comes from; the last without a rate.
+    /// The intensity above which half of the annual rate of overturning comes from; the last of the curve
+    /// without a rate.
     pub fn median_intensity(&self) -> f64 {
         let half = self.rates(0).overturning.map_or(f64::INFINITY, |rate| 0.5 * rate.value);
         // Half of the rate at a node lies below it, half above.
         let (mut before, mut below, mut last) = (0.0, 0.0, None);
-        for (node, states) in &self.within {
+        for (node, states) in &self.nodes {
             let rate = states[0].overturning.unwrap_or(0.0) * node.annual_rate;
             let at_node = below + 0.5 * rate;
             let from = last.replace(node.intensity).unwrap_or(node.intensity);
@@ -105,7 +80,7 @@ impl OverCurve {
             }
             (before, below) = (at_node, below + rate);
         }
-        self.beyond.0.intensity
+        self.nodes[self.given - 1].0.intensity
     }
 }
 
@@ -115,7 +90,7 @@ pub(super) fn rates_over_pairs(
     mw: Option<f64>,
     bins: &[PairOfPeaks],
     points: &[ModelPoint],
-) -> Vec<LimitStates<Option<Rate>>> {
+) -> Vec<LimitStates<Option<Interval>>> {
     let mut ready = ReadyObject::new(directions, mw);
     let mut rates = vec![LimitStates::all(Some(0.0)); points.len()];
     for bin in bins {
@@ -127,6 +102,5 @@ pub(super) fn rates_over_pairs(
             *rate = rate.zip(states, |sum, p| Some(sum? + p? * bin.annual_rate));
         }
     }
-    let rates = rates.into_iter();
-    rates.map(|rate| rate.map(|value| Some(Rate { value: value?, at_last: 0.0, beyond: 0.0 }))).collect()
+    rates.into_iter().map(|rate| rate.map(|rate| rate.map(Interval::exact))).collect()
 }

@@ -1,4 +1,4 @@
-use super::site::{Hazard, Site};
+use super::site::{Hazard, Site, strongest};
 use crate::fragility::{ModelPoint, ReadyObject};
 use crate::object::RockingObject;
 use crate::statistics::numerics::equal_ratios;
@@ -12,7 +12,7 @@ pub struct RateByIntensity {
     pub edges: Vec<f64>,
     /// Annual rate of overturning within each bin.
     pub rates: Vec<f64>,
-    /// Annual rate of overturning by motions above the last edge.
+    /// Annual rate of overturning by motions beyond the curve, which is continued.
     pub beyond: f64,
 }
 
@@ -23,14 +23,16 @@ impl Site {
         match &self.hazard {
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, object).given(&object.directions, 0.0);
-                let curve = self.integrated(hazard, &given, &[ModelPoint::Estimate]).curve;
-                let [(first, _), (last, rate_beyond)] = curve.ends();
+                let [(first, _), (last, _)] = hazard.curve.ends();
                 let mut split = RateByIntensity::new(first, last, bins);
-                let probability = |intensity: f64| given.limit_states(intensity).overturning.unwrap_or(0.0);
+                let curve = hazard.curve.continued(strongest(hazard.peak));
                 for node in curve.nodes(&[&split.edges[..], &given.breaks()].concat(), PANEL) {
-                    split.add(node.intensity, probability(node.intensity) * node.annual_rate);
+                    let p = given.limit_states(node.intensity).overturning.unwrap_or(0.0);
+                    match node.intensity < last {
+                        true => split.add(node.intensity, p * node.annual_rate),
+                        false => split.beyond += p * node.annual_rate,
+                    }
                 }
-                split.beyond = probability(last) * rate_beyond;
                 split
             }
             Hazard::Joint(pairs) => {

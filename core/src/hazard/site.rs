@@ -6,14 +6,13 @@ use super::conditional_motions::{
 };
 use super::curve::HazardCurve;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
-use super::rates::{OverCurve, PairOfPeaks, Rate, rates_over_curve, rates_over_pairs};
-use crate::fragility::{
-    AssumedMagnitude, GivenPeak, LimitState, LimitStates, ModelPoint, Peak, RockingDirection,
-};
+use super::rates::{OverCurve, PairOfPeaks, rates_over_curve, rates_over_pairs};
+use crate::fragility::{AssumedMagnitude, LimitState, LimitStates, ModelPoint, Peak, RockingDirection};
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::plausibility::{STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use crate::statistics::Interval;
+use crate::statistics::normal::Z_95;
 use crate::units::G_M_S2;
 use crate::warning::Warning;
 
@@ -61,6 +60,9 @@ impl Hazard {
 /// The least annual rate whose logarithm is taken: once in 1e12 years.
 pub(super) const LEAST: f64 = 1e-12;
 
+/// The upper limit of a rate over the lower, by motions beyond the hazard curve, above which it ends too early.
+const EARLY: f64 = 1.2;
+
 /// PGA (m/s2) or PGV (m/s) beyond which nothing was ever recorded: a curve that reaches it cannot end too
 /// early.
 pub fn strongest(peak: Peak) -> f64 {
@@ -78,13 +80,11 @@ pub struct Site {
     /// with PGV alone. Without it, see [`SiteRates::magnitude`].
     pub mw: Option<f64>,
     pub vs30_m_s: Option<f64>,
-    /// Whether to extrapolate a curve that ends too early.
-    pub extrapolate: bool,
 }
 
-/// Annual rates of an object, with 95 % limits; empty where the model has no probability. Where the hazard
-/// ends too early for a value there are limits alone: the lower one if no motion beyond the curve has the
-/// effect, the upper one if each has.
+/// Annual rates of an object, with 95 % limits; empty where the model has no probability. A curve is continued
+/// beyond its last point by its last slope, and the limits contain that no motion there has the effect, and
+/// that each has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteRates {
     pub states: LimitStates<Interval<Option<f64>>>,
@@ -92,7 +92,7 @@ pub struct SiteRates {
     pub budget: Budget,
     /// Source of PGV / PGA; none where the hazard has both peaks of each motion.
     pub pgv_pga_source: Option<VelocitySource>,
-    /// Share of the rate of overturning beyond the last point of an extrapolated curve.
+    /// Share of the rate of overturning beyond the last point of a curve.
     pub beyond: Option<f64>,
     /// A motion above which half of the rate of overturning lies; of a joint hazard the strongest.
     pub motion: Peaks,
@@ -103,13 +103,13 @@ pub struct SiteRates {
 
 /// Rates with all that is uncertain at its median, and with each source at its quantiles.
 struct RateSensitivity {
-    rates: LimitStates<Option<Rate>>,
-    at_quantiles: Vec<LowHigh<LimitStates<Option<Rate>>>>,
+    rates: LimitStates<Option<Interval>>,
+    at_quantiles: Vec<LowHigh<LimitStates<Option<Interval>>>>,
 }
 
 impl Site {
     pub fn new(hazard: Hazard) -> Site {
-        Site { hazard, mw: None, vs30_m_s: None, extrapolate: false }
+        Site { hazard, mw: None, vs30_m_s: None }
     }
 
     /// Mean annual rates, 1/year, with 95 % limits; see [`SiteRates`] for what is none.
@@ -131,13 +131,13 @@ impl Site {
                     magnitude = object.directions[0].model.inferred_magnitude(motion);
                 }
                 let warnings = unusual_motions(self.mw, None).collect();
-                let rates = RateSensitivity::new(all, at_quantiles).with_limits(motion, false);
+                let rates = RateSensitivity::new(all, at_quantiles).with_limits(motion);
                 SiteRates { magnitude, warnings, ..rates }
             }
         }
     }
 
-    /// The value of [`Site::rates`] alone; none where the hazard ends too early for it.
+    /// The value of [`Site::rates`] alone.
     pub fn overturning(&self, object: &RockingObject) -> Option<f64> {
         let rates = match &self.hazard {
             Hazard::Joint(bins) => {
@@ -145,32 +145,10 @@ impl Site {
             }
             Hazard::Curve(hazard) => {
                 let given = self.motions(hazard, object).given(&object.directions, 0.0);
-                let Integrated { over, ends_early, .. } =
-                    self.integrated(hazard, &given, &[ModelPoint::Estimate]);
-                Some(over.rates(0)).filter(|_| !ends_early)?
+                rates_over_curve(&given, &hazard.curve)
             }
         };
         Some(rates.overturning?.value)
-    }
-
-    /// The estimate is the first point. A curve that ends too early is extrapolated if `extrapolate`.
-    pub(super) fn integrated(
-        &self,
-        hazard: &PeakHazard,
-        given: &GivenPeak,
-        points: &[ModelPoint],
-    ) -> Integrated {
-        let (curve, over) = (hazard.curve.clone(), OverCurve::new(given, &hazard.curve, points));
-        let [_, (last, _)] = curve.ends();
-        let known = over.rates(0).overturning;
-        let early = known.filter(|rate| last < strongest(hazard.peak) && rate.is_open());
-        let Some(known) = early.filter(|_| self.extrapolate) else {
-            return Integrated { curve, over, ends_early: early.is_some(), beyond: None };
-        };
-        let curve = curve.extrapolated();
-        let over = OverCurve::new(given, &curve, points);
-        let beyond = over.rates(0).overturning.map(|rate| 1.0 - known.least() / rate.value);
-        Integrated { curve, over, ends_early: false, beyond }
     }
 
     /// What is not given of the motions is at its median.
@@ -184,65 +162,50 @@ impl Site {
         let motions = self.motions(hazard, object);
         let middle = motions.given(&object.directions, 0.0);
         let points = ModelPoint::at_errors(&object.directions);
-        let Integrated { curve, over, ends_early, beyond } = self.integrated(hazard, &middle, &points);
-        let mut at_quantiles = motions.at_quantiles(object, |given| rates_over_curve(given, &curve));
+        let over = OverCurve::new(&middle, &hazard.curve, &points);
+        let mut at_quantiles = motions.at_quantiles(object, |given| rates_over_curve(given, &hazard.curve));
         if let Some([low, high]) = &hazard.fractiles {
-            at_quantiles.push(LowHigh { source: UncertaintySource::Hazard, low, high }.map(|fractile| {
-                match beyond {
-                    Some(_) => rates_over_curve(&middle, &fractile.extrapolated()),
-                    None => rates_over_curve(&middle, fractile),
-                }
-            }));
+            let fractiles = LowHigh { source: UncertaintySource::Hazard, low, high };
+            at_quantiles.push(fractiles.map(|curve| rates_over_curve(&middle, curve)));
         }
+        let by_point: Vec<_> = (0..points.len()).map(|point| over.rates(point)).collect();
+        let rate = by_point[0].overturning.unwrap_or_default();
         let motion = middle.peaks(over.median_intensity(), 0.0);
         let [(first, _), _] = hazard.curve.ends();
         let vs30_m_s = self.vs30_m_s.filter(|_| hazard.pgv_pga.is_none());
         let warnings = [
-            beyond.map(|_| Warning::HazardExtrapolated),
-            ends_early.then_some(Warning::HazardEndsEarly),
+            (rate.high > EARLY * rate.low).then_some(Warning::HazardEndsEarly),
             hazard.is_median.then_some(Warning::MedianHazard),
             (first > middle.uplift().usual).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {
             pgv_pga_source: Some(motions.pgv_pga.source),
-            beyond,
+            beyond: (rate.value > 0.0).then(|| 1.0 - rate.low / rate.value),
             magnitude: motions.magnitude(&object.directions[0].model, motion),
             warnings: warnings.into_iter().flatten().chain(unusual_motions(self.mw, vs30_m_s)).collect(),
-            ..RateSensitivity::new((0..points.len()).map(|point| over.rates(point)).collect(), at_quantiles)
-                .with_limits(motion, ends_early)
+            ..RateSensitivity::new(by_point, at_quantiles).with_limits(motion)
         }
     }
-}
-
-pub(super) struct Integrated {
-    pub curve: HazardCurve,
-    pub over: OverCurve,
-    /// Whether the curve ends too early for the rate of overturning.
-    pub ends_early: bool,
-    /// Share of that rate beyond the last point of an extrapolated curve.
-    pub beyond: Option<f64>,
 }
 
 impl RateSensitivity {
     /// `by_point` are the rates at [`ModelPoint::at_errors`], `at_quantiles` those of other sources.
     fn new(
-        by_point: Vec<LimitStates<Option<Rate>>>,
-        mut at_quantiles: Vec<LowHigh<LimitStates<Option<Rate>>>>,
+        by_point: Vec<LimitStates<Option<Interval>>>,
+        mut at_quantiles: Vec<LowHigh<LimitStates<Option<Interval>>>>,
     ) -> RateSensitivity {
         at_quantiles.extend(LowHigh::from_fit_errors(&by_point));
         RateSensitivity { rates: by_point[0], at_quantiles }
     }
 
-    /// `ends_early`: where the hazard ends too early for values.
-    fn with_limits(&self, motion: Peaks, ends_early: bool) -> SiteRates {
-        let is_rocking_early = ends_early && self.rates.rocking.is_some_and(|rate| rate.is_open());
+    fn with_limits(&self, motion: Peaks) -> SiteRates {
         SiteRates {
             states: LimitStates {
-                rocking: self.limited(LimitState::Rocking, is_rocking_early),
-                failure: self.limited(LimitState::Failure, ends_early),
-                overturning: self.limited(LimitState::Overturning, ends_early),
+                rocking: self.limited(LimitState::Rocking),
+                failure: self.limited(LimitState::Failure),
+                overturning: self.limited(LimitState::Overturning),
             },
-            budget: self.budget(LimitState::Overturning, |rate| rate.value),
+            budget: self.budget(LimitState::Overturning),
             pgv_pga_source: None,
             beyond: None,
             motion,
@@ -251,25 +214,25 @@ impl RateSensitivity {
         }
     }
 
-    fn limited(&self, state: LimitState, ends_early: bool) -> Interval<Option<f64>> {
+    fn limited(&self, state: LimitState) -> Interval<Option<f64>> {
         let Some((rate, rocking)) = self.rates.get(state).zip(self.rates.rocking) else {
             return Interval::default();
         };
-        let limited = |at: fn(&Rate) -> f64| self.budget(state, at).limit_rate(at(&rate), rocking.most());
-        match ends_early {
-            false => self.budget(state, |rate| rate.value).limit_rate(rate.value, rocking.value).into(),
-            true => Interval {
-                value: None,
-                low: Some(limited(Rate::least).low),
-                high: Some(limited(Rate::most).high),
-            },
-        }
+        let limits = self.budget(state).limit_rate(rate.value, rocking.high);
+        // Rates below the least have no logarithm.
+        Interval { low: limits.low.min(rate.low), high: limits.high.max(rate.high), ..limits }.into()
     }
 
-    /// Standard deviations of ln of a rate.
-    fn budget(&self, state: LimitState, at: fn(&Rate) -> f64) -> Budget {
-        Budget::new(&self.rates, &self.at_quantiles, |rates| {
-            rates.get(state).map(|rate| at(&rate).max(LEAST).ln())
-        })
+    /// Standard deviations of ln of a rate. Its limits by motions beyond the curve, which are for certain,
+    /// count as 95 % limits.
+    fn budget(&self, state: LimitState) -> Budget {
+        let ln = |rates: &LimitStates<Option<Interval>>| {
+            rates.get(state).map(|rate| rate.map(|rate| rate.max(LEAST).ln()))
+        };
+        let mut budget = Budget::new(&self.rates, &self.at_quantiles, |rates| Some(ln(rates)?.value));
+        if let Some(Interval { value, low, high }) = ln(&self.rates) {
+            budget.add(UncertaintySource::Hazard, [value - low, high - value].map(|off| off / Z_95));
+        }
+        budget
     }
 }

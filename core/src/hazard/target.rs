@@ -1,7 +1,7 @@
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentRoot;
 
-use super::site::{LEAST, Site};
+use super::site::{Hazard, LEAST, Site, strongest};
 use crate::object::{Object, RockingObject};
 use crate::spelling::unknown_word;
 use crate::statistics::Interval;
@@ -42,7 +42,8 @@ pub struct Side {
     pub high: Option<f64>,
 }
 
-/// Where wider bases have no rate: outside the domain of the model, or beyond the end of the hazard curve.
+/// What no base changes: the domain of the model, or motions beyond the end of the hazard curve, each of
+/// which may overturn the object, so that its upper limit stays above the target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -80,11 +81,11 @@ impl Site {
                 && let Some([least, start, most]) = sides(object, base)
             {
                 let search = Search { site: self, object, with_models, base, target, least, most };
-                let estimate = search.ln_side(search.last_known(least, start), Site::overturning);
-                let limit = estimate.and_then(|ln_side| {
+                let estimate = search.ln_side(start, Site::overturning);
+                let limit = estimate.and_then(|ln_side| match self.rate_beyond() < target {
                     // The limit is about as far above the rate as for the present object.
-                    let near = (ln_side + ln_margin / FALL).min(most);
-                    search.ln_side(search.last_known(ln_side, near), upper_limit)
+                    true => search.ln_side((ln_side + ln_margin / FALL).clamp(least, most), upper_limit),
+                    false => Err(SearchEnd::Hazard),
                 });
                 let [value, high] = [estimate, limit].map(|side| side.ok().map(f64::exp));
                 bases.target_end = limit.err();
@@ -98,6 +99,17 @@ impl Site {
             }
         }
         bases
+    }
+
+    /// Annual rate of motions beyond a curve that ends before the strongest motions.
+    fn rate_beyond(&self) -> f64 {
+        match &self.hazard {
+            Hazard::Curve(hazard) => {
+                let [_, (last, rate)] = hazard.curve.ends();
+                if last < strongest(hazard.peak) { rate } else { 0.0 }
+            }
+            Hazard::Joint(_) => 0.0,
+        }
     }
 }
 
@@ -148,58 +160,40 @@ struct Search<'a> {
     most: f64,
 }
 
-/// None where the hazard ends too early for a rate.
+/// None where the model has no probability.
 type RateFunction = fn(&Site, &RockingObject) -> Option<f64>;
 
 fn upper_limit(site: &Site, object: &RockingObject) -> Option<f64> {
-    let Interval { value, high, .. } = site.rates(object).states.overturning;
-    value.and(high)
+    site.rates(object).states.overturning.high
 }
 
 impl Search<'_> {
     /// ln of a rate over the target.
     fn excess(&self, ln_side: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
         let resized = self.base.resize(self.object, ln_side.exp());
-        let object = (self.with_models)(&resized).ok_or(SearchEnd::Model)?;
-        let rate = rate(self.site, &object).ok_or(SearchEnd::Hazard)?;
-        Ok((rate.max(LEAST) / self.target).ln())
+        let rate = (self.with_models)(&resized).and_then(|object| rate(self.site, &object));
+        Ok((rate.ok_or(SearchEnd::Model)?.max(LEAST) / self.target).ln())
     }
 
     /// ln of the first side, outwards from `start`, at which the rate is the target: by steps, and between
     /// the last two by Brent's method. The least side if the rate is below the target even there.
     fn ln_side(&self, start: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
         let (mut side, mut off) = (start, self.excess(start, rate)?);
-        let (mut edge, mut end) = (if off > 0.0 { self.most } else { self.least }, SearchEnd::Model);
+        let edge = if off > 0.0 { self.most } else { self.least };
         let mut step = off / FALL;
         while off.abs() > RATE_ACCURACY {
-            let mut next = if step.abs() < (edge - side).abs() { side + step } else { edge };
+            let next = if step.abs() < (edge - side).abs() { side + step } else { edge };
             if next == side {
-                return if off > 0.0 { Err(end) } else { Ok(side) };
+                return if off > 0.0 { Err(SearchEnd::Model) } else { Ok(side) };
             }
-            let there = self.excess(next, rate).or_else(|early| {
-                (edge, end) = (self.last_known(side, next), early);
-                next = edge;
-                self.excess(next, rate)
-            })?;
+            let there = self.excess(next, rate)?;
             if (there > 0.0) != (off > 0.0) {
-                return Bracket { search: self, rate, ends: [(side, off), (next, there)] }.root().ok_or(end);
+                let bracket = Bracket { search: self, rate, ends: [(side, off), (next, there)] };
+                return bracket.root().ok_or(SearchEnd::Model);
             }
             (side, off, step) = (next, there, 2.0 * step);
         }
         Ok(side)
-    }
-
-    /// The last side with a rate on the way from `side`, which has one, to `beyond`: a wide base may rock
-    /// only beyond the end of the hazard curve.
-    fn last_known(&self, mut side: f64, mut beyond: f64) -> f64 {
-        if self.excess(beyond, Site::overturning).is_ok() {
-            return beyond;
-        }
-        while (beyond - side).abs() > ACCURACY {
-            let middle = 0.5 * (side + beyond);
-            *(if self.excess(middle, Site::overturning).is_ok() { &mut side } else { &mut beyond }) = middle;
-        }
-        side
     }
 }
 

@@ -26,7 +26,7 @@ pub enum UncertaintySource {
     Object,
     /// Building under the object.
     Floor,
-    /// Fractiles of the hazard, where they are given.
+    /// Fractiles of the hazard where they are given, and motions beyond the end of its curve.
     Hazard,
 }
 

@@ -10,8 +10,9 @@ use rockfrag_core::hazard::{
 };
 use rockfrag_core::object::{LowHigh, Object, RockingObject, UncertaintySource};
 use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::normal;
 use rockfrag_core::statistics::normal::Z_95;
-use rockfrag_core::statistics::{Interval, normal};
+use rockfrag_core::warning::Warning;
 
 use crate::common::{Row, cases, close, equipment, pair, read};
 
@@ -197,31 +198,23 @@ fn squat() -> RockingObject {
     RockingObject::uncalibrated(&Object::block("squat", 0.9, 1.4), MotionKind::Recorded, 0.1).unwrap()
 }
 
-fn range(rate: Interval<Option<f64>>) -> [f64; 2] {
-    assert_eq!(rate.value, None);
-    [rate.low, rate.high].map(Option::unwrap)
-}
-
 #[test]
-fn the_range_of_a_curve_that_ends_early_holds_the_limits_of_what_goes_on() {
-    // By a curve of the same slope that ends at 0.8 g or goes on: whatever it does beyond, the range holds
-    // it.
-    let slope = -2.5;
+fn a_curve_that_ends_early_goes_on_with_its_last_slope() {
     let to = |last_g: f64| {
-        let points = [0.05, 0.2, last_g].map(|g: f64| (9.81 * g, 1e-3 * (g / 0.2).powf(slope)));
+        let points = [0.05, 0.2, last_g].map(|g: f64| (9.81 * g, 1e-3 * (g / 0.2).powf(-2.5)));
         Site::new(Hazard::over(Peak::Pga, HazardCurve::new(points.to_vec()).unwrap()))
     };
-    let early = to(0.8).rates(&squat());
-    let [low, high] = range(early.states.overturning);
-    let rate = to(8.0).rates(&squat()).states.overturning.estimate().unwrap();
-    assert!(low < rate.low && rate.high < high, "{rate:?} is not within {low} to {high}");
-    // The errors widen it: without any it is what no and what each stronger motion would make of it.
-    let certain = RockingObject { perturbations: vec![], ..squat() };
-    let [sure_low, sure_high] = range(to(0.8).rates(&certain).states.overturning);
-    // Rates below once in 1e12 years have no errors.
-    assert!(low <= sure_low && sure_low < sure_high && sure_high < high);
-    let [failure_low, failure_high] = range(early.states.failure);
-    assert!(low <= failure_low && high <= failure_high * (1.0 + 1e-12));
+    let [early, whole] = [0.8, 4.51].map(|last_g| to(last_g).rates(&squat()));
+    let [cut, rate] = [&early, &whole].map(|rates| rates.states.overturning.estimate().unwrap());
+    close(cut.value, rate.value, 1e-3);
+    assert!(early.warnings.contains(&Warning::HazardEndsEarly) && whole.beyond == Some(0.0));
+    // Whatever comes beyond, nothing or each motion overturning it, the limits hold it, and the other errors.
+    let known = (1.0 - early.beyond.unwrap()) * cut.value;
+    let margin = |to: f64| (to / cut.value).ln().abs();
+    let [down, up] = [rate.low, rate.high].map(margin);
+    close(margin(cut.low), down.hypot(margin(known)), 1e-3);
+    close(margin(cut.high), up.hypot(margin(known + 1e-3 * 4.0_f64.powf(-2.5))), 1e-3);
+    assert!(cut.high < early.states.rocking.high.unwrap());
 }
 
 #[test]

@@ -87,9 +87,6 @@ pub struct Evaluate {
     /// curve, at its site
     #[arg(long, value_name = "PEAK")]
     over: Option<Peak>,
-    /// Continue the hazard curve with its last slope
-    #[arg(long)]
-    extrapolate: bool,
     /// What would change the object, or the worst ten: printed, and beside a Parquet file NAME.variants.parquet
     #[arg(long)]
     variants: bool,
@@ -113,14 +110,14 @@ pub struct Evaluate {
 }
 
 /// Options of a hazard.
-const SITE: [&str; 5] = ["hazard", "effective-years", "ratio", "target", "extrapolate"];
+const SITE: [&str; 4] = ["hazard", "effective-years", "ratio", "target"];
 const RULES: [Rule; 8] = [
     Rule::Either(&["pga", "pgv"], &SITE),
     Rule::Either(&["in"], &SITE),
     Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
-    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "extrapolate", "variants"]),
+    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "variants"]),
     Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
-    Rule::Needs(&["effective-years", "years", "target", "extrapolate", "variants"], &["hazard"]),
+    Rule::Needs(&["effective-years", "years", "target", "variants"], &["hazard"]),
     Rule::Needs(&["columns"], &["hazard", "structures", "in"]),
     Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
 ];
@@ -275,12 +272,9 @@ impl Evaluate {
             _ if self.ratio.or(self.vs30).is_some() => {
                 return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
             }
-            Hazard::Joint(_) if self.extrapolate => {
-                return Err(UsageError::because("extrapolate: expected a hazard curve of one peak"));
-            }
             _ => {}
         }
-        Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30, extrapolate: self.extrapolate })
+        Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
     /// Returns the given structures, or all fitted ones.
@@ -364,7 +358,7 @@ fn worst<'a>(answers: &[Answer], objects: &'a [Object], most: usize) -> impl Ite
 /// Warns of what the text of the answers does not state.
 fn warn(answers: &[Answer], context: &Context) {
     // The text states them, or a warning of the file that is read.
-    let told = [Warning::HazardEndsEarly, Warning::HazardExtrapolated, Warning::MedianHazard];
+    let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
     for answer in answer::over_all(answers) {
         let warnings = answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
         context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
