@@ -26,6 +26,8 @@ pub enum Warning {
     MedianHazard,
     UnusualMagnitude,
     UnusualGround,
+    OwnPeriod,
+    HardRock,
     NotFitted,
     OtherStructure,
     Extrapolated,
@@ -66,6 +68,8 @@ impl Warning {
                 "above 7.9, the largest magnitude of the records that the surface was fitted to"
             }
             UnusualGround => "Vs30 outside 200 to 1,500 m/s, for which PGV/PGA by Vs30 was fitted",
+            OwnPeriod => "SA(1.0 s)/PGA as on ground with a period of its own: add the PGV curve",
+            HardRock => "SA(1.0 s)/PGA as on hard rock of a stable continent: add the PGV curve",
             NotFitted => "not among the fitted structures: the universal surface is used",
             OtherStructure => "calibrated on responses of a different structure (--name)",
             Extrapolated => "outside the range of motions that the model was fitted to",

@@ -1,4 +1,4 @@
-"""Judges rates of evaluate --hazard at the sites of sites.py: python site_rates.py FOLDER ROCKFRAG
+"""Judges rates of evaluate --hazard at the sites of sites.py or worlds.py: python site_rates.py FOLDER ROCKFRAG
 
 The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
 magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
@@ -116,8 +116,9 @@ def answers(k, route):
 def judged(truths):
     """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
     truth that is drawn, and the logarithm of their ratio."""
-    for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude"])):
+    for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude", "world"])):
         write(k)
+        sites = names[k, 1 if names[k, 0] == "world" else 0]
         true = {name: truth.rate(joint[k]) for name, truth in truths.items()}
         draw = lambda truth: truth.rate(joint[k], *(random.normal(size=4) * [*truth.sds, SD_OF_LOSS]))
         drawn = {name: [draw(truth) for _ in range(DRAWS)] for name, truth in truths.items()}
@@ -126,7 +127,7 @@ def judged(truths):
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
                 if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    yield names[k, 0], k, route, np.log(value / true[name]), held, np.log(high / low)
+                    yield sites, k, route, np.log(value / true[name]), held, np.log(high / low)
 
 
 def magnitudes(truths):

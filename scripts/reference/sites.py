@@ -25,7 +25,7 @@ LN_PGA = np.log(0.02 * G) + 0.1 * np.arange(54)
 LN_PGV = np.log(0.003) + 0.1 * np.arange(77)
 # Their middles.
 X, Y = (0.5 * (edges[1:] + edges[:-1]) for edges in (LN_PGA, LN_PGV))
-MAGNITUDES = np.arange(4.875, 8.2, 0.25)
+MAGNITUDES = np.arange(4.875, 9.2, 0.25)
 LEVELS_G = np.geomspace(0.01, 4, 40)
 # Geometric mean of the sites, m/s.
 USUAL_VS30 = 440.0
@@ -107,21 +107,22 @@ SETS = {
 }
 
 
-def motions(model, vs30, ruptures):
-    """Means and standard deviations of ln IM, m/s2, m/s and m/s2, of each rupture: two arrays of 3 x n."""
+def motions(model, vs30, ruptures, top=None):
+    """Means and standard deviations of ln IM, m/s2, m/s and m/s2, of each rupture: two arrays of 3 x n. `top` is
+    the depth of its upper edge, km, if not that of crustal earthquakes."""
     gsim = valid.gsim(model)
     maker = ContextMaker("*", [gsim], {"imtls": {imt: [1.0] for imt in IMTS}})
     mw, rjb, _ = ruptures.T
     ctx = maker.new_ctx(len(mw))
-    ztor = np.clip(8.0 - 2.5 * (mw - 5.0), 0.5, 8.0)
+    ztor = np.clip(8.0 - 2.5 * (mw - 5.0), 0.5, 8.0) if top is None else np.full(len(mw), top)
     width = 10 ** (-1.01 + 0.32 * mw)
-    depth = np.clip(ztor + width / 2, 5, 15)
+    depth = np.clip(ztor + width / 2, 5, 15) if top is None else ztor + 5
     rrup = np.hypot(rjb, ztor)
     values = {
         "mag": mw, "rjb": rjb, "rrup": rrup, "rx": rjb, "ry0": 0.0, "rake": 0.0, "dip": 90.0, "ztor": ztor,
         "width": width, "hypo_depth": depth, "rhypo": np.hypot(rjb, depth), "repi": rjb, "vs30": vs30,
         "vs30measured": True, "z1pt0": np.exp(-7.15 / 4 * np.log((vs30**4 + 571**4) / (1360**4 + 571**4))),
-        "z2pt5": np.exp(7.089 - 1.144 * np.log(vs30)), "sids": 0,
+        "z2pt5": np.exp(7.089 - 1.144 * np.log(vs30)), "backarc": False, "sids": 0,
     }
     for name in values.keys() & set(ctx.dtype.names):
         ctx[name] = values[name]
@@ -148,9 +149,7 @@ def inverse(levels, rates, wanted):
     return np.exp(np.interp(-np.log(wanted), -np.log(rates[keep]), np.log(levels[keep])))
 
 
-def site(model, vs30, sources, rho):
-    ruptures = np.concatenate(sources)
-    mean, sd = motions(model, vs30, ruptures)
+def site(ruptures, mean, sd, rho):
     mw, _, rate = ruptures.T
     accelerations, velocities = LEVELS_G * G, np.geomspace(0.005, 6, 40)
     curves = {}
@@ -225,7 +224,8 @@ if __name__ == "__main__":
     for kind, (geometries, models, rho) in SETS.items():
         for (geometry, sources), (model, vs30) in itertools.product(geometries.items(), models):
             names.append((kind, geometry, model, str(vs30)))
-            made.append(site(model, vs30, sources, rho))
+            ruptures = np.concatenate(sources)
+            made.append(site(ruptures, *motions(model, vs30, ruptures), rho))
     data = {name: np.array([of_site[name] for of_site in made]) for name in made[0]}
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **data)
     kinds, vs30 = np.array(names)[:, 0], np.array(names)[:, 3].astype(float)

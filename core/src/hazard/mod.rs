@@ -3,6 +3,7 @@
 //! ```text
 //! curve               annual rate of exceedance of one intensity; the convolution integral
 //! pgv_pga             PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
+//! ground              ground for which the routes to PGV were not judged
 //! rates               annual rates of the limit states of a structure, over a curve or over pairs of peaks
 //! budget              the sources of uncertainty, and the limits by them
 //! ground_motion       the limit states under one motion, with limits
@@ -18,6 +19,7 @@ mod budget;
 mod conditional_motions;
 mod curve;
 mod fragility_curve;
+mod ground;
 mod ground_motion;
 mod list;
 mod pgv_pga;

@@ -5,6 +5,7 @@ use super::conditional_motions::{
     ConditionalMotions, SD_OF_INFERRED, at_inferred_magnitudes, unusual_motions,
 };
 use super::curve::HazardCurve;
+use super::ground::unusual_ground;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
 use super::rates::{OverCurve, PairOfPeaks, rates_over_curve, rates_over_pairs};
 use crate::fragility::{AssumedMagnitude, LimitState, LimitStates, ModelPoint, Peak, RockingDirection};
@@ -31,8 +32,8 @@ pub struct PeakHazard {
     pub peak: Peak,
     /// Over m/s2 or m/s.
     pub curve: HazardCurve,
-    /// Whether a curve is the median of several, not their mean.
-    pub is_median: bool,
+    /// What is known against its curves: a median in place of a mean, unusual ground.
+    pub warnings: Vec<Warning>,
     /// The 16 and 84 % fractiles.
     pub fractiles: Option<[HazardCurve; 2]>,
     /// PGV / PGA, by the curve of the other peak or as the user gives it; none for that of generic sites.
@@ -47,13 +48,13 @@ impl Hazard {
     pub fn with_spectrum(curve: HazardCurve, sa_1s: &HazardCurve) -> Result<Hazard, MatchError> {
         let pgv = velocity_of_spectrum(&curve, sa_1s);
         let pgv_pga = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Spectrum)?);
-        let peak = Peak::Pga;
-        Ok(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga }))
+        let warnings = unusual_ground(&curve, sa_1s).into_iter().collect();
+        Ok(Hazard::Curve(PeakHazard { peak: Peak::Pga, curve, warnings, fractiles: None, pgv_pga }))
     }
 
     /// PGV / PGA is that of generic sites.
     pub fn over(peak: Peak, curve: HazardCurve) -> Hazard {
-        Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga: None })
+        Hazard::Curve(PeakHazard { peak, curve, warnings: vec![], fractiles: None, pgv_pga: None })
     }
 }
 
@@ -175,14 +176,18 @@ impl Site {
         let vs30_m_s = self.vs30_m_s.filter(|_| hazard.pgv_pga.is_none());
         let warnings = [
             (rate.high > EARLY * rate.low).then_some(Warning::HazardEndsEarly),
-            hazard.is_median.then_some(Warning::MedianHazard),
             (first > middle.uplift().usual).then_some(Warning::HazardStartsLate),
         ];
         SiteRates {
             pgv_pga_source: Some(motions.pgv_pga.source),
             beyond: (rate.value > 0.0).then(|| 1.0 - rate.low / rate.value),
             magnitude: motions.magnitude(&object.directions[0].model, motion),
-            warnings: warnings.into_iter().flatten().chain(unusual_motions(self.mw, vs30_m_s)).collect(),
+            warnings: warnings
+                .into_iter()
+                .flatten()
+                .chain(hazard.warnings.iter().copied())
+                .chain(unusual_motions(self.mw, vs30_m_s))
+                .collect(),
             ..RateSensitivity::new(by_point, at_quantiles).with_limits(motion)
         }
     }
@@ -231,7 +236,8 @@ impl RateSensitivity {
         };
         let mut budget = Budget::new(&self.rates, &self.at_quantiles, |rates| Some(ln(rates)?.value));
         if let Some(Interval { value, low, high }) = ln(&self.rates) {
-            budget.add(UncertaintySource::Hazard, [value - low, high - value].map(|off| off / Z_95));
+            let ends = LowHigh { source: UncertaintySource::Hazard, low, high };
+            budget.add(ends.map(|end| (end - value) / Z_95));
         }
         budget
     }

@@ -7,7 +7,7 @@ use rockfrag_core::hazard::{
     Budget, FragilityPoint, GenericSites, GroundMotion, Hazard, HazardCurve, ListProbabilities, ListedObject,
     Lognormal, PeakHazard, PgvPgaRatio, Site, SiteRates, probability_in_years,
 };
-use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape};
+use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
 
@@ -143,7 +143,7 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
 /// Of a PGV / PGA that does not depend on magnitude.
 fn of_one_ratio() -> Site {
     let (peak, curve, pgv_pga) = (Peak::Pga, curve(), Some(PgvPgaRatio::given(0.1)));
-    Site::new(Hazard::Curve(PeakHazard { peak, curve, is_median: false, fractiles: None, pgv_pga }))
+    Site::new(Hazard::Curve(PeakHazard { peak, curve, warnings: vec![], fractiles: None, pgv_pga }))
 }
 
 #[test]

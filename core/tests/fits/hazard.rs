@@ -131,7 +131,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard =
-        PeakHazard { peak: Peak::Pga, curve: pga, is_median: false, fractiles, pgv_pga: Some(velocity) };
+        PeakHazard { peak: Peak::Pga, curve: pga, warnings: vec![], fractiles, pgv_pga: Some(velocity) };
     let object = RockingObject { directions: vec![lognormal_over_both_peaks()], perturbations: vec![] };
     let rates = Site::new(Hazard::Curve(hazard)).rates(&object);
     let budget = rates.budget;
@@ -163,6 +163,28 @@ fn pgv_of_a_spectrum_is_that_by_ground_motion_models() {
         let curve = |im: f64| HazardCurve::new(vec![(0.5 * im, 1e-3), (2.0 * im, 1e-5)]).unwrap();
         let ours = velocity_of_spectrum(&curve(pga), &curve(sa_1s)).intensity(1e-4);
         assert!((ours / pgv).ln().abs() < 0.05, "M {mw}: {ours} m/s for {pgv}");
+    }
+}
+
+#[test]
+fn hard_rock_and_the_clay_of_a_lake_are_told_from_other_ground() {
+    // PGA and SA(1.0 s), m/s2, once in 475, 2,475 and 10,000 years, of published ground-motion models
+    // (scripts/reference/worlds.py).
+    let sites = [
+        ([3.49, 7.27, 11.85], [2.00, 5.14, 9.29], vec![]),
+        ([2.48, 3.87, 5.14], [4.69, 9.19, 14.11], vec![]),
+        ([0.251, 0.826, 2.552], [0.098, 0.274, 0.598], vec![Warning::HardRock]),
+        ([0.637, 1.140, 1.695], [0.948, 1.738, 2.629], vec![Warning::OwnPeriod]),
+    ];
+    for (pga, sa_1s, warnings) in sites {
+        let [pga, sa_1s] = [pga, sa_1s].map(|[low, middle, high]: [f64; 3]| {
+            // Their first and last slopes go on to once in 20 and in a million years.
+            let [first, last] = [low * (low / middle).powf(1.92), high * (high / middle).powf(3.3)];
+            let rates = [20.0_f64, 475.0, 2475.0, 1e4, 1e6].map(f64::recip);
+            HazardCurve::new([first, low, middle, high, last].into_iter().zip(rates).collect()).unwrap()
+        });
+        let Hazard::Curve(hazard) = Hazard::with_spectrum(pga, &sa_1s).unwrap() else { panic!("curves") };
+        assert_eq!(hazard.warnings, warnings);
     }
 }
 

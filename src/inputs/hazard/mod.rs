@@ -117,7 +117,8 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
         warnings.add(Warning::MedianHazard, curve.file.clone());
     }
     if let Hazard::Curve(hazard) = &mut hazard {
-        hazard.is_median = used.iter().any(|curve| curve.statistic == Statistic::Median);
+        let is_median = used.iter().any(|curve| curve.statistic == Statistic::Median);
+        hazard.warnings.extend(is_median.then_some(Warning::MedianHazard));
         hazard.fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
         if let (Some(pga), Some(pgv)) = (pga, pgv) {
             hazard.pgv_pga = Some(PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?);
