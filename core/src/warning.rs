@@ -82,7 +82,7 @@ impl Warning {
             ScanStartsLate => "most motions overturn the structure at the first intensity; lower --from",
             UnreadableFile => "not imported",
             UnusedColumns => "columns not used by rockfrag",
-            LeftOut => "left out: held, sliding, or on a floor, whose motions these are not",
+            LeftOut => "left out: held, sliding, at a wall, or on a floor, whose motions these are not",
             OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             Repeated => "the same object again, counted as another",
             NotGiven => "no value: answered as if nothing were known of it",

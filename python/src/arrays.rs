@@ -46,6 +46,9 @@ pub fn simulate_motion<'py>(
         if object.place.level.or(object.place.period).is_some() {
             return Err(usage(&"level, period: simulate_motion takes the motion of the floor itself"));
         }
+        if object.place.wall.is_some() {
+            return Err(usage(&"wall: simulate_motion rocks it to both sides"));
+        }
         let structure = object.sides().map_err(|reason| usage(&reason))?.swap_remove(0).structure;
         if !(0.0..=1000.0).contains(&tail_s) {
             return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));

@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     Bases, Budget, FragilityPoint, GroundMotion, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{LowHigh, Object, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{Base, LowHigh, Object, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
@@ -36,6 +36,10 @@ pub struct ObjectColumns {
     pub p_rad_s: Option<f64>,
     pub alpha_rad: Option<f64>,
     pub eta: Option<f64>,
+    /// What it stands on, if that sets eta.
+    pub base: Option<Base>,
+    /// Rebound from a wall behind it.
+    pub wall_rebound: Option<f64>,
     /// tan(alpha): with less friction it slides.
     pub friction: Option<f64>,
     /// Whether its friction was given, and is enough.
@@ -69,6 +73,8 @@ impl ObjectColumns {
             p_rad_s: structure.map(|structure| structure.p_rad_s),
             alpha_rad: structure.map(|structure| structure.alpha_rad),
             eta: structure.map(|structure| structure.eta),
+            base: object.place.base,
+            wall_rebound: structure.and_then(|structure| structure.rebound),
             friction: structure.map(|structure| structure.alpha_rad.tan()),
             is_friction_known: Some(object.place.friction.is_some()),
             model: model.map(|model| model.description()),
@@ -264,6 +270,7 @@ pub struct UncertaintyColumns {
     pub error_magnitude: Option<f64>,
     pub error_velocity: Option<f64>,
     pub error_eta: Option<f64>,
+    pub error_wall: Option<f64>,
     pub error_object: Option<f64>,
     pub error_floor: Option<f64>,
     pub error_hazard: Option<f64>,
@@ -293,6 +300,7 @@ impl UncertaintyColumns {
             error_magnitude: budget.source_sd(UncertaintySource::Magnitude),
             error_velocity: budget.source_sd(UncertaintySource::Velocity),
             error_eta: budget.source_sd(UncertaintySource::Eta),
+            error_wall: budget.source_sd(UncertaintySource::Wall),
             error_object: budget.source_sd(UncertaintySource::Object),
             error_floor: budget.source_sd(UncertaintySource::Floor),
             error_hazard: budget.source_sd(UncertaintySource::Hazard),
@@ -303,9 +311,10 @@ impl UncertaintyColumns {
     /// The standard deviations of what is unknown, by source.
     pub fn source_sds(&self) -> Vec<(UncertaintySource, f64)> {
         let UncertaintyColumns { error_fit, error_magnitude, error_velocity, error_eta, .. } = *self;
-        let UncertaintyColumns { error_object, error_floor, error_hazard, .. } = *self;
-        let sds =
-            [error_fit, error_magnitude, error_velocity, error_eta, error_object, error_floor, error_hazard];
+        let UncertaintyColumns { error_wall, error_object, error_floor, error_hazard, .. } = *self;
+        let of_motion = [error_fit, error_magnitude, error_velocity];
+        let of_object = [error_eta, error_wall, error_object, error_floor, error_hazard];
+        let sds = of_motion.into_iter().chain(of_object);
         let known = UncertaintySource::VARIANTS.iter().zip(sds).map(|(source, sd)| Some((*source, sd?)));
         known.flatten().collect()
     }

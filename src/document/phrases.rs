@@ -38,14 +38,16 @@ impl ObjectColumns {
         self.floor_level.is_some()
     }
 
-    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`.
+    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`;
+    /// with `at a wall`.
     pub fn place(&self) -> String {
-        match (&self.floor, self.floor_level) {
+        let floor = match (&self.floor, self.floor_level) {
             (_, None) => "on the ground".to_string(),
             (Some(floor), _) => format!("on {}", literal(floor)),
             (None, Some(1.0)) => "on the roof".to_string(),
             (None, Some(level)) => format!("{} % up the building", fixed(100.0 * level, 0)),
-        }
+        };
+        floor + self.wall_rebound.map_or("", |_| " at a wall")
     }
 
     /// The place in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
@@ -261,6 +263,7 @@ pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
         UncertaintySource::Magnitude => ["magnitude", "a disaggregation", "--magnitude"],
         UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
         UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
+        UncertaintySource::Wall => ["rebound from the wall", "its measured value", "--wall"],
         UncertaintySource::Object => ["centre of mass", "weighing", "--centre-height-sd"],
         UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
         UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],

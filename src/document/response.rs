@@ -37,8 +37,13 @@ impl Trace {
     /// The motion, and the structure or the block that rocks like it.
     fn title(&self) -> String {
         let TraceRow { motion_id, structure, p_rad_s, alpha_rad, eta, .. } = &self.0[0];
-        let structure =
-            Structure { name: structure.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta };
+        let structure = Structure {
+            name: structure.clone(),
+            p_rad_s: *p_rad_s,
+            alpha_rad: *alpha_rad,
+            eta: *eta,
+            rebound: None,
+        };
         format!("Motion {}: {}", literal(motion_id), called(&structure))
     }
 

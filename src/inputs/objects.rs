@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use rockfrag_core::object::{Field, Object, ObjectError, Place};
+use rockfrag_core::object::{Field, Object, ObjectError, Place, Wall};
 use rockfrag_core::plausibility::validate_lengths;
 use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
@@ -257,6 +257,11 @@ impl List<'_> {
                 [Field::Width, Field::Height, Field::P, Field::Alpha].map(Role::Known).contains(column);
             let (name, size) = match column {
                 _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
+                Role::Known(Field::Wall) if means(cell, "free") => continue,
+                Role::Known(Field::Wall) if means(cell, "yes") => {
+                    object.place.wall = Some(Wall::Yes);
+                    continue;
+                }
                 Role::Known(field) => (field.into(), self.size(row, at, *field)?),
                 Role::Count => ("count", 1.0),
                 Role::Unclear => {

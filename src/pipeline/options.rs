@@ -10,7 +10,7 @@ use std::str::FromStr;
 use clap::builder::BoolishValueParser;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint};
-use rockfrag_core::object::{Object, Restitution};
+use rockfrag_core::object::{Object, Restitution, Wall};
 use rockfrag_core::spelling::hint;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -162,7 +162,7 @@ fn read(arg: &Arg, text: &str) -> Result<Value, String> {
         read.try_get_one::<T>(id).ok().flatten().map(|value| json!(value))
     }
     let plain = [typed::<bool>, typed::<f64>, typed::<u64>, typed::<usize>, typed::<u32>];
-    let types = [typed::<Steps>, typed::<Restitution>, typed::<Object>];
+    let types = [typed::<Steps>, typed::<Restitution>, typed::<Wall>, typed::<Object>];
     let typed = plain.iter().chain(&types).find_map(|typed| typed(&read, id));
     Ok(typed.unwrap_or(text.into()))
 }

@@ -101,7 +101,7 @@ fn verdict(compared: &[Comparison], differences: &[String]) -> String {
 
 /// Which of the paper's structures have no fits.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let is_fitted = |Structure { name, p_rad_s, alpha_rad, eta }: &Structure| {
+    let is_fitted = |Structure { name, p_rad_s, alpha_rad, eta, .. }: &Structure| {
         let mut its = demand.iter().filter(|fit| fit.structure == *name);
         its.any(|fit| (fit.p_rad_s, fit.alpha_rad, fit.eta) == (*p_rad_s, *alpha_rad, *eta))
     };

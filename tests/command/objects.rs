@@ -54,6 +54,11 @@ fn what_is_uncertain_widens_the_limits_and_nothing_else_of_a_small_error() {
     let surveyed = row("--width 0.8 --height 2.2 --period 0.6 --level 1 --period-sd 0.02");
     assert!(plain["error_floor"].is_null());
     assert!(number(&floor, "error_floor") > 5.0 * number(&surveyed, "error_floor"));
+    let [before_wall, soft] =
+        ["--wall", "--wall 0.1"].map(|wall| row(&format!("--width 0.8 --height 2.2 {wall}")));
+    assert!(number(&before_wall, "error_wall") > 0.1 && soft["error_wall"].is_null());
+    let rates = [&soft, &before_wall, &plain].map(|row| number(row, "overturning_per_year"));
+    assert!(rates.is_sorted() && rates[0] < rates[2] / 2.0, "{rates:?}");
 }
 
 #[test]
@@ -155,6 +160,9 @@ fn slips_are_named() {
         ("--depth 90", ["depth", "cm"]),
         ("--beam-mass-ratio 2 --depth 1", ["depth", "beam-mass-ratio"]),
         ("--beam-mass-ratio 50", ["beam-mass-ratio", "50"]),
+        ("--base wood", ["base", "timber"]),
+        ("--base stone --eta 0.9", ["base", "eta"]),
+        ("--wall 2", ["wall", "rebound"]),
         ("--target 0.5", ["--target", "percent"]),
         ("--pga 0.4 --pgv 0.5", ["--pga", "--hazard"]),
     ] {

@@ -2,7 +2,7 @@
 
 use rockfrag::inputs::objects::{self, ListDefaults};
 use rockfrag::inputs::{InputError, Rename, Renames};
-use rockfrag_core::object::{Object, structure_warnings};
+use rockfrag_core::object::{Base, Object, Wall, structure_warnings};
 use rockfrag_core::warning::Warning;
 
 use super::packed::csv;
@@ -73,6 +73,16 @@ fn a_list_is_the_same_in_two_languages() {
     assert_eq!(read(&renamed, "width=Breadth (cm)", None), Ok(expected));
     let refusal = read(&plain, "width=Breadth (cm)", None);
     assert!(matches!(refusal, Err(InputError::Renamed { .. })));
+}
+
+#[test]
+fn walls_and_bases_are_words() {
+    let list = "name,width,height,wall,base\na,.4,1.8,ja,Timber\nb,.4,1.8,0,\nc,.4,1.8,.3,stone\n";
+    let found: Vec<_> = text(list).iter().map(|object| (object.place.wall, object.place.base)).collect();
+    let expected =
+        [(Some(Wall::Yes), Some(Base::Timber)), (None, None), (Some(Wall::Rebound(0.3)), Some(Base::Stone))];
+    assert_eq!(found, expected);
+    assert!(reason("name,width,height,base\na,.4,1.8,0.5\n").contains("concrete, stone"));
 }
 
 #[test]

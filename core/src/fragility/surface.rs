@@ -78,11 +78,18 @@ impl StructureSurface {
         let (domain, branch) = (&SURFACE.domain, SURFACE.branch(kind, limit_state));
         let [limit, end] = limits(limit_state);
         let p = domain.p.clamp(structure.p_rad_s);
-        let fixed = [(domain.eta.clamp(structure.eta) - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
+        // In front of a wall the rebound stands for eta.
+        let eta = structure.rebound.map_or(domain.eta.clamp(structure.eta), |_| 0.85);
+        let fixed = [(eta - 0.85) / 0.1, (p / 2.0).ln(), limit, end];
         let mut coefficients = [[[0.0; POWERS]; POWERS]; POWERS_OF_X];
         for Term { coefficient, powers: [x, w, r, others @ ..] } in &branch.terms {
             let others = fixed.iter().zip(others).map(|(value, power)| value.powi(*power as i32));
             coefficients[*x][*w][*r] += coefficient * others.product::<f64>();
+        }
+        if let Some(rebound) = structure.rebound {
+            let [a, b, c, d] = if limit_state.is_some() { EXCEEDING_AT_WALL } else { OVERTURNING_AT_WALL };
+            coefficients[0][0][0] += a + b * rebound * rebound + d * fixed[1];
+            coefficients[1][0][0] += c;
         }
         let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
         let (intercept, slope) = mw.map_or((intercept, slope), |mw| (mw, 0.0));
@@ -245,6 +252,10 @@ const REFERENCE_MAGNITUDE: f64 = 6.9;
 /// p = ln(p/2); and, of a limit state c, limit = ln(c/0.2) and end = ln(1.1 - c), 0 for P_ro. IM4, PGA / PGV,
 /// p, eta and c are held within rows `domain,NAME,LOW,HIGH`.
 const FEATURES: [&str; 7] = ["x", "w", "r", "eta", "p", "limit", "end"];
+/// a, b, c and d of a + b e^2 + c x + d ln(p/2), by which a wall with a rebound e changes L where eta is .85
+/// (scripts/wall/wall.py).
+const OVERTURNING_AT_WALL: [f64; 4] = [-6.71, 7.75, 6.68, 0.89];
+const EXCEEDING_AT_WALL: [f64; 4] = [-6.21, 5.83, 5.45, -0.34];
 /// Powers of w and of r, from 0 to the third of both together; powers of x.
 const POWERS: usize = 4;
 const POWERS_OF_X: usize = 3;

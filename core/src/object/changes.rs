@@ -67,9 +67,9 @@ impl Object {
             return Vec::new();
         };
         let median = sides[0].structure.eta;
-        let etas = [low.eta, high.eta].map(|end| match self.place.eta_sd {
-            Some(_) => median + (end - median) / Z_95,
-            None => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
+        let etas = [low.eta, high.eta].map(|end| match (self.place.eta_sd, self.place.base) {
+            (Some(_), _) | (_, Some(_)) => median + (end - median) / Z_95,
+            (None, None) => 1.0 - ((1.0 - median).ln() + ((1.0 - end) / (1.0 - median)).ln() / Z_95).exp(),
         });
         let changes = etas.map(|eta| {
             let mut object = self.clone();

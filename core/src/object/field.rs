@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::ops::RangeInclusive;
 
+use super::contacts::Wall;
 use super::given::{Object, Restitution};
 use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
 use crate::spelling::unknown_word;
@@ -38,6 +39,10 @@ pub enum Field {
     /// Standard deviation of ln(period).
     PeriodSd,
     Friction,
+    /// A word: what it stands on.
+    Base,
+    /// Rebound from a wall behind it.
+    Wall,
     EtaSd,
     CentreHeightSd,
     CentreOffsetSd,
@@ -75,8 +80,17 @@ impl Field {
         "eta",
     ];
     /// The words of the fields of [`Place`](super::Place).
-    pub const OF_PLACE: [&str; 7] =
-        ["period", "level", "period-sd", "friction", "eta-sd", "centre-height-sd", "centre-offset-sd"];
+    pub const OF_PLACE: [&str; 9] = [
+        "period",
+        "level",
+        "period-sd",
+        "friction",
+        "base",
+        "wall",
+        "eta-sd",
+        "centre-height-sd",
+        "centre-offset-sd",
+    ];
 
     /// No rocking structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
     /// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
@@ -124,6 +138,12 @@ impl Field {
             Field::Friction => ("MU", None, 0.01..=2.0, "a coefficient of friction from 0.01 to 2",
                 "Coefficient of friction; if tan(alpha) exceeds it, the object slides",
                 |of, mu| of.place.friction = Some(mu)),
+            Field::Base => ("BASE", None, 1.0..=0.0, "concrete, stone, timber, steel, felt or rubber",
+                "Base or feet: concrete, stone, timber, steel, felt or rubber; sets eta by tests",
+                |_, _| {}),
+            Field::Wall => ("REBOUND", None, 0.0..=0.9, "yes, or a rebound from 0 to 0.9",
+                "Wall behind it, with its rebound if known: the velocity after an impact over that before",
+                |of, rebound| of.place.wall = Some(Wall::Rebound(rebound))),
             Field::EtaSd => ("SD", None, 0.0..=0.5, "a standard deviation from 0 to 0.5",
                 "Standard deviation of eta [default: 0 if eta is given; that of tests if it is computed]",
                 |of, sd| of.place.eta_sd = Some(sd)),

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use super::contacts::{Base, Wall};
 use super::field::Field;
 use super::rocking::SD_OF_PERIOD;
 use crate::motion::Floor;
@@ -37,6 +38,8 @@ pub struct Place {
     #[serde(skip_serializing_if = "is_sd_of_period")]
     pub period_sd: Option<f64>,
     pub friction: Option<f64>,
+    pub base: Option<Base>,
+    pub wall: Option<Wall>,
     pub eta_sd: Option<f64>,
     #[serde(skip_serializing_if = "is_zero")]
     pub centre_height_sd: Option<f64>,
@@ -167,6 +170,8 @@ impl Object {
                 self.count = Some(count.ok_or_else(expected)?);
             }
             "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
+            "base" => self.place.base = Some(text.to_lowercase().parse().map_err(refuse)?),
+            "wall" => self.place.wall = Some(text.parse().map_err(refuse)?),
             _ => {
                 let field: Field = name.parse()?;
                 (field.entry().set)(self, field.parse_value(text).map_err(refuse)?);
@@ -225,6 +230,8 @@ impl Place {
             level: self.level.or(other.level),
             period_sd: self.period_sd.or(other.period_sd),
             friction: self.friction.or(other.friction),
+            base: self.base.or(other.base),
+            wall: self.wall.or(other.wall),
             eta_sd: self.eta_sd.or(other.eta_sd),
             centre_height_sd: self.centre_height_sd.or(other.centre_height_sd),
             centre_offset_sd: self.centre_offset_sd.or(other.centre_offset_sd),

@@ -1,6 +1,7 @@
 //! An object with its models and its uncertainty, as changes that are applied on demand.
 
 use super::given::{Object, ObjectError};
+use super::sides::Side;
 use crate::fragility::{Model, MotionKind, RockingDirection};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
@@ -22,6 +23,8 @@ pub enum UncertaintySource {
     /// Level of PGV / PGA.
     Velocity,
     Eta,
+    /// Rebound from a wall.
+    Wall,
     /// Centre of mass and inertia.
     Object,
     /// Building under the object.
@@ -126,10 +129,12 @@ impl RockingObject {
                 Perturbation::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })
             }));
         }
-        let directions = sides.into_iter().zip(models).map(|(side, model)| {
-            Some(RockingDirection { structure: side.structure, model: model.on(floor)?, count: None })
+        let directions = sides.into_iter().zip(models).map(|(Side { structure, .. }, model)| {
+            let is_known = structure.rebound.is_none() || matches!(model, Model::Surface { .. });
+            let model = model.on(floor).filter(|_| is_known)?;
+            Some(RockingDirection { structure, model, count: None })
         });
-        let problem = "period: the paper's model is that of the ground";
+        let problem = "period or wall: the paper's model is that of a free object on the ground";
         let directions: Option<Vec<RockingDirection>> = directions.collect();
         let directions = directions.ok_or_else(|| ObjectError::Implausible(problem.to_string()))?;
         Ok(RockingObject { directions, perturbations })

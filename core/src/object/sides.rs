@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use super::contacts::{Base, Wall};
 use super::given::{Object, ObjectError, Place, Restitution, Shape};
 use super::rocking::{LowHigh, UncertaintySource};
 use crate::rocking::{Body, Structure, StructureError, housner_eta};
@@ -48,7 +49,10 @@ impl Object {
             true => Err(ObjectError::NotRocking(format!(
                 "slides first: it rocks from a friction of {least:.2} on"
             ))),
-            false => Ok(sides),
+            false => {
+                self.place.wall.into_iter().for_each(|wall| put_before(wall, &mut sides));
+                Ok(sides)
+            }
         }
     }
 
@@ -120,9 +124,15 @@ impl Object {
     }
 
     /// Only eta is uncertain: by its standard deviation if that is given, by tests if eta is computed.
-    fn side_like(&self, structure: Structure) -> Side {
+    fn side_like(&self, mut structure: Structure) -> Side {
+        let mut eta_sd = self.place.eta_sd;
+        let is_computed = matches!(self.shape.eta, None | Some(Restitution::Housner));
+        if let Some([ratio, sd]) = self.place.base.filter(|_| is_computed).map(Base::over_housner) {
+            eta_sd = eta_sd.or(Some(sd * structure.eta));
+            structure.eta = (ratio * structure.eta).min(1.0);
+        }
         let off = LowHigh { source: UncertaintySource::Eta, low: -Z_95, high: Z_95 };
-        let etas = match (self.place.eta_sd, self.shape.given_eta()) {
+        let etas = match (eta_sd, self.shape.given_eta()) {
             (Some(sd), _) => Some(off.map(|off| structure.eta + off * sd)),
             (None, Some(_)) => None,
             (None, None) => Some(off.map(|off| 1.0 - (1.0 - structure.eta) * (-off * SD_OF_LOSS).exp())),
@@ -191,6 +201,21 @@ impl Side {
     /// The structure slides below this friction.
     fn friction(&self) -> f64 {
         self.structure.alpha_rad.tan()
+    }
+}
+
+/// Puts a wall behind the weaker side: an object has its shorter side towards the wall.
+fn put_before(wall: Wall, sides: &mut [Side]) {
+    let rebound = wall.rebound();
+    let Side { structure, at_quantiles } = &mut sides[0];
+    structure.rebound = Some(rebound.value);
+    for bounds in at_quantiles {
+        (bounds.low.rebound, bounds.high.rebound) = (Some(rebound.value), Some(rebound.value));
+    }
+    for Side { structure, at_quantiles } in sides.iter_mut().filter(|_| rebound.low < rebound.high) {
+        let at = |end| Structure { rebound: structure.rebound.map(|_| end), ..structure.clone() };
+        let source = UncertaintySource::Wall;
+        at_quantiles.push(LowHigh { source, low: at(rebound.low), high: at(rebound.high) });
     }
 }
 

@@ -21,6 +21,9 @@ pub struct Structure {
     pub alpha_rad: f64,
     /// Coefficient of restitution eta: the ratio of the angular velocities after and before impact.
     pub eta: f64,
+    /// Rebound from a wall behind it, the ratio of the angular velocities after and before the impact: of the
+    /// surface's probabilities alone, since solvers rock it to both sides.
+    pub rebound: Option<f64>,
 }
 
 /// Accepted slendernesses, rad, and coefficients of restitution.
@@ -61,7 +64,7 @@ impl Structure {
                 return Err(StructureError::new(name, parameter, value, expected));
             }
         }
-        Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta })
+        Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta, rebound: None })
     }
 
     /// Makes a solid rectangular block of full width and height (m); `eta` as given, or [`housner_eta`].

@@ -7,7 +7,8 @@ use rockfrag_core::fragility::{
     p_failure_given_rocking,
 };
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
-use rockfrag_core::rocking::{Outcome, Structure};
+use rockfrag_core::object::{Object, UncertaintySource};
+use rockfrag_core::rocking::{Outcome, Structure, housner_eta};
 use rockfrag_core::statistics::{Interval, normal};
 use rockfrag_core::warning::Warning;
 use strum::VariantArray;
@@ -336,4 +337,33 @@ fn level_0_is_the_ground_and_a_rigid_building_moves_with_it() {
             assert!((found[1] / ground[1] - 1.0).abs() < tolerance, "{floor:?}: {found:?}, {ground:?}");
         }
     }
+}
+
+#[test]
+fn objects_fall_away_from_a_wall_as_often_as_simulated() {
+    let cells: Vec<([f64; 6], [f64; 5])> = read("wall.csv");
+    for (number, rebound) in [0.0, 0.3, 0.5, 0.7, 0.9].into_iter().enumerate() {
+        let (mut foretold, mut counted) = (0.0, 0.0);
+        for &([p, alpha, pga, pgv, mw, n], shares) in &cells {
+            let free = Structure::new("block", p, alpha, 0.9).unwrap();
+            let structure = Structure { rebound: Some(rebound), ..free };
+            let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.1);
+            let motion = measures(&structure, pga, pgv);
+            let states = model.probabilities(&structure, &motion, Some(mw), Tau::Averaged).limit_states();
+            foretold += n * states.overturning.unwrap().value;
+            counted += n * shares[number];
+        }
+        assert!((foretold / counted - 1.0_f64).abs() < 0.1, "{rebound}: {foretold} {counted}");
+    }
+}
+
+#[test]
+fn a_wall_stands_behind_the_weaker_side_and_feet_set_eta() {
+    let text = "name=cupboard,width=1.2,depth=0.4,height=1.8,wall=yes,base=rubber";
+    let sides = text.parse::<Object>().unwrap().sides().unwrap();
+    let [depth, width] = &sides[..] else { panic!("{sides:?}") };
+    assert_eq!((depth.structure.rebound, width.structure.rebound), (Some(0.5), None));
+    assert!((depth.structure.eta / housner_eta((0.4_f64 / 1.8).atan()) - 0.67).abs() < 1e-12);
+    let sources: Vec<UncertaintySource> = depth.at_quantiles.iter().map(|bounds| bounds.source).collect();
+    assert_eq!(sources, [UncertaintySource::Eta, UncertaintySource::Wall]);
 }

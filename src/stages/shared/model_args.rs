@@ -253,5 +253,5 @@ fn distinct<'a>(texts: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
-    Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta }
+    Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta, rebound: None }
 }

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
 use clap::{Arg, Args, Command, ValueHint, value_parser};
-use rockfrag_core::object::{Entry, Field, Object, Place, Restitution, Shape, structure_warnings};
+use rockfrag_core::object::{
+    Base, Entry, Field, Object, Place, Restitution, Shape, Wall, structure_warnings,
+};
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::{UNNAMED, Warning, Warnings};
@@ -27,10 +29,11 @@ pub fn with_fields(stage: Command) -> Command {
         let of = word.parse::<Field>().ok()?;
         let Entry { symbol, help, .. } = of.entry();
         let arg = Arg::new(word).long(word).value_name(symbol).help(help).help_heading(heading);
-        Some(if of == Field::Eta {
-            arg.value_parser(value_parser!(Restitution))
-        } else {
-            arg.value_parser(move |text: &str| of.parse_value(text))
+        Some(match of {
+            Field::Eta => arg.value_parser(value_parser!(Restitution)),
+            Field::Base => arg.value_parser(value_parser!(Base)),
+            Field::Wall => arg.num_args(0..=1).default_missing_value("yes").value_parser(value_parser!(Wall)),
+            _ => arg.value_parser(move |text: &str| of.parse_value(text)),
         })
     }))
 }
@@ -58,7 +61,7 @@ pub struct StructureArgs {
 }
 
 impl StructureArgs {
-    pub const RULES: [Rule; 5] = [
+    pub const RULES: [Rule; 6] = [
         Rule::Either(&Field::OF_SHAPE, &["structure", "structures"]),
         Rule::Either(&["structure"], &["structures"]),
         Rule::Either(
@@ -69,6 +72,7 @@ impl StructureArgs {
             &["beam-mass-ratio"],
             &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"],
         ),
+        Rule::Either(&["eta"], &["base"]),
         Rule::Needs(&["ground-floor"], &["structures"]),
     ];
 
@@ -147,6 +151,8 @@ pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
     let sides = object.sides().map_err(|reason| named(object, &reason))?;
     let problem = "on a floor: leave out level and period; floor-motions makes its motions";
     ensure!(!matches!(object.place.floor(), Ok(Some(_))), named(object, &problem));
+    let problem = "at a wall: evaluate answers; solvers rock it to both sides";
+    ensure!(object.place.wall.is_none(), named(object, &problem));
     let mut structures: Vec<Structure> = sides.into_iter().map(|side| side.structure).collect();
     structures.iter_mut().skip(1).for_each(|other| other.name += ", other direction");
     Ok(structures)

@@ -1,0 +1,118 @@
+"""Objects in front of a wall: their responses, and what the wall adds to the logits of the surface:
+python wall.py respond AT2.parquet OUT.parquet [records|blocks STEP]; fit UNIVERSAL.csv OUT.parquet; cells
+OUT.parquet WALL.csv, the falls of blocks by cells of PGA and PGV (core/tests/reference/wall.csv)
+
+One-sided rocking (two_sided.demand), with the wall in either of both directions. Records, structures and scales
+are those of scripts/universal, AT2.parquet as of its make.sh. Needs numba."""
+
+import itertools
+import pathlib
+import sys
+
+import numpy as np
+import polars as pl
+from numba import njit
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path += [str(HERE.parent / "universal"), str(HERE.parent / "floors")]
+import cases as of  # noqa: E402
+import motions  # noqa: E402
+from calibration import apply, logistic  # noqa: E402
+from surface import NO_LIMIT, Surface, features  # noqa: E402
+from two_sided import FREE, demand  # noqa: E402
+
+REBOUNDS = [0.0, 0.3, 0.5, 0.7, 0.9]
+WALLS = [f"{side}{e}" for e in REBOUNDS for side in ("near", "far")]
+FOLDS, CLASSES = 8, [0.02, 0.1, 0.3, 0.6, 0.9, 0.98]
+TAIL_S = 6.0
+
+
+@njit(cache=True)
+def demands(a, dt, structures, rebounds):
+    """n structures x (1 + 2 k): free, then with the wall on either side for each of k rebounds."""
+    out = np.zeros((len(structures), 1 + 2 * len(rebounds)))
+    for i in range(len(structures)):
+        p, alpha, eta = structures[i]
+        sides = np.array([[alpha, p, eta], [alpha, p, eta]])
+        if np.abs(a).max() > np.tan(alpha):
+            out[i, 0] = demand(a, dt, sides, FREE)
+            for j in range(len(rebounds)):
+                out[i, 1 + 2 * j] = demand(a, dt, sides, rebounds[j])
+                out[i, 2 + 2 * j] = demand(-a, dt, sides, rebounds[j])
+    return out
+
+
+def respond(imported, out, which="records", step=3):
+    structures, rebounds, rows = np.array(of.chosen(which))[:: int(step)], np.array(REBOUNDS), []
+    for (name, earthquake, mw, a, dt), factor in itertools.product(motions.records(imported), of.FACTORS):
+        pga, pgv = motions.peaks(factor * a, dt)
+        u = motions.rested(factor * a / 9.81, dt, TAIL_S)
+        for structure, found in zip(structures, demands(u, dt, structures, rebounds)):
+            if found[0] > 0.0:
+                rows.append((f"{name} x{factor:g}", earthquake, mw, pga, pgv, *structure, *found))
+    columns = "motion_id cluster mw pga_m_s2 pgv_m_s p_rad_s alpha_rad eta free".split()
+    pl.DataFrame(rows, [*columns, *WALLS], orient="row").write_parquet(out)
+
+
+def counted(surface, responses, event, limit):
+    """Cases with the logit by the surface at eta .85 and what it leaves to the wall: `of`, by columns."""
+    uplift = 9.81 * pl.col("alpha_rad").tan()
+    rows = responses.with_columns(
+        im4=pl.col("pga_m_s2") / uplift, im5=pl.col("p_rad_s") * pl.col("pgv_m_s") / uplift,
+        eta=pl.lit(0.85), limit=pl.lit(limit),
+    ).filter(pl.col("im4") > 1.0)  # fmt: skip
+    prior = surface.prior(event, "recorded", limit)
+    rows = rows.with_columns(z=apply(prior, surface.parts(event, "recorded", rows)), **features())
+    rows = rows.unpivot(WALLS, index=["cluster", "z", "x", "p"], variable_name="e", value_name="demand")
+    rows = rows.with_columns(e=pl.col("e").str.strip_chars("nearf").cast(float), s=pl.lit(np.exp(prior[1])))
+    fell = pl.col("demand").is_infinite()
+    rows = rows.with_columns(h=fell if event == "pro" else pl.col("demand") > limit)
+    return rows.filter(~fell | (event == "pro"))
+
+
+def maximum(z, columns, happened):
+    """The coefficients of greatest likelihood, by Newton's method in short steps."""
+    b = np.zeros(columns.shape[1])
+    for _ in range(40):
+        p = logistic(z + columns @ b)
+        information = columns.T @ (columns * (p * (1 - p))[:, None])
+        b += np.clip(np.linalg.solve(information, columns.T @ (happened - p)), -1, 1)
+    return b
+
+
+def fit(table, responses):
+    """L += a + b e^2 + c x + d ln(p/2), eta at .85; judged on earthquakes left out, in eight parts."""
+    surface, responses = Surface(open(table)), pl.read_parquet(responses)
+    for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
+        cases = pl.concat([counted(surface, responses, event, limit) for limit in limits])
+        cases = cases.filter(pl.col("z").is_finite())
+        by = {"a": pl.lit(1.0), "b": pl.col("e") ** 2, "c": pl.col("x"), "d": pl.col("p")}
+        columns, z = cases.select(**by).to_numpy() * cases["s"].to_numpy()[:, None], cases["z"].to_numpy()
+        happened, left = cases["h"].to_numpy().astype(float), z.copy()
+        part = cases["cluster"].rank("dense").to_numpy() % FOLDS
+        for k in range(FOLDS):
+            others = part != k
+            left[~others] += columns[~others] @ maximum(z[others], columns[others], happened[others])
+        print(event, "a, b, c, d", maximum(z, columns, happened).round(2))
+        p = logistic(left)
+        of_case = np.digitize(p, CLASSES)
+        for e in REBOUNDS:
+            of_e = [(cases["e"].to_numpy() == e) & (of_case == k) for k in range(len(CLASSES) + 1)]
+            print(e, "foretold/counted", *(f"{p[at].mean():.3f}/{happened[at].mean():.3f}" for at in of_e))
+
+
+def cells(responses, out):
+    """Of blocks: means of the motions of a cell, how many, and the share that falls with each rebound."""
+    rows, structure = pl.read_parquet(responses), ["p_rad_s", "alpha_rad"]
+    bins = [(pl.col(peak).log() / 0.5).floor().alias(f"of_{peak}") for peak in ("pga_m_s2", "pgv_m_s")]
+    means = {name: pl.col(name).log().mean().exp() for name in ("pga_m_s2", "pgv_m_s", "mw")}
+    fallen = lambda e: pl.mean_horizontal(pl.col(f"near{e}", f"far{e}").is_infinite()).mean()
+    falls = {f"p_{e}": fallen(e) for e in REBOUNDS}
+    found = rows.group_by(*structure, *bins).agg(**means, n=pl.len(), **falls)
+    found = found.filter((pl.col("n") >= 20) & (pl.col("p_0.7") > 0)).drop("of_pga_m_s2", "of_pgv_m_s")
+    found.sort(pl.all()).write_csv(out, float_precision=4)
+
+
+if __name__ == "__main__":
+    what, *arguments = sys.argv[1:]
+    {"respond": respond, "fit": fit, "cells": cells}[what](*arguments)
