@@ -370,9 +370,9 @@ struct Unknowns<'a> {
     shifted: Vec<u32>,
 }
 
-/// c, ln s and m of greatest posterior density, their covariance V and the number of clusters. With fewer than
-/// [`MANY_CLUSTERS`] each cluster has a shift of standard deviation tau, and V is the part of the inverse B of
-/// the information, prior included, without the shifts. Else V = B (M + P) B, M the sum over clusters of the
+/// c, ln s and m of greatest posterior density, their covariance V and the number of clusters. Of fewer than
+/// [`MANY_CLUSTERS`] each has a shift of standard deviation tau, and V is the part of the inverse B of the
+/// information, prior included, without the shifts. Else V = B (M + P) B, M the sum over clusters of the
 /// squares of their scores and P the information of the prior, which counts as one more cluster.
 fn maximum(cases: &[Observation], prior: &Prior) -> (DVector<f64>, DMatrix<f64>, usize) {
     let clusters: Vec<u32> = cases.iter().map(|case| case.cluster).collect();

@@ -108,8 +108,8 @@ impl LimitStates<Option<f64>> {
 }
 
 /// The probabilities that no object of a list has the effect under a motion, in two halves of the motions of
-/// these peaks: what else they do to all objects moves each logit by one, down or up. So fitted to 958 motions
-/// of 29 earthquakes and 96 structures, of which independence would make eight alike fall 1.3 times too often.
+/// these peaks: what else they do to all objects moves each logit by one, down or up. By 958 motions of 29
+/// earthquakes and 96 structures; were they independent, one of eight alike would fall 1.3 times too often.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NoneOf([f64; 2]);
 
