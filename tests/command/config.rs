@@ -107,6 +107,7 @@ fn value_of(option: &str) -> &'static str {
         "structure" => "name=a,p=1,alpha=0.2,eta=0.9",
         "structures" => "paper",
         "over" => "pga",
+        "base" => "timber",
         "suite" => "pulse",
         "variants" => "true",
         "target" => "1%",

@@ -67,7 +67,7 @@ fn what_cannot_be_chosen_is_an_error_that_tells_what_to_do() {
     for (args, told) in [
         (ModelArgs { suite: None, ..args() }, "--suite"),
         (ModelArgs { suite: Some(MotionKind::Recorded), ..args() }, "fits of csgm"),
-        (ModelArgs { limit_state: 0.3, ..args() }, "--limit-state 0.1,0.3"),
+        (ModelArgs { limit_state: 0.3, ..args() }, "--limit-state 0.3"),
         (ModelArgs { name: Some("shelf".to_string()), ..args() }, "'shelf'"),
     ] {
         let error = args.read().and_then(|models| models.model(&equipment)).unwrap_err().to_string();

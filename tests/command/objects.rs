@@ -95,7 +95,7 @@ fn the_base_for_a_target_meets_it() {
 fn a_search_for_a_base_says_what_ends_it() {
     for (object, by_estimate, by_limit, end) in [
         ("--width 1 --height 6 --target 1%", true, true, None),
-        ("--width 0.5 --height 1.9 --magnitude 6.5 --target 0.1%", true, false, Some("hazard")),
+        ("--width 0.5 --height 1.9 --magnitude 6.5 --target 0.1%", true, false, Some("model")),
         ("--width 0.06 --height 0.2 --target 1%", true, false, Some("model")),
         // The search goes inwards.
         ("--width 1.2 --height 2 --target 10%", true, true, None),
