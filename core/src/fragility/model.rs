@@ -171,11 +171,8 @@ impl Model {
 
     /// The magnitude of a motion, if nobody gives it; none where probabilities do not depend on it.
     pub fn inferred_magnitude(&self, motion: Peaks) -> Option<AssumedMagnitude> {
-        let ln_pgv_pga = (motion.pgv_m_s / motion.pga_m_s2).ln();
         match self {
-            Model::Surface { overturning, .. } => {
-                Some(surface::inferred_magnitude(overturning.kind, ln_pgv_pga))
-            }
+            Model::Surface { overturning, .. } => Some(surface::inferred_magnitude(overturning.kind, motion)),
             Model::Paper { .. } => None,
         }
     }

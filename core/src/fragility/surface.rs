@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use super::joint_peaks::{JointPeaks, RatioGiven};
 use super::magnitude::{AssumedMagnitude, MagnitudeSource};
-use crate::motion::{IntensityMeasures, Suite};
+use crate::motion::{IntensityMeasures, Peaks, Suite};
 use crate::rocking::Structure;
 use crate::spelling::unknown_word;
 use crate::statistics::Range;
@@ -188,10 +188,9 @@ impl SurfaceAtIm4 {
     }
 }
 
-/// The magnitude of a motion with this ln(PGV / PGA), s, where it is not known.
-pub(super) fn inferred_magnitude(kind: MotionKind, ln_pgv_pga: f64) -> AssumedMagnitude {
+pub(super) fn inferred_magnitude(kind: MotionKind, motion: Peaks) -> AssumedMagnitude {
     let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
-    let mw = range.clamp(intercept + slope * ln_pgv_pga);
+    let mw = range.clamp(intercept + slope * (motion.pgv_m_s / motion.pga_m_s2).ln());
     AssumedMagnitude { mw, sd, source: MagnitudeSource::Inferred }
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::fragility_curve::GenericSites;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use crate::fragility::{
     AssumedMagnitude, GivenPeak, MagnitudeSource, Model, Peak, RockingDirection, at_higher_magnitude,
@@ -37,59 +38,53 @@ const USUAL_VS30_M_S: RangeInclusive<f64> = 200.0..=1500.0;
 pub(super) struct ConditionalMotions {
     pub peak: Peak,
     pub pgv_pga: PgvPgaRatio,
-    /// Median of the mean magnitude by which PGV / PGA is estimated, and its standard deviation.
-    mean: f64,
-    sd: f64,
+    /// The mean magnitude by which PGV / PGA is estimated.
+    mean: AssumedMagnitude,
     /// The magnitude of the motions less that mean; none where it is inferred from PGV / PGA.
     above: Option<f64>,
-    source: MagnitudeSource,
 }
 
 impl ConditionalMotions {
     /// Motions of earthquakes of a magnitude or, without one, of those that matter at generic sites.
     pub fn new(peak: Peak, pgv_pga: PgvPgaRatio, mw: Option<f64>) -> ConditionalMotions {
         // PGV / PGA by two curves, or of the model's motions, determines the magnitude.
-        let is_usual = matches!(pgv_pga.source, VelocitySource::Sites | VelocitySource::Given);
-        let (mean, sd, above, source) = match mw {
-            Some(mw) => (mw, 0.0, Some(0.0), MagnitudeSource::Given),
-            None if is_usual => (USUAL_MAGNITUDE, SD_OF_USUAL, Some(0.0), MagnitudeSource::Usual),
-            None => (USUAL_MAGNITUDE, SD_OF_USUAL, None, MagnitudeSource::Inferred),
-        };
-        ConditionalMotions { peak, pgv_pga, mean, sd, above, source }
+        let is_usual = matches!(pgv_pga.source, VelocitySource::Sites | VelocitySource::Ratio);
+        let source = if is_usual { MagnitudeSource::Usual } else { MagnitudeSource::Inferred };
+        let usual = AssumedMagnitude { mw: USUAL_MAGNITUDE, sd: SD_OF_USUAL, source };
+        let mean = mw.map_or(usual, AssumedMagnitude::given);
+        let above = (is_usual || mw.is_some()).then_some(0.0);
+        ConditionalMotions { peak, pgv_pga, mean, above }
     }
 
-    /// Motions as recorded, of a magnitude or, without one, of all magnitudes that overturn. `ratio_s` is the
-    /// PGV / PGA of all.
-    pub fn as_recorded(
-        model: &Model,
-        peak: Peak,
-        ratio_s: Option<f64>,
-        vs30_m_s: Option<f64>,
-        mw: Option<f64>,
-    ) -> ConditionalMotions {
+    /// Motions as recorded, of a magnitude or, without one, of all magnitudes that overturn.
+    pub fn as_recorded(model: &Model, sites: GenericSites) -> ConditionalMotions {
+        let GenericSites { over: peak, mw, vs30_m_s, ratio_s } = sites;
         let scatter = if mw.is_some() { 0.0 } else { SCATTER_OF_RECORDED };
         let of_records = || PgvPgaRatio::as_recorded(model, peak, vs30_m_s, scatter);
-        let motions = ConditionalMotions::new(peak, ratio_s.map_or_else(of_records, PgvPgaRatio::given), mw);
-        ConditionalMotions { mean: mw.unwrap_or(RECORDED_MAGNITUDE), ..motions }
+        let mut motions =
+            ConditionalMotions::new(peak, ratio_s.map_or_else(of_records, PgvPgaRatio::given), mw);
+        motions.mean.mw = mw.unwrap_or(RECORDED_MAGNITUDE);
+        motions
     }
 
     /// `mean` is the mean magnitude of the disaggregation: of SA(1.0 s) where PGV / PGA is by this curve,
     /// else of PGA; of PGV there is none.
     pub fn at_site(peak: Peak, pgv_pga: PgvPgaRatio, mean: Option<f64>) -> ConditionalMotions {
         let mean = mean.filter(|_| peak == Peak::Pga);
-        let motions = ConditionalMotions::new(peak, pgv_pga, mean);
+        let mut motions = ConditionalMotions::new(peak, pgv_pga, mean);
         let (above, sd) = match pgv_pga.source {
             _ if mean.is_none() => return motions,
-            VelocitySource::Spectrum => (0.0, SD_OF_MEAN),
+            VelocitySource::Sa => (0.0, SD_OF_MEAN),
             VelocitySource::Sites => (0.0, SD_ABOVE_MEAN_OF_PGA),
             _ => (ABOVE_MEAN_OF_PGA, SD_ABOVE_MEAN_OF_PGA),
         };
-        ConditionalMotions { sd, above: Some(above), ..motions }
+        (motions.above, motions.mean.sd) = (Some(above), sd);
+        motions
     }
 
     /// `ln_factor` is added to ln(PGV / PGA).
     pub fn given<'a>(&self, directions: &'a [RockingDirection], ln_factor: f64) -> GivenPeak<'a> {
-        self.with_mean(directions, self.mean, ln_factor)
+        self.with_mean(directions, self.mean.mw, ln_factor)
     }
 
     fn with_mean<'a>(&self, directions: &'a [RockingDirection], mean: f64, ln_factor: f64) -> GivenPeak<'a> {
@@ -101,7 +96,7 @@ impl ConditionalMotions {
     pub fn magnitude(&self, model: &Model, motion: Peaks) -> Option<AssumedMagnitude> {
         let inferred = model.inferred_magnitude(motion)?;
         Some(match self.above {
-            Some(above) => AssumedMagnitude { mw: self.mean + above, sd: self.sd, source: self.source },
+            Some(above) => AssumedMagnitude { mw: self.mean.mw + above, ..self.mean },
             None => AssumedMagnitude { sd: SD_OF_INFERRED, ..inferred },
         })
     }
@@ -114,17 +109,13 @@ impl ConditionalMotions {
     ) -> Vec<LowHigh<T>> {
         let directions = &object.directions[..];
         let mut at_quantiles = Vec::new();
-        if self.sd > 0.0 && matches!(directions[0].model, Model::Surface { .. }) {
-            let at_mean = |mean: f64| match self.above {
-                Some(_) => result(&self.with_mean(directions, mean, 0.0)),
-                // What PGV / PGA leaves open, in the part of PGV / PGA that depends on the magnitude, too.
-                None => {
-                    let off = SD_OF_INFERRED / self.sd * (mean - self.mean);
-                    result(&self.with_mean(&at_higher_magnitude(directions, off), mean, 0.0))
-                }
-            };
-            at_quantiles
-                .push(quantiles(UncertaintySource::Magnitude, self.mean, self.sd).map(|mean| at_mean(*mean)));
+        let AssumedMagnitude { mw, sd, .. } = self.mean;
+        if sd > 0.0 && matches!(directions[0].model, Model::Surface { .. }) {
+            // What PGV / PGA leaves open moves the part of PGV / PGA that depends on the magnitude, too.
+            let share = if self.above.is_none() { SD_OF_INFERRED / sd } else { 0.0 };
+            at_quantiles.push(at_magnitudes(directions, sd, share, |directions, off| {
+                result(&self.with_mean(directions, mw + off, 0.0))
+            }));
         }
         at_quantiles
             .push(self.pgv_pga.at_quantiles().map(|ln_factor| result(&self.given(directions, *ln_factor))));
@@ -140,15 +131,13 @@ pub fn unusual_motions(mw: Option<f64>, vs30_m_s: Option<f64>) -> impl Iterator<
     magnitude.into_iter().chain(is_unusual.then_some(Warning::UnusualGround))
 }
 
-/// Results of motions whose magnitude is inferred from both peaks, at its quantiles.
-pub(super) fn at_inferred_magnitudes<T>(
+/// Results with the magnitude off to its quantiles; where it is inferred, this share of that moves c.
+pub(super) fn at_magnitudes<T>(
     directions: &[RockingDirection],
     sd: f64,
-    result: impl Fn(&[RockingDirection]) -> T,
+    share: f64,
+    result: impl Fn(&[RockingDirection], f64) -> T,
 ) -> LowHigh<T> {
-    quantiles(UncertaintySource::Magnitude, 0.0, sd).map(|off| result(&at_higher_magnitude(directions, *off)))
-}
-
-fn quantiles(source: UncertaintySource, mean: f64, sd: f64) -> LowHigh<f64> {
-    LowHigh { source, low: mean - Z_95 * sd, high: mean + Z_95 * sd }
+    let off = LowHigh { source: UncertaintySource::Magnitude, low: -Z_95 * sd, high: Z_95 * sd };
+    off.map(|off| result(&at_higher_magnitude(directions, share * off), *off))
 }

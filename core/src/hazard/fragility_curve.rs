@@ -103,8 +103,7 @@ impl GenericSites {
     }
 
     fn motions(&self, directions: &[RockingDirection]) -> ConditionalMotions {
-        let GenericSites { over, mw, vs30_m_s, ratio_s } = *self;
-        ConditionalMotions::as_recorded(&directions[0].model, over, ratio_s, vs30_m_s, mw)
+        ConditionalMotions::as_recorded(&directions[0].model, *self)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::conditional_motions::{ConditionalMotions, at_inferred_magnitudes};
+use super::conditional_motions::{ConditionalMotions, at_magnitudes};
+use super::fragility_curve::GenericSites;
 use crate::fragility::{
     AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject,
     RockingDirection, Tau,
@@ -82,10 +83,11 @@ impl GroundMotion {
                 };
                 let mut at_quantiles = object.at_quantiles(limit_states);
                 let inferred = model.inferred_magnitude(peaks);
-                if let Some(AssumedMagnitude { sd, .. }) = inferred.filter(|_| self.mw.is_none()) {
-                    at_quantiles.push(at_inferred_magnitudes(directions, sd, limit_states));
-                }
                 let magnitude = inferred.map(|inferred| self.mw.map_or(inferred, AssumedMagnitude::given));
+                let unknown = magnitude.filter(|magnitude| magnitude.sd > 0.0);
+                at_quantiles.extend(unknown.map(|AssumedMagnitude { sd, .. }| {
+                    at_magnitudes(directions, sd, 1.0, |moved, _| limit_states(moved))
+                }));
                 (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)), magnitude)
             }
             Some((motions, intensity)) => {
@@ -114,7 +116,8 @@ impl GroundMotion {
             (Some(pga), None) => (Peak::Pga, pga),
             (None, pgv) => (Peak::Pgv, pgv?),
         };
-        Some((ConditionalMotions::as_recorded(model, peak, None, self.vs30_m_s, self.mw), intensity))
+        let sites = GenericSites { over: peak, mw: self.mw, vs30_m_s: self.vs30_m_s, ratio_s: None };
+        Some((ConditionalMotions::as_recorded(model, sites), intensity))
     }
 }
 

@@ -8,8 +8,7 @@ use crate::fragility::{Model, MotionKind, Peak, RatioGiven};
 use crate::object::{LowHigh, UncertaintySource};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
-use crate::statistics::normal;
-use crate::statistics::normal::Z_95;
+use crate::statistics::normal::{self, Z_95};
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
@@ -19,17 +18,11 @@ use crate::units::G_M_S2;
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<VelocitySource>)]
 pub enum VelocitySource {
     /// Curves of PGA and PGV.
-    #[serde(rename = "pgv")]
-    #[strum(serialize = "pgv")]
-    Velocity,
+    Pgv,
     /// Curves of PGA and of the spectral acceleration at 1 s.
-    #[serde(rename = "sa")]
-    #[strum(serialize = "sa")]
-    Spectrum,
+    Sa,
     /// A ratio that the user gives.
-    #[serde(rename = "ratio")]
-    #[strum(serialize = "ratio")]
-    Given,
+    Ratio,
     /// The motions that the model was fitted to.
     Motions,
     /// Ground-motion models, at an average site.
@@ -51,6 +44,7 @@ pub struct PgvPgaRatio {
 /// The magnitude at which the lines of generic sites hold.
 const MIDDLE: f64 = 6.3;
 /// ln(PGV / PGA), s, at generic sites: linear in ln of the given peak.
+#[derive(Clone, Copy)]
 struct LineOfSites {
     /// The peak at which the line has this level, m/s2 or m/s.
     at: f64,
@@ -77,8 +71,7 @@ const GIVEN_PGV: LineOfSites = LineOfSites {
     at: 0.4, level: -2.21, slope: 0.25, sd: 0.50, per_magnitude: 0.33,
     sd_of_level: 0.23, per_ln_vs30: -0.20, sd_at_vs30: 0.21,
 };
-/// Of motions as recorded: 479 components of 28 earthquakes, with a random level for each
-/// (scripts/reference/recorded_peaks.py). Records of a PGA are of larger magnitudes and softer ground than the motions of a site.
+/// Of motions as recorded, by scripts/reference/recorded_peaks.py.
 #[rustfmt::skip]
 const RECORDED_GIVEN_PGA: LineOfSites = LineOfSites {
     level: -2.58, slope: -0.15, sd: 0.43, per_magnitude: 0.49,
@@ -134,29 +127,18 @@ pub fn velocity_of_spectrum(pga: &HazardCurve, sa_1s: &HazardCurve) -> HazardCur
 impl PgvPgaRatio {
     /// The same ratio (s) in all motions.
     pub fn given(ratio_s: f64) -> PgvPgaRatio {
-        PgvPgaRatio {
-            ratio: RatioGiven::line(ratio_s.ln(), 0.0, 0.0),
-            per_magnitude: 0.0,
-            sd: 0.0,
-            source: VelocitySource::Given,
-        }
+        let ratio = RatioGiven::line(ratio_s.ln(), 0.0, 0.0);
+        PgvPgaRatio { ratio, per_magnitude: 0.0, sd: 0.0, source: VelocitySource::Ratio }
     }
 
     /// The ratio of the motions that a model was fitted to, else of generic sites, of this Vs30 (m/s).
     pub fn by_model(model: &Model, given: Peak, vs30_m_s: Option<f64>) -> PgvPgaRatio {
-        let line = match given {
-            Peak::Pga => GIVEN_PGA,
-            Peak::Pgv => GIVEN_PGV,
-        };
-        PgvPgaRatio::by_line(model, given, line, vs30_m_s)
+        PgvPgaRatio::by_line(model, given, [GIVEN_PGA, GIVEN_PGV][given as usize], vs30_m_s)
     }
 
     /// Likewise of motions as recorded, of one magnitude or with this standard deviation of magnitudes.
     pub fn as_recorded(model: &Model, given: Peak, vs30_m_s: Option<f64>, sd_of_mw: f64) -> PgvPgaRatio {
-        let line = match given {
-            Peak::Pga => RECORDED_GIVEN_PGA,
-            Peak::Pgv => GIVEN_PGV,
-        };
+        let line = [RECORDED_GIVEN_PGA, GIVEN_PGV][given as usize];
         let line = LineOfSites { sd: line.sd.hypot(line.per_magnitude * sd_of_mw), ..line };
         PgvPgaRatio::by_line(model, given, line, vs30_m_s)
     }
@@ -213,7 +195,7 @@ impl PgvPgaRatio {
             return Err(MatchError::Unlike(remainder));
         }
         let (per_magnitude, sd) = match source {
-            VelocitySource::Spectrum => (PER_MAGNITUDE_BY_SPECTRUM, SD_BY_SPECTRUM),
+            VelocitySource::Sa => (PER_MAGNITUDE_BY_SPECTRUM, SD_BY_SPECTRUM),
             _ => (0.0, SD_BY_VELOCITY),
         };
         Ok(PgvPgaRatio { ratio: line, per_magnitude, sd, source })

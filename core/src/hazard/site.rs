@@ -1,9 +1,7 @@
 //! Annual rates of an object at a site, with the uncertainty of the hazard and of the rate beyond its curve.
 
 use super::budget::Budget;
-use super::conditional_motions::{
-    ConditionalMotions, SD_OF_INFERRED, at_inferred_magnitudes, unusual_motions,
-};
+use super::conditional_motions::{ConditionalMotions, SD_OF_INFERRED, at_magnitudes, unusual_motions};
 use super::curve::HazardCurve;
 use super::ground::unusual_ground;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
@@ -47,7 +45,7 @@ impl Hazard {
     /// If they cannot be of one site.
     pub fn with_spectrum(curve: HazardCurve, sa_1s: &HazardCurve) -> Result<Hazard, MatchError> {
         let pgv = velocity_of_spectrum(&curve, sa_1s);
-        let pgv_pga = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Spectrum)?);
+        let pgv_pga = Some(PgvPgaRatio::by_curves(&curve, &pgv, VelocitySource::Sa)?);
         let warnings = unusual_ground(&curve, sa_1s).into_iter().collect();
         Ok(Hazard::Curve(PeakHazard { peak: Peak::Pga, curve, warnings, fractiles: None, pgv_pga }))
     }
@@ -128,7 +126,9 @@ impl Site {
                 let motion = strongest.map_or(Peaks::default(), |bin| bin.peaks);
                 let mut magnitude = self.mw.map(AssumedMagnitude::given);
                 if bins.iter().any(|bin| bin.mw.or(self.mw).is_none()) {
-                    at_quantiles.push(at_inferred_magnitudes(&object.directions, SD_OF_INFERRED, rates));
+                    at_quantiles.push(at_magnitudes(&object.directions, SD_OF_INFERRED, 1.0, |moved, _| {
+                        rates(moved)
+                    }));
                     magnitude = object.directions[0].model.inferred_magnitude(motion);
                 }
                 let warnings = unusual_motions(self.mw, None).collect();

@@ -128,7 +128,7 @@ fn an_error_of_velocity_moves_a_rate_as_in_closed_form() {
     let pga = power_law(1e-3, k, 9);
     let (slope, sd) = (0.1, 0.45);
     let pgv = curve_of_velocity(k, -2.9, slope, sd);
-    let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Spectrum).unwrap();
+    let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Sa).unwrap();
     let fractiles = Some([power_law(1e-3 / 1.5, k, 9), power_law(1e-3 * 1.5, k, 9)]);
     let hazard =
         PeakHazard { peak: Peak::Pga, curve: pga, warnings: vec![], fractiles, pgv_pga: Some(velocity) };
@@ -200,14 +200,13 @@ fn two_curves_tell_the_line_by_which_they_belong_together() {
     let pga = power_law(1e-3, 2.2, 33);
     for (level, slope) in [(-2.9, 0.0), (-2.2, -0.3), (-3.3, 0.2)] {
         let pgv = curve_of_velocity(2.2, level, slope, 0.42);
-        let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Velocity).unwrap();
+        let velocity = PgvPgaRatio::by_curves(&pga, &pgv, VelocitySource::Pgv).unwrap();
         for pga_m_s2 in [1.0, 5.0] {
             let ratio = velocity.at(6.5, 0.0).ratio(pga_m_s2, 0.0);
             close(ratio, (level + slope * f64::ln(pga_m_s2)).exp(), 1e-4);
         }
     }
-    let matched =
-        |pgv: &HazardCurve| PgvPgaRatio::by_curves(&pga, pgv, VelocitySource::Velocity).unwrap_err();
+    let matched = |pgv: &HazardCurve| PgvPgaRatio::by_curves(&pga, pgv, VelocitySource::Pgv).unwrap_err();
     assert!(matches!(matched(&curve_of_velocity(2.2, 1.0, 0.0, 0.42)), MatchError::ImpossibleRatio { .. }));
     let kinked = HazardCurve::new(vec![(0.05, 0.1), (0.1, 1e-4), (0.5, 5e-5), (2.0, 1e-6)]).unwrap();
     assert!(matches!(matched(&kinked), MatchError::Unlike(_)));

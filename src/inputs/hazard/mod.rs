@@ -121,7 +121,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
         hazard.warnings.extend(is_median.then_some(Warning::MedianHazard));
         hazard.fractiles = fractiles.map(|(low, high)| [low.curve.clone(), high.curve.clone()]);
         if let (Some(pga), Some(pgv)) = (pga, pgv) {
-            hazard.pgv_pga = Some(PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Velocity)?);
+            hazard.pgv_pga = Some(PgvPgaRatio::by_curves(&pga.curve, &pgv.curve, VelocitySource::Pgv)?);
         }
     }
     Ok(hazard)
