@@ -46,8 +46,7 @@ pub enum Wall {
     Rebound(f64),
 }
 
-/// Of a rebound that is not known: a rigid block that falls flat onto its base stays below .5 (one-sided
-/// rocking, Sorrentino et al. 2011), what is behind it may give back more.
+/// Of a rebound that is not known: our choice, from a soft wall to a hard one.
 const USUAL_REBOUND: f64 = 0.5;
 const SD_OF_REBOUND: f64 = 0.2;
 
