@@ -11,6 +11,7 @@ from scipy.signal import cont2discrete, lfilter, ss2tf
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 from common import fema, peaks  # noqa: E402, F401
+from rocking import rested  # noqa: E402, F401
 
 
 def components():
@@ -29,11 +30,6 @@ def records(imported):
 def key(earthquake, magnitude):
     """One name of an earthquake in both sources."""
     return f"{earthquake[:4].upper()} {magnitude:.1f}"
-
-
-def rested(acceleration, dt, seconds):
-    """With rest behind it."""
-    return np.append(acceleration, np.zeros(int(seconds / dt)))
 
 
 def absolute(acceleration, dt, period, damping=0.05):

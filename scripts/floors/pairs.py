@@ -7,19 +7,19 @@ numba."""
 import numpy as np
 
 import motions
-from two_sided import TAIL_S, body, overturns
+from rocking import FREE, body, demand, rested
 
 OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (0.6, 0.8, 1.8),
            (0.6, 0.6, 2.2), (0.8, 0.8, 2.2), (0.8, 1.0, 2.4), (1.0, 1.0, 3.0), (1.0, 1.2, 4.0),
            (0.25, 0.35, 0.8), (1.5, 1.5, 5.0)]  # fmt: skip
 SCALES = np.geomspace(0.25, 3.0, 8)
 
-records = [(motions.rested(a, dt, TAIL_S), dt) for *_, a, dt in motions.components()]
+records = [(rested(a / 9.81, dt), dt) for *_, a, dt in motions.components()]
 weights = -np.diff(SCALES**-2.2, append=0.0)
 ratios = []
 for width, depth, height in OBJECTS:
     sides = [np.array(body(side, height, 0.0)) for side in (width, depth)]
-    of_scale = lambda a, dt, scale: [overturns(scale * a, dt, side) for side in sides]
+    of_scale = lambda a, dt, scale: [np.isinf(demand(scale * a, dt, side, FREE)) for side in sides]
     fell = np.array([[of_scale(a, dt, scale) for scale in SCALES] for a, dt in records])
     # Of each scale: pair, component and side.
     fell = fell.reshape(-1, 2, len(SCALES), 2).transpose(2, 0, 1, 3)

@@ -1,24 +1,38 @@
-"""Fits what a floor adds to the surface: python surface.py UNIVERSAL.csv FLOOR_RESPONSES
+"""Fits what a floor adds to the surface: python surface.py motions AT2.parquet OUT.parquet; fit UNIVERSAL.csv RESPONSES
 
-logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own
-peaks and the magnitude, f the resonant share of the floor's velocity. The responses are those to the motions
-of floors.py."""
+The motions are each component at eight floors of buildings drawn (T1 log-uniform .1 to 3 s, level uniform .1 to 1), .5
+to 2.5 times as strong; their ids are NAME|earthquake|magnitude|PGA|PGV of the ground|T1|level. To their responses is
+fitted logit P = Z + f (a + b ln(p T1)), of P_ex also + f h ln(limit/0.1): Z the logit as shipped at the floor's own
+peaks and the magnitude, f the resonant share of the floor's velocity."""
 
 import pathlib
 import sys
 
 import numpy as np
 import polars as pl
-from scipy.optimize import minimize
 
+import motions
 import peaks
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "universal"))
 from calibration import apply  # noqa: E402
 from cases import counted  # noqa: E402
-from surface import NO_LIMIT, Surface  # noqa: E402
+from fit import added_left_out, loss_of  # noqa: E402
+from surface import LIMITS, Surface  # noqa: E402
 
 FOLDS = 8
+
+
+def on_floors(imported):
+    rng = np.random.default_rng(42)
+    for name, earthquake, mw, ground, dt in motions.records(imported):
+        for _ in range(8):
+            period, level = np.exp(rng.uniform(np.log(0.1), np.log(3.0))), rng.uniform(0.1, 1.0)
+            a = np.exp(rng.uniform(np.log(0.5), np.log(2.5))) * ground
+            pga, pgv = motions.peaks(a, dt)
+            a = motions.rested(a, dt, 3 * period / (2 * np.pi * 0.05))
+            motion_id = f"{name}|{earthquake}|{mw}|{pga:.6g}|{pgv:.6g}|{period:.6g}|{level:.6g}"
+            yield motion_id, float(dt), mw, motions.floors(a, dt, period, [level])[0].astype(np.float32)
 
 
 def read(file):
@@ -46,26 +60,22 @@ def terms(event, cases):
     return cases.select(**{name: pl.col("share") * factor for name, factor in columns.items()}).to_numpy()
 
 
-def fit(event, cases):
-    z, happened, columns = cases["z"].to_numpy(), cases["happened"].to_numpy(), terms(event, cases)
-    loss = lambda b: -score(z + columns @ b, happened) + 1e-9 * b @ b
-    return minimize(loss, np.zeros(columns.shape[1]), method="BFGS").x
+def fit(table, responses):
+    surface, floors = Surface(open(table)), read(responses)
+    names = floors["cluster"].unique().sort()
+    fold_of = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
+    for event, limits in LIMITS.items():
+        cases = pl.concat([of_limit(surface, event, floors, limit) for limit in limits]).filter(pl.col("z").is_finite())
+        z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
+        b, left = added_left_out(z, terms(event, cases), happened, cases["cluster"].replace_strict(fold_of).to_numpy())
+        scores = (np.round(-loss_of(logit, happened) / len(z), 4) for logit in (z, left))
+        print(event, b.round(3), "log score as on the ground and with earthquakes left out:", *scores)
 
 
-def score(z, happened):
-    return -(np.logaddexp(0, z) - happened * z).mean()
-
-
-surface, floors = Surface(open(sys.argv[1])), read(sys.argv[2])
-names = floors["cluster"].unique().sort()
-fold_of = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
-for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
-    cases = pl.concat([of_limit(surface, event, floors, limit) for limit in limits])
-    cases = cases.filter(pl.col("z").is_finite()).with_columns(fold=pl.col("cluster").replace_strict(fold_of))
-    left = cases["z"].to_numpy().copy()
-    for k in range(FOLDS):
-        out = cases["fold"].to_numpy() == k
-        left[out] += terms(event, cases.filter(out)) @ fit(event, cases.filter(~out))
-    z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
-    print(event, fit(event, cases).round(3), "log score as on the ground and with earthquakes left out:",
-          score(z, happened).round(4), score(left, happened).round(4))
+if __name__ == "__main__":
+    what, *files = sys.argv[1:]
+    if what == "fit":
+        fit(*files)
+    else:
+        columns = ["motion_id", "dt_s", "mw", "acceleration_m_s2"]
+        pl.DataFrame(dict(zip(columns, zip(*on_floors(files[0]))))).write_parquet(files[1])

@@ -41,6 +41,15 @@ def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
     return b
 
 
+def added_left_out(z, columns, happened, folds):
+    """Coefficients of what is added to a logit z, and the logit of each fold with those of all others."""
+    of = lambda rows: monotone_logistic(columns[rows], happened[rows], columns[:0], 1e-6, z[rows])
+    left = z.copy()
+    for fold in np.unique(folds):
+        left[folds == fold] += columns[folds == fold] @ of(folds != fold)
+    return of(folds >= 0), left
+
+
 def rises(terms, points=(9, 6, 5)):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
     smaller at the same shape or bouncier, or the limit falls: on a grid over the domain and p beyond it, with

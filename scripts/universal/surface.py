@@ -21,6 +21,8 @@ DOMAIN |= {"limit": (0.02, 0.9), "ratio": (1.0, 45.0)}
 MOST_IM4 = 18.61
 # The limit state at which P_ex is calibrated; at that of P_ro its features are 0.
 LIMIT, NO_LIMIT = 0.1, 0.2
+# Those to which is fitted what a floor and a wall add.
+LIMITS = {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}
 # PGA is held where IM4 ends.
 RATIO = pl.col("im4").clip(upper_bound=MOST_IM4) / pl.col("im5") * pl.col("p_rad_s")
 

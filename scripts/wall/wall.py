@@ -2,7 +2,7 @@
 python wall.py respond AT2.parquet OUT.parquet [records|blocks STEP]; fit UNIVERSAL.csv OUT.parquet; cells
 OUT.parquet WALL.csv, the falls of blocks by cells of PGA and PGV (core/tests/reference/wall.csv)
 
-One-sided rocking (two_sided.demand), with the wall in either of both directions. Records, structures and scales
+One-sided rocking (rocking.demand), with the wall in either of both directions. Records, structures and scales
 are those of scripts/universal, AT2.parquet as of its make.sh. Needs numba."""
 
 import itertools
@@ -18,8 +18,9 @@ sys.path += [str(HERE.parent / "universal"), str(HERE.parent / "floors")]
 import cases as of  # noqa: E402
 import motions  # noqa: E402
 from calibration import apply, logistic  # noqa: E402
-from surface import NO_LIMIT, Surface, features  # noqa: E402
-from two_sided import FREE, demand  # noqa: E402
+from fit import added_left_out  # noqa: E402
+from rocking import FREE, demand  # noqa: E402
+from surface import LIMITS, Surface, features  # noqa: E402
 
 REBOUNDS = [0.0, 0.3, 0.5, 0.7, 0.9]
 WALLS = [f"{side}{e}" for e in REBOUNDS for side in ("near", "far")]
@@ -70,30 +71,17 @@ def counted(surface, responses, event, limit):
     return rows.filter(~fell | (event == "pro"))
 
 
-def maximum(z, columns, happened):
-    """The coefficients of greatest likelihood, by Newton's method in short steps."""
-    b = np.zeros(columns.shape[1])
-    for _ in range(40):
-        p = logistic(z + columns @ b)
-        information = columns.T @ (columns * (p * (1 - p))[:, None])
-        b += np.clip(np.linalg.solve(information, columns.T @ (happened - p)), -1, 1)
-    return b
-
-
 def fit(table, responses):
     """L += a + b e^2 + c x + d ln(p/2), eta at .85; judged on earthquakes left out, in eight parts."""
     surface, responses = Surface(open(table)), pl.read_parquet(responses)
-    for event, limits in {"pro": [NO_LIMIT], "pex": [0.05, 0.1, 0.2, 0.5]}.items():
+    for event, limits in LIMITS.items():
         cases = pl.concat([counted(surface, responses, event, limit) for limit in limits])
         cases = cases.filter(pl.col("z").is_finite())
         by = {"a": pl.lit(1.0), "b": pl.col("e") ** 2, "c": pl.col("x"), "d": pl.col("p")}
         columns, z = cases.select(**by).to_numpy() * cases["s"].to_numpy()[:, None], cases["z"].to_numpy()
-        happened, left = cases["h"].to_numpy().astype(float), z.copy()
-        part = cases["cluster"].rank("dense").to_numpy() % FOLDS
-        for k in range(FOLDS):
-            others = part != k
-            left[~others] += columns[~others] @ maximum(z[others], columns[others], happened[others])
-        print(event, "a, b, c, d", maximum(z, columns, happened).round(2))
+        happened, part = cases["h"].to_numpy().astype(float), cases["cluster"].rank("dense").to_numpy() % FOLDS
+        b, left = added_left_out(z, columns, happened, part)
+        print(event, "a, b, c, d", b.round(2))
         p = logistic(left)
         of_case = np.digitize(p, CLASSES)
         for e in REBOUNDS:
