@@ -1,12 +1,11 @@
-"""Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON] [--update] [PAGE...]
+"""Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON] [PAGE...]
 
     ```sh         run, and must end with exit code 0
     ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
     ```python     run as one script a page by --python (a Python with the package), but for blocks that begin with "# not run"
     ```console    not run: what installs, compiles, or needs a cluster
 
-Each page has a folder of its own with data, scripts, python and pipeline.yaml of the repository. --update writes the numbers
-that came out into the lines that are shown, where the words are the same.
+Each page has a folder of its own with data, scripts, python and pipeline.yaml of the repository.
 """
 
 import argparse
@@ -19,7 +18,6 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-NUMBER = re.compile(r"\d+(?:[.,]\d+)*(?:e-?\d+)?")
 
 
 def missing(shown, output):
@@ -29,20 +27,13 @@ def missing(shown, output):
     return next((line for line in lines(shown) if line not in found), None)
 
 
-def updated(shown, output):
-    """The lines shown, each as in the output where its words are there."""
-    words = lambda line: NUMBER.sub("#", " ".join(line.split()))
-    new = {words(line): line for line in reversed(output.splitlines())}
-    return "".join(new.get(words(line), line) + "\n" for line in shown.splitlines())
-
-
 def run(command, folder, environment):
     """The exit code of a command, and what it prints."""
     done = subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
-def faults(page, environment, python, update):
+def faults(page, environment, python):
     """What is wrong with a page."""
     text = page.read_text()
     blocks = [(match[1], match[2], text[: match.start()].count("\n") + 1) for match in BLOCK.finditer(text)]
@@ -57,9 +48,7 @@ def faults(page, environment, python, update):
                     yield f"line {line}: exit code {code}\n{output}"
             elif language == "text" and output is not None:
                 other = missing(content, output)
-                if other is not None and update:
-                    page.write_text(page.read_text().replace(content, updated(content, output)))
-                elif other is not None:
+                if other is not None:
                     yield f"line {line}: '{other}' is not in the output\n{output}"
             if language not in ("sh", "text"):
                 output = None
@@ -74,14 +63,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("rockfrag", type=pathlib.Path)
     parser.add_argument("--python", type=pathlib.Path)
-    parser.add_argument("--update", action="store_true")
     parser.add_argument("pages", nargs="*", type=pathlib.Path)
     options = parser.parse_intermixed_args()
     path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
     environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
     pages = options.pages or [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
     python = options.python and options.python.absolute()
-    wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python, options.update)]
+    wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python)]
     if wrong:
         sys.exit("\n".join(wrong))
     print(f"{len(pages)} pages: every command runs, and prints the lines that are shown")

@@ -45,20 +45,8 @@ def parts(rows):
     return surface.parts("pro", "recorded", pl.DataFrame({name: np.asarray(of) for name, of in cases.items()}))
 
 
-def gradient(b, of, fell, shifted):
-    """Of the negative log posterior, by c, ln s, m and the shifts of the earthquakes."""
-    z = b[0] + np.exp(b[1]) * of[:, 0] + b[2] * of[:, 1] + of[:, 2] + shifted @ b[3:]
-    by = np.column_stack([np.ones(len(of)), np.exp(b[1]) * of[:, 0], of[:, 1], shifted])
-    away = np.append((b[:3] - PRIOR[:3]) / PRIOR[3:] ** 2, b[3:] / TAU**2)
-    return by.T @ (1 / (1 + np.exp(-z)) - fell) + away
-
-
 def answer(rows):
-    earthquake = rows.earthquake.to_numpy()
-    known = parts(rows), rows.fell.to_numpy(), np.equal.outer(earthquake, np.unique(earthquake)).astype(float)
-    b = root(gradient, np.append(PRIOR[:3], np.zeros(known[2].shape[1])), args=known, tol=1e-13).x
-    steps = 1e-5 * np.eye(len(b))
-    v = np.linalg.inv([(gradient(b + h, *known) - gradient(b - h, *known)) / 2e-5 for h in steps])
+    b, v = calibrate(parts(rows), rows.fell.to_numpy(), PRIOR, rows.earthquake.to_numpy(), TAU)
     numbers = dict(zip(("c", "ln_s", "m"), b)) | {"n": len(rows), "n_events": int(rows.fell.sum())}
     return numbers | {f"v_{i}{j}": v[i, j] for i in range(3) for j in range(i, 3)}
 

@@ -4,7 +4,8 @@ The truth is the sum over the joint hazard of a site of its rates times P_ro, ea
 magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
 whose c, ln s and eta are drawn from their distributions. A second table tells how far the mean magnitude of the
 motions that overturn lies above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their
-PGV/PGA tells; a third has that mean of all sites, its sd between sites and within.
+PGV/PGA tells; a third has that mean of all sites, its sd between sites and within. The logits of the truth are those
+of scripts/universal/surface.py.
 """
 
 import itertools
@@ -14,12 +15,16 @@ import sys
 
 import numpy as np
 import pandas as pd
-from scipy.special import expit, logit
+import polars as pl
+from scipy.special import expit
 
 import sites as S
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+scripts = pathlib.Path(__file__).resolve().parents[1]
+sys.path += [str(scripts), str(scripts / "universal")]
+from calibration import apply  # noqa: E402
 from common import ROOT, call  # noqa: E402
+from surface import NO_LIMIT, Surface  # noqa: E402
 
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
 SD_OF_LOSS = 0.4
@@ -33,26 +38,19 @@ names, joint, mean_mw = data["names"], data["joint"], data["mw"]
 random = np.random.default_rng(1)
 
 
-def calibration():
-    """c, ln s, m and their standard deviations, of P_ro under recorded motions."""
-    lines = open(ROOT / "core/data/universal.csv").read().splitlines()
-    cells = next(line.split(",") for line in lines if line.startswith("calibration,recorded,pro"))
-    return [float(cell) for cell in cells[3:9]]
+SURFACE = Surface(open(ROOT / "core/data/universal.csv"))
+PRIOR = SURFACE.prior("pro", "recorded")
 
 
 def surface(width, height, eta, mw):
     """Logits of P_ro at the bins of PGA and PGV; -inf below uplift."""
-    a, v = np.meshgrid(S.X, S.Y, indexing="ij")
-    p, alpha = np.sqrt(3 * 9.81 / (2 * np.hypot(width, height))), np.arctan(width / height)
-    keep = (np.exp(a) > 9.81 * np.tan(alpha)) & (np.exp(a) <= 4.5 * 9.81) & (np.exp(v) <= 5)
-    # The program takes other ratios for a wrong unit; no rates are there.
-    keep &= (v > a + np.log(0.0051)) & (v < a + np.log(2.9))
-    table = pd.DataFrame({"pga_m_s2": np.exp(a)[keep], "pgv_m_s": np.exp(v)[keep], "mw": mw})
-    table.to_csv(folder / "grid.csv", index=False)
-    structure = "--p", p, "--alpha", alpha, "--eta", eta
-    call(binary, "evaluate", "--in", folder / "grid.csv", *structure, "--out", folder / "out.csv", "--force")
-    result = np.full(a.shape, -np.inf)
-    result[keep] = logit(pd.read_csv(folder / "out.csv")["p_ro"])
+    pga, pgv = np.exp(np.meshgrid(S.X, S.Y, indexing="ij"))
+    uplift, p = 9.81 * width / height, np.sqrt(3 * 9.81 / (2 * np.hypot(width, height)))
+    keep = (pga > uplift) & (pga <= 4.5 * 9.81) & (pgv <= 5)
+    numbers = {"p_rad_s": p, "eta": eta, "mw": mw, "limit": NO_LIMIT}
+    cases = pl.DataFrame({"im4": pga[keep] / uplift, "im5": p * pgv[keep] / uplift, **numbers})
+    result = np.full(pga.shape, -np.inf)
+    result[keep] = apply(PRIOR, SURFACE.parts("pro", "recorded", cases))
     return result
 
 
@@ -61,7 +59,7 @@ class Truth:
 
     def __init__(self, width, height):
         housner = 1 - 1.5 * np.sin(np.arctan(width / height)) ** 2
-        self.c, _, self.m, *self.sds = calibration()
+        self.c, _, self.m, *self.sds = PRIOR
         self.tan_alpha = width / height
         etas = 1 - (1 - housner) * np.exp(LN_LOSS)
         self.logits = np.array([surface(width, height, eta, MIDDLE) for eta in etas])
@@ -132,9 +130,7 @@ def judged(truths):
 def magnitudes(truths):
     """Of each site and object, how far the mean magnitude of what overturns lies above those of the curves and of
     PGV/PGA; the mean, and the sd about it."""
-    lines = open(ROOT / "core/data/universal.csv").read().splitlines()
-    line = next(line.split(",") for line in lines if line.startswith("magnitude,recorded"))
-    intercept, slope, _, *ends = (float(cell) for cell in line[2:7])
+    intercept, slope, _, *ends = SURFACE.numbers["magnitude", "recorded"]
     tells = np.clip(intercept + slope * (S.Y - S.X[:, None]), *ends)
     for k, truth in itertools.product(range(len(names)), truths.values()):
         rates = np.array([truth.rate(joint[k] * (S.MAGNITUDES == mw)[:, None, None]) for mw in S.MAGNITUDES])

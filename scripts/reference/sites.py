@@ -218,17 +218,25 @@ def by_spectrum(data, among):
     return [np.exp(b[0]), *b[1:], *sds]
 
 
-if __name__ == "__main__":
-    folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "core/tests/reference/fits"
-    names, made = [], []
-    for kind, (geometries, models, rho) in SETS.items():
-        for (geometry, sources), (model, vs30) in itertools.product(geometries.items(), models):
-            names.append((kind, geometry, model, str(vs30)))
-            ruptures = np.concatenate(sources)
-            made.append(site(ruptures, *motions(model, vs30, ruptures), rho))
+def save(folder, sites):
+    """Writes sites.npz of sites, each (names, ruptures, means, standard deviations, correlation): names and data."""
+    names, made = zip(*((names, site(*of_site)) for names, *of_site in sites))
     data = {name: np.array([of_site[name] for of_site in made]) for name in made[0]}
     np.savez_compressed(folder / "sites.npz", names=np.array(names), **data)
-    kinds, vs30 = np.array(names)[:, 0], np.array(names)[:, 3].astype(float)
+    return np.array(names), data
+
+
+def of_sets():
+    for kind, (geometries, models, rho) in SETS.items():
+        for (geometry, sources), (model, vs30) in itertools.product(geometries.items(), models):
+            ruptures = np.concatenate(sources)
+            yield (kind, geometry, model, str(vs30)), ruptures, *motions(model, vs30, ruptures), rho
+
+
+if __name__ == "__main__":
+    folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "core/tests/reference/fits"
+    names, data = save(folder, of_sets())
+    kinds, vs30 = names[:, 0], names[:, 3].astype(float)
     joints, mean_mw, chosen = data["joint"], data["mw"], (kinds == "fit") | (kinds == "check")
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):

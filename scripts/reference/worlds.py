@@ -81,16 +81,16 @@ WORLDS = {
     "lake bed, 3 s": (FAR, INTERFACE, (600, 600), 20, clay(3.0)),
 }
 
-if __name__ == "__main__":
-    names, made = [], []
+
+
+def of_worlds():
     for world, (sources, models, vs30s, top, changed) in WORLDS.items():
         ruptures = np.concatenate(sources)
         mw, rjb, _ = ruptures.T
         for model, vs30 in zip(models, vs30s):
             mean, sd = S.motions(model, float(vs30), ruptures, top)
-            if changed:
-                mean = changed(mean, mw, np.hypot(rjb, top or 8))
-            names.append(("world", world, model, str(float(vs30))))
-            made.append(S.site(ruptures, mean, sd, 0.73))
-    data = {name: np.array([of_site[name] for of_site in made]) for name in made[0]}
-    np.savez_compressed(pathlib.Path(sys.argv[1]) / "sites.npz", names=np.array(names), **data)
+            mean = changed(mean, mw, np.hypot(rjb, top or 8)) if changed else mean
+            yield ("world", world, model, str(float(vs30))), ruptures, mean, sd, 0.73
+
+
+S.save(pathlib.Path(sys.argv[1]), of_worlds())
