@@ -32,7 +32,7 @@ from calibration import logistic  # noqa: E402
 from surface import Surface  # noqa: E402
 
 ROCKFRAG, FOLDER, TABLE = (pathlib.Path(word).resolve() for word in sys.argv[1:])
-INCH, HALF = 0.0254, 0.5
+INCH = 0.0254
 plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
 
 
@@ -94,12 +94,8 @@ def left_out():
         print(f"left out, {name}: {happened.sum()} of {p.sum():.0f} expected,",
               f"ratio {happened.sum() / p.sum():.2f}", np.quantile(ratios, [0.025, 0.975]).round(2),
               f"{len(cases)} cases; {len(held)} of {len(counts)} within limits")
-        for of_what, found in (("surface", p), ("logistic line", straight)):
-            print(f"  {of_what}: mean ln of the likelihood {ln_likelihood(found, happened).mean():.3f},",
-                  f"Brier {((found - happened) ** 2).mean():.3f}, AUC {auc(found, happened):.3f}")  # fmt: skip
-        for low, high, label in ((0, 0.005, "0 to .005"), (0.005, 0.05, ".005 to .05"), (0.05, 0.4, ".05 to .4")):
-            within = (p >= low) & (p < high)
-            print(f"  P {label}: {happened[within].sum()} of {p[within].sum():.0f}")
+        print("  Brier of the surface and of the logistic line:",
+              *(f"{((found - happened) ** 2).mean():.3f}" for found in (p, straight)))  # fmt: skip
         expected = counts["p"].to_numpy()
         error = np.abs(np.stack([counts["low"], counts["high"]]) - expected) / expected
         axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3,
@@ -113,11 +109,6 @@ def left_out():
     both[0].set_ylabel("observed over expected")
     both[0].legend(frameon=False, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.1))
     save(figure, "evidence_left_out")
-
-
-def ln_likelihood(p, happened):
-    p = np.clip(p, 1e-9, 1 - 1e-9)
-    return np.where(happened, np.log(p), np.log1p(-p))
 
 
 def lines_left_out(cases):
@@ -210,10 +201,9 @@ def shaking_table():
             straight = logistic(columns @ line(columns[chosen], fell[chosen]))
             found = {"alpha of the scan": of_scan, "alpha of 20 tests": of_tests, "logistic line": straight}
             for name, of in found.items():
-                brier, hits = ((of - fell) ** 2)[~chosen].mean(), ((of > HALF) == fell)[~chosen].mean()
-                judged.append((name, best, auc(of, fell), brier, hits))
+                judged.append((name, best, auc(of, fell), ((of - fell) ** 2)[~chosen].mean()))
         print(f"series {series + 1}: {len(tests)} tests, {fell.sum()} fell; AUC of PGV {auc(pgv, fell):.3f}")
-        frame = pl.DataFrame(judged, ["by", "alpha", "AUC", "Brier", "hits"], orient="row")
+        frame = pl.DataFrame(judged, ["by", "alpha", "AUC", "Brier"], orient="row")
         numbers = pl.exclude("by")
         print(frame.group_by("by", maintain_order=True).agg(
             numbers.median(), numbers.min().name.suffix(" min"), numbers.max().name.suffix(" max")), frame[-3:])  # fmt: skip

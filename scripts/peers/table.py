@@ -1,6 +1,6 @@
 """The table of speeds, rockfrag beside its peers, as Markdown: python scripts/peers/table.py ROCKFRAG
 
-Needs numpy, scipy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers and the
+Needs numpy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers and the
 solver run on one core, the solver by `cargo bench --bench speed`.
 """
 
@@ -59,9 +59,8 @@ with tempfile.TemporaryDirectory() as folder:
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
     row("simulate 3500 motions, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
     solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
-    for name, arguments in [("scipy", [60]), ("numba", [])]:
-        theirs = peer("solvers", name, at("motions"), *arguments)["ms_a_motion"]
-        row("solver, one core, a motion", f"{solver_us / 1e3:.4f} ms", name, f"{theirs:.3f} ms", 1e3 * theirs / solver_us)
+    theirs = peer("rocking_numba", at("motions"))["ms_a_motion"]
+    row("solver, one core, a motion", f"{solver_us / 1e3:.4f} ms", "numba", f"{theirs:.3f} ms", 1e3 * theirs / solver_us)
     run(ROCKFRAG, "simulate", "--structures", "paper", "--in", at("motions"), "--out", at("paper"))
     fit = lambda stage: run(ROCKFRAG, stage, "--all", "--threads", 1, "--in", at("paper"), "--out", at(stage), "--force")[0]
     pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits_statsmodels", at("paper"))["fits_s"]) for _ in range(REPEAT)]

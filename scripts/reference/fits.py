@@ -74,58 +74,40 @@ tails = {"chi_squared": stats.chi2.sf(7.3, 5), "chi_squared_even": stats.chi2.sf
 write_answers("answers.csv", answers)
 write_answers("uncertainty_answers.csv", of_clusters | tails | {"f": stats.f.sf(4.2, 2, 37)})
 
-LN_LIMIT, LN_BREAK, FOLDS = np.log(0.1), np.log(1.3), 10
-fold, scores, everywhere = cell % FOLDS, {}, np.ones(n, dtype=bool)
-exceeded = (demand > LN_LIMIT).astype(float)
+LN_BREAK, FOLDS = np.log(1.3), 10
+fold, scores = cell % FOLDS, {}
 
 
 def curve(design, rows):
-    fit = scoring(event[rows], design[rows])
-    index = design @ fit.params
-    signed = np.where(event == 1, index, -index)
-    return stats.norm.logcdf(signed), index, fit.llf, len(fit.params)
+    """Log scores and indices of all cases by a fit to some."""
+    index = design @ scoring(event[rows], design[rows]).params
+    return stats.norm.logcdf(np.where(event == 1, index, -index)), index
 
 
 def law(design, rows, sides):
-    score, index, log_likelihood = np.full(n, np.nan), np.full(n, np.nan), 0.0
+    score = np.full(n, np.nan)
     for side in sides:
         fit = sm.OLS(demand[rows & side], design[rows & side]).fit()
-        mean, sd = design[side] @ fit.params, np.sqrt(fit.scale)
-        score[side] = stats.norm.logpdf(demand[side], mean, sd)
-        index[side] = (mean - LN_LIMIT) / sd
-        log_likelihood += fit.llf
-    # Coefficients and a variance of each side, and the break.
-    return score, index, log_likelihood, len(sides) * (design.shape[1] + 1) + len(sides) - 1
+        score[side] = stats.norm.logpdf(demand[side], design[side] @ fit.params, np.sqrt(fit.scale))
+    return score
 
 
-def skill(key, index, outcome):
-    u = stats.mannwhitneyu(index[outcome == 1], index[outcome == 0]).statistic
-    scores[f"{key}_auc"] = u / (outcome.sum() * (1 - outcome).sum())
-    scores[f"{key}_brier"] = np.mean((stats.norm.cdf(index) - outcome) ** 2)
+def left_out(forecast):
+    """Of each case that by a fit to the other folds."""
+    return np.array([forecast(fold != k) for k in range(FOLDS)])[fold, ..., np.arange(n)]
 
 
-def rate(key, forecast, outcome):
-    score, index, log_likelihood, parameters = forecast(everywhere)
-    scores[f"{key}_llf"] = log_likelihood
-    scores[f"{key}_aic"] = 2 * parameters - 2 * log_likelihood
-    scores[f"{key}_bic"] = parameters * np.log(n) - 2 * log_likelihood
-    skill(f"{key}_fitted", index, outcome)
-    for left_out in range(FOLDS):
-        rows = fold == left_out
-        of_fold = forecast(~rows)
-        score[rows], index[rows] = of_fold[0][rows], of_fold[1][rows]
-    scores[f"{key}_log_score"] = score.mean()
-    skill(f"{key}_unseen", index, outcome)
-    calibration = scoring(outcome, sm.add_constant(index))
-    scores[f"{key}_intercept"], scores[f"{key}_slope"] = calibration.params
-
-
-one, low = [everywhere], x < LN_BREAK
+low = x < LN_BREAK
 designs = {"im4": sm.add_constant(x), "im4:im3": sm.add_constant(np.column_stack([x, y]))}
 for name, design in designs.items():
-    rate(f"p_ro_{name}_single", lambda rows: curve(design, rows), event)
-    for form, sides in {"single": one, "broken": [low, ~low]}.items():
-        rate(f"p_ex_{name}_{form}", lambda rows: law(design, rows, sides), exceeded)
+    score, index = left_out(lambda rows: curve(design, rows)).T
+    area = stats.mannwhitneyu(index[event == 1], index[event == 0]).statistic / (event.sum() * (1 - event).sum())
+    line = scoring(event, sm.add_constant(index)).params
+    of_curve = {"log_score": score.mean(), "unseen_auc": area, "intercept": line[0], "slope": line[1]}
+    of_curve["unseen_brier"] = np.mean((stats.norm.cdf(index) - event) ** 2)
+    scores |= {f"p_ro_{name}_single_{what}": number for what, number in of_curve.items()}
+    for form, sides in {"single": [low | ~low], "broken": [low, ~low]}.items():
+        scores[f"p_ex_{name}_{form}_log_score"] = left_out(lambda rows: law(design, rows, sides)).mean()
 write_answers("score_answers.csv", scores)
 
 random = np.random.default_rng(15)

@@ -1,8 +1,8 @@
-"""What stood and what fell, and other programs' calibrations to it: python outcomes.py core/tests/reference/fits
+"""What stood and what fell, and calibrations to it: python outcomes.py core/tests/reference/fits
 
 outcomes.csv has four lists of blocks: `town`, of one earthquake; `towns`, of twelve; `stood` and `fell`, in which
-all did. outcomes_answers.csv: c, ln s and m of greatest posterior density by scipy (the root of its gradient), and
-their covariance, with a shift for each earthquake. Prints how often 95 % limits of a calibration to 20 outcomes of
+all did. outcomes_answers.csv: c, ln s and m of scripts/universal/calibration.py and their covariance, with a shift
+for each earthquake. Prints how often 95 % limits of a calibration to 20 outcomes of
 a town, half of which fell, hold the probabilities of other stones: 400 draws."""
 
 import pathlib
@@ -11,7 +11,6 @@ import sys
 import numpy as np
 import pandas as pd
 import polars as pl
-from scipy.optimize import root
 
 root_folder = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root_folder / "scripts/universal"))

@@ -64,8 +64,7 @@ def judged(components, responses):
             of_quake = (rows["earthquake"] == quake).to_numpy()
             found = overturning(structure, grid, rows["magnitude"].mean(), lines[quake])
             p[of_quake] = np.interp(ln_pga[of_quake], grid, found)
-        predicted, beta_predicted = median(ln_pga, p)
-        yield f"M {low} to {high}", np.exp(predicted - counted), beta_predicted / beta
+        yield f"M {low} to {high}", np.exp(median(ln_pga, p)[0] - counted)
 
 
 if __name__ == "__main__":
@@ -76,6 +75,6 @@ if __name__ == "__main__":
     components["pga"], components["mw"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"]), components["magnitude"] - 6.3
     found, between = line(components)
     print("level, slope, scatter, per magnitude, sd between earthquakes:", *np.round([*found, between], 2))
-    columns = ["magnitudes", "median over counted", "beta over counted"]
+    columns = ["magnitudes", "median over counted"]
     table = pd.DataFrame(judged(components, responses), columns=columns).groupby("magnitudes")
     print(table.quantile([0.1, 0.5, 0.9]).round(2).to_string(), table.size().to_string(), sep="\n")

@@ -110,7 +110,7 @@ def cells_left_out(event):
 
 def of_draws(event, mine, n, prior):
     """Four draws of n of the cases of one block: whether limits of P without tau hold the truth (a
-    calibration to all cases), their width, and scores on the cases that were not drawn."""
+    calibration to all cases)."""
     parts, y, clusters = surface.parts(event, "recorded", mine), happened(mine), mine["cluster"].to_numpy()
     tau = surface.numbers["calibration", "recorded", event][6]
     truth, _ = calibrate(parts, y, np.array([*prior[:3], 2.0, 1.0, 0.5]))
@@ -121,14 +121,7 @@ def of_draws(event, mine, n, prior):
         points = parts[rng.choice(pool, 8)]
         by, z = tangent(b, points), apply(b, points)
         half = 1.96 * np.sqrt(np.einsum("ij,jk,ik->i", by, v, by))
-        others = np.delete(np.arange(len(y)), drawn)
-        on_others = lambda b: mine[others].with_columns(p=pl.Series(logistic(apply(b, parts[others]))))
-        yield {
-            "holds": np.mean(np.abs(z - apply(truth, points)) < half),
-            "width": np.mean(logistic(z + half) - logistic(z - half)),
-            "shipped": on_others(prior).select(score()).item(),
-            "calibrated": on_others(b).select(score()).item(),
-        }  # fmt: skip
+        yield {"holds": np.mean(np.abs(z - apply(truth, points)) < half)}
 
 
 def few_records(event):

@@ -1,4 +1,4 @@
-//! Calibrations to what stood and what fell, against scipy on the same posterior density
+//! Calibrations to what stood and what fell, against those of scripts/universal/calibration.py
 //! (scripts/reference/outcomes.py).
 
 use rockfrag_core::fragility::{Calibration, MotionKind, ObservedOutcome};
@@ -24,7 +24,7 @@ fn uncalibrated(list: &str) -> Calibration {
 }
 
 #[test]
-fn calibrations_to_outcomes_are_those_of_scipy() {
+fn calibrations_to_outcomes_are_those_of_the_scripts() {
     let answers: Vec<Row> = read("outcomes_answers.csv");
     assert_eq!(answers.len(), 4);
     for answer in answers {
