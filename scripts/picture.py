@@ -18,25 +18,8 @@ def responses(seed):
     return rockfrag.simulate(motions, **EQUIPMENT)
 
 
-def predicted(cases, **options):
-    """P_ro of cases that rock."""
-    pga, pgv = cases["pga_m_s2"].to_numpy() / 9.81, cases["pgv_m_s"].to_numpy()
-    return rockfrag.probability(pga, pgv, **EQUIPMENT, **options).p_ro
-
-
-def reliability(axes, cases, p, colour, marker, label):
-    """Shares that overturned in bins of the predicted probability, with their standard errors."""
-    fell = (cases["outcome"] == "overturning").to_numpy()
-    edges = [0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
-    bins = [(p > low) & (p <= high) for low, high in zip(edges, edges[1:])]
-    bins = [inside for inside in bins if inside.sum() >= 10]
-    share = np.array([fell[inside].mean() for inside in bins])
-    error = np.sqrt([max(s * (1 - s), 0.01) / inside.sum() for s, inside in zip(share, bins)])
-    axes.errorbar([p[inside].mean() for inside in bins], share, error, fmt=marker, color=colour, label=label)
-
-
 fitted, unseen = responses(42), responses(7).to_polars().filter(pl.col("outcome") != "no_rocking")
-folder = fitted.path.parent
+folder, edges = fitted.path.parent, [0.02, 0.05, *np.arange(0.1, 1.0, 0.1)]
 rockfrag.fit_pex(fitted, out=folder / "pex.parquet"), rockfrag.fit_pro(fitted, out=folder / "pro.parquet")
 plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
 left, right = plt.subplots(1, 2, figsize=(10, 4.2), layout="constrained")[1]
@@ -55,8 +38,14 @@ for axis in (left.xaxis, left.yaxis):
 left.set_xticks([0.2, 0.5, 1, 2]), left.set_yticks([0.05, 0.1, 0.2, 0.5, 1, 2])
 left.legend(frameon=False, loc="lower right")
 right.plot([0, 1], [0, 1], color="grey", lw=1)
-reliability(right, unseen, predicted(unseen, suite="csgm"), BLUE, "s", "surface")
-reliability(right, unseen, predicted(unseen, fits=folder), ORANGE, "o", "surface, calibrated")
+peaks = unseen["pga_m_s2"].to_numpy() / 9.81, unseen["pgv_m_s"].to_numpy()
+for options, style, label in [({"suite": "csgm"}, "s", "surface"), ({"fits": folder}, "o", "surface, calibrated")]:
+    cases = unseen.with_columns(p=rockfrag.probability(*peaks, **EQUIPMENT, **options).p_ro)
+    bins = cases.group_by(pl.col("p").cut(edges).alias("bin")).agg(
+        pl.col("p").mean(), n=pl.len(), share=(pl.col("outcome") == "overturning").mean()
+    ).filter(pl.col("n") >= 10)  # fmt: skip
+    error = ((bins["share"] * (1 - bins["share"])).clip(0.01) / bins["n"]).sqrt()
+    right.errorbar(bins["p"], bins["share"], error, fmt=style, color={"s": BLUE, "o": ORANGE}[style], label=label)
 right.set(xlabel="predicted probability of overturning", ylabel="share that overturned")
 right.legend(frameon=False)
 plt.savefig(sys.argv[1], dpi=130)
