@@ -59,20 +59,16 @@ def faults(page, environment, python):
                 yield f"python: exit code {code}\n{output}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("rockfrag", type=pathlib.Path)
-    parser.add_argument("--python", type=pathlib.Path)
-    parser.add_argument("pages", nargs="*", type=pathlib.Path)
-    options = parser.parse_intermixed_args()
-    path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
-    pages = options.pages or [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
-    python = options.python and options.python.absolute()
-    wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python)]
-    if wrong:
-        sys.exit("\n".join(wrong))
-    print(f"{len(pages)} pages: every command runs, and prints the lines that are shown")
-
-
-main()
+parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+parser.add_argument("rockfrag", type=pathlib.Path)
+parser.add_argument("--python", type=pathlib.Path)
+parser.add_argument("pages", nargs="*", type=pathlib.Path)
+options = parser.parse_intermixed_args()
+path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
+environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
+pages = options.pages or [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
+python = options.python and options.python.absolute()
+wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python)]
+if wrong:
+    sys.exit("\n".join(wrong))
+print(f"{len(pages)} pages: every command runs, and prints the lines that are shown")

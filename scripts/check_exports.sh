@@ -17,7 +17,7 @@ if ! "$python/pelicun/bin/pip" download --quiet --no-deps --dest "$python" pelic
 fi
 
 "$python/pelicun/bin/pip" install --quiet pelicun==3.10.0
-"$python/pelicun/bin/python" scripts/check_pelicun.py "$rockfrag"
+"$python/pelicun/bin/python" scripts/check_exports.py "$rockfrag" pelicun
 
 # The engine alone, and what its reader and its fragility functions import: all it asks for includes GDAL, which pip would
 # have to compile.
@@ -25,4 +25,4 @@ fi
 "$python/openquake/bin/pip" install --quiet 'numpy<2.3' scipy pandas h5py psutil toml 'decorator~=5.1.1' 'numba~=0.61.2' \
     shapely 'pyproj~=3.7.2' requests h3 'alpha_shapes~=1.1.0' 'pyzmq~=26.0' 'fiona~=1.10.1' 2> "$python/conflicts" ||
     { cat "$python/conflicts" >&2; exit 1; }
-"$python/openquake/bin/python" scripts/check_openquake.py "$rockfrag"
+"$python/openquake/bin/python" scripts/check_exports.py "$rockfrag" openquake

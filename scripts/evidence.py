@@ -246,11 +246,10 @@ def misfit(rows, chosen, p, alpha, eta):
     return -np.where(fell == 1, np.log(found), np.log1p(-found))[chosen].sum()
 
 
-if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as scratch:
-        os.chdir(scratch)
-        pathlib.Path("fits").mkdir()
-        one_sines()
-        left_out()
-        p58()
-        shaking_table()
+with tempfile.TemporaryDirectory() as scratch:
+    os.chdir(scratch)
+    pathlib.Path("fits").mkdir()
+    one_sines()
+    left_out()
+    p58()
+    shaking_table()

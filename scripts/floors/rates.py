@@ -58,15 +58,12 @@ for period, z in [(t, z) for t in (0.2, 0.4, 0.7, 1.1, 1.8) for z in (0.5, 1.0)]
     on_floor = pl.DataFrame({"motion_id": peaks["motion_id"], "dt_s": steps, "acceleration_m_s2": samples})
     on_floor.write_parquet(folder / "floor.parquet")
     responses = call("simulate", "--in", folder / "floor.parquet", "--structures", folder / "objects.csv")
-    of_floor = []
     for i, size in enumerate(OBJECTS):
         of_object = responses.filter(pl.col("structure") == f"o{i}").sort(pl.col("motion_id").cast(int))
         counted = rate((of_object["outcome"] == "overturning").cast(float))
         if counted > 0:
-            of_floor.append(np.log(predicted(*size, "--period", period, "--level", z) / counted))
+            logs["floor"].append(np.log(predicted(*size, "--period", period, "--level", z) / counted))
             logs["ground"].append(np.log(predicted(*size) / counted))
-    print(period, z, "predicted over counted:", *(f"{np.exp(log):.2f}" for log in of_floor), flush=True)
-    logs["floor"] += of_floor
 for which, log in logs.items():
     factors = np.exp(np.abs(log))
     print(f"{which}: rms ln {np.sqrt(np.mean(np.square(log))):.2f}, median {np.exp(np.median(log)):.2f},"

@@ -78,11 +78,10 @@ def coverage(rng, draws=400, n=20):
     return np.mean(held), np.mean(widths)
 
 
-if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1])
-    of_all = list(lists())
-    pd.concat(of_all).to_csv(folder / "outcomes.csv", index=False)
-    answers = [{"list": rows.list.iloc[0]} | answer(rows) for rows in of_all]
-    pd.DataFrame(answers).to_csv(folder / "outcomes_answers.csv", index=False)
-    print(pd.DataFrame(answers).round(3).to_string())
-    print("400 draws of 20 of a town: limits hold {:.3f}, mean width {:.2f}".format(*coverage(np.random.default_rng(1))))
+folder = pathlib.Path(sys.argv[1])
+of_all = list(lists())
+pd.concat(of_all).to_csv(folder / "outcomes.csv", index=False)
+answers = [{"list": rows.list.iloc[0]} | answer(rows) for rows in of_all]
+pd.DataFrame(answers).to_csv(folder / "outcomes_answers.csv", index=False)
+print(pd.DataFrame(answers).round(3).to_string())
+print("400 draws of 20 of a town: limits hold {:.3f}, mean width {:.2f}".format(*coverage(np.random.default_rng(1))))

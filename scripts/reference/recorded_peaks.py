@@ -6,6 +6,7 @@ with the earthquake) tells what each overturns. Medians of the fragility over PG
 to the counts, by magnitude: each earthquake is predicted by a line fitted without it.
 """
 
+import itertools
 import sys
 
 import numpy as np
@@ -47,9 +48,7 @@ def median(ln_pga, p):
 def judged(components, responses):
     quakes = components["earthquake"].unique()
     lines = {quake: line(components[components["earthquake"] != quake])[0] for quake in quakes}
-    for (low, high), (_, of_structure) in (
-        (band, group) for band in BANDS for group in responses.groupby("structure")
-    ):
+    for (low, high), (_, of_structure) in itertools.product(BANDS, responses.groupby("structure")):
         rows = of_structure[of_structure["magnitude"].between(low, high, "left")]
         fell, ln_pga = (rows["outcome"] == "overturning").astype(float), np.log(rows["pga_m_s2"].to_numpy())
         if min(fell.sum(), (1 - fell).sum()) < LEAST:
