@@ -2,7 +2,7 @@
 
     ```sh         run, and must end with exit code 0
     ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
-    ```python     run as one script a page by --python (a Python with the package), but for blocks that begin with "# not run"
+    ```python     run as one script a page by --python (a Python with the package), but for those with "# not run"
     ```console    not run: what installs, compiles, or needs a cluster
 
 Each page has a folder of its own with data, scripts, python and pipeline.yaml of the repository.
@@ -29,7 +29,8 @@ def missing(shown, output):
 
 def run(command, folder, environment):
     """The exit code of a command, and what it prints."""
-    done = subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    done = subprocess.run(command, cwd=folder, env=environment, **both)
     return done.returncode, done.stdout
 
 
@@ -52,7 +53,8 @@ def faults(page, environment, python):
                     yield f"line {line}: '{other}' is not in the output\n{output}"
             if language not in ("sh", "text"):
                 output = None
-        scripts = [content for language, content, _ in blocks if language == "python" and not content.startswith("# not run")]
+        of_python = (content for language, content, _ in blocks if language == "python")
+        scripts = [content for content in of_python if not content.startswith("# not run")]
         if python and scripts:
             code, output = run([python, "-c", "\n".join(scripts)], folder, environment)
             if code:

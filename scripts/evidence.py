@@ -180,8 +180,8 @@ def line(columns, fell):
 
 
 def shaking_table():
-    """A granite stone of 354 kg on a table, in two series: 20 tests, every 29th, calibrate, the others judge; by each of
-    the 29 ways to begin, of which one is drawn."""
+    """A granite stone of 354 kg on a table, in two series: 20 tests, every 29th, calibrate, the others judge; by
+    each of the 29 ways to begin, of which one is drawn."""
     peaks = {row[1]: row[2:4] for row in sheet("PGVA-zchen")[1:] if row[1] is not None}
     tests = [row for row in sheet("Results_Granite")[1:] if row[0] in peaks]
     pga = np.array([peaks[row[0]][0] for row in tests])

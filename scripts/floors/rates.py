@@ -67,5 +67,4 @@ for period, z in [(t, z) for t in (0.2, 0.4, 0.7, 1.1, 1.8) for z in (0.5, 1.0)]
 for which, log in logs.items():
     factors = np.exp(np.abs(log))
     print(f"{which}: rms ln {np.sqrt(np.mean(np.square(log))):.2f}, median {np.exp(np.median(log)):.2f},"
-          f" within 1.5 {np.mean(factors < 1.5):.2f}, within 2 {np.mean(factors < 2):.2f},"
-          f" worst {factors.max():.1f}, n {len(log)}")
+          f" within 1.5 {np.mean(factors < 1.5):.2f}, within 2 {np.mean(factors < 2):.2f}, worst {factors.max():.1f}")

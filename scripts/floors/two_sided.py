@@ -42,9 +42,7 @@ share = counts[..., 0] / (2 * len(records))
 for low, high in ((0.2, 0.95), (0.05, 0.2), (0.005, 0.05)):
     within = (share >= low) & (share < high)
     of_offset = [counts[:, j][within[:, j]].sum(axis=0) for j in range(len(OFFSETS))]
-    two, one = sum(of_offset)
-    print(f"P {low} to {high}: weaker side over body {one / two:.2f}; offsets",
-          *(f"{offset}: {one / two:.2f}" for offset, (two, one) in zip(OFFSETS, of_offset)))
+    print(f"P {low} to {high}: weaker side over body, by offsets", *(f"{one / two:.2f}" for two, one in of_offset))
 
 weights, ratios = -np.diff(OF_PAIRS**-2.2, append=0.0), []
 for width, depth, height in OBJECTS:
@@ -56,5 +54,5 @@ for width, depth, height in OBJECTS:
     one_way, other_way = fell[..., 0, 0] | fell[..., 1, 1], fell[..., 0, 1] | fell[..., 1, 0]
     of_side = fell.mean(axis=(1, 2))
     independent = of_side.sum(axis=1) - of_side.prod(axis=1)
-    ratios.append(weights @ independent / (weights @ (one_way.mean(axis=1) + other_way.mean(axis=1)) * 2))
+    ratios.append(2 * weights @ independent / (weights @ (one_way.mean(axis=1) + other_way.mean(axis=1))))
 print(f"independent over either: {min(ratios):.2f} to {max(ratios):.2f}")

@@ -1,8 +1,8 @@
 """The rocking problem by numba, as a careful Python programmer would write it for speed (scripts/rocking.py): python
 rocking_numba.py MOTIONS.parquet
 
-The paper's electrical equipment under all motions, each with rest behind it. Prints the time of the solver alone, on one
-thread, once it is compiled, and how many motions end in each outcome.
+The paper's electrical equipment under all motions, each with rest behind it. Prints the time of the solver alone, on
+one thread, once it is compiled, and how many motions end in each outcome.
 """
 
 import collections

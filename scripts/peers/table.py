@@ -51,21 +51,22 @@ with tempfile.TemporaryDirectory() as folder:
         run(ROCKFRAG, "synthesize-motions", "--suite", "csgm", "--in", at("scenarios"), "--out", at(name)),
     )
     simulate = lambda name: run(
-        ROCKFRAG, "simulate", "--p", 2.5, "--alpha", 0.2, "--eta", 0.92, "--in", at(name), "--out", at("responses"), "--force"
+        ROCKFRAG, "simulate", "--p=2.5", "--alpha=.2", "--eta=.92", "--in", at(name), "--out", at("responses"), "--force"
     )
     make(100, "motions")
     print("| work | rockfrag | against | theirs | ratio |\n|---|---|---|---|---|")
     pairs = [(simulate("motions")[0], peer("pyarrow", at("motions"))) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
-    row("simulate 3500 motions, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
+    row("simulate, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
     solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
     theirs = peer("rocking_numba", at("motions"))["ms_a_motion"]
-    row("solver, one core, a motion", f"{solver_us / 1e3:.4f} ms", "numba", f"{theirs:.3f} ms", 1e3 * theirs / solver_us)
+    ours = solver_us / 1e3
+    row("solver, one core, a motion", f"{ours:.4f} ms", "Numba, Taylor series", f"{theirs:.3f} ms", theirs / ours)
     run(ROCKFRAG, "simulate", "--structures", "paper", "--in", at("motions"), "--out", at("paper"))
-    fit = lambda stage: run(ROCKFRAG, stage, "--all", "--threads", 1, "--in", at("paper"), "--out", at(stage), "--force")[0]
+    fit = lambda name: run(ROCKFRAG, name, "--all", "--threads=1", "--in", at("paper"), "--out", at(name), "--force")[0]
     pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits_statsmodels", at("paper"))["fits_s"]) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
-    row("fits, whole commands, one core", f"{ours:.3f} s", "statsmodels, the fits alone", f"{theirs:.3f} s", theirs / ours)
+    row("all fits, one core", f"{ours:.3f} s", "statsmodels, the fits alone", f"{theirs:.3f} s", theirs / ours)
     small = simulate("motions")[2]
     make(1000, "ten")
     large = simulate("ten")[2]

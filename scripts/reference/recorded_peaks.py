@@ -71,9 +71,9 @@ if __name__ == "__main__":
     for table in (components, responses):
         table["earthquake"] = table["earthquake"].replace("CHI-CHI TAIWAN", "CHI-CHI 09/20/99")
     components["ratio"] = np.log(components["pgv_m_s"] / components["pga_m_s2"])
-    components["pga"], components["mw"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"]), components["magnitude"] - 6.3
+    components["pga"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"])
+    components["mw"] = components["magnitude"] - 6.3
     found, between = line(components)
     print("level, slope, scatter, per magnitude, sd between earthquakes:", *np.round([*found, between], 2))
-    columns = ["magnitudes", "median over counted"]
-    table = pd.DataFrame(judged(components, responses), columns=columns).groupby("magnitudes")
-    print(table.quantile([0.1, 0.5, 0.9]).round(2).to_string(), table.size().to_string(), sep="\n")
+    table = pd.DataFrame(judged(components, responses), columns=["magnitudes", "median over counted"])
+    print(table.groupby("magnitudes").agg(["median", "size"]).round(2).to_string())

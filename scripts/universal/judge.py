@@ -23,8 +23,7 @@ BINS = pl.col("p").cut([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
 
 def show(title, frame):
     wide = {"tbl_rows": -1, "tbl_cols": -1, "tbl_width_chars": 250, "float_precision": 4}
-    bare = {"tbl_hide_column_data_types": True, "tbl_hide_dataframe_shape": True}
-    with pl.Config(tbl_formatting="MARKDOWN", **wide, **bare):
+    with pl.Config(tbl_formatting="MARKDOWN", **wide, tbl_hide_column_data_types=True, tbl_hide_dataframe_shape=True):
         print(f"\n{title}\n\n{frame}", flush=True)
 
 
@@ -99,7 +98,8 @@ def coverage(event, kind, frame):
 def between_structures(event):
     groups = of.counted(event, RECORDS, LIMIT).partition_by("structure")
     known = [(surface.parts(event, "recorded", group), happened(group)) for group in groups]
-    print(f"{event}: sds of c, ln s, m between structures", spread(known, surface.prior(event, "recorded")[:3]).round(2))
+    sds = spread(known, surface.prior(event, "recorded")[:3])
+    print(f"{event}: sds of c, ln s, m between structures", sds.round(2))
 
 
 def cells_left_out(event):
