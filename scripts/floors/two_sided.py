@@ -3,7 +3,7 @@ side; and how often an object falls in either of two directions under both compo
 two_sided.py
 
 FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Its 50 pairs
-at eight scales, 12 objects: over scales of a hazard that falls with the power 2.2 the rate of falls in both directions
+at eight scales, 12 objects (width, depth, height): over scales of a hazard that falls with the power 2.2 the rate of falls in both directions
 as if they were independent, over that of either. Needs numba.
 """
 
@@ -19,7 +19,6 @@ SIZES = [(0.2, 0.6), (0.25, 0.75), (0.3, 0.9), (0.35, 1.6), (0.4, 1.2), (0.4, 1.
          (0.6, 1.8), (0.8, 2.2), (1.0, 3.0), (1.5, 4.0)]  # fmt: skip
 OFFSETS = [0.1, 0.2, 0.3, 0.4]
 SCALES = [0.5, 1.0, 1.5, 2.5]
-# Width, depth and height.
 OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (0.6, 0.8, 1.8),
            (0.6, 0.6, 2.2), (0.8, 0.8, 2.2), (0.8, 1.0, 2.4), (1.0, 1.0, 3.0), (1.0, 1.2, 4.0),
            (0.25, 0.35, 0.8), (1.5, 1.5, 5.0)]  # fmt: skip
