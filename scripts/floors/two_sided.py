@@ -2,9 +2,9 @@
 side; and how often an object falls in either of two directions under both components of a record: python
 two_sided.py
 
-FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Its 50 pairs
-at eight scales, 12 objects (width, depth, height): over scales of a hazard that falls with the power 2.2 the rate of falls in both directions
-as if they were independent, over that of either. Needs numba.
+FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Its 50
+pairs, 12 objects (width, depth, height): over eight scales of a hazard that falls with the power 2.2 the rate of falls
+in both directions as if independent, over that of either. Needs numba.
 """
 
 import itertools
