@@ -219,7 +219,7 @@ impl Answer {
         };
         Some(format!(
             "{share} of the rate lies beyond the end of the hazard curve{end}, continued by its last slope: \
-             the limits hold for none and for each of these motions overturning it."
+             the limits range from none of these motions overturning it to all of them."
         ))
     }
 
@@ -233,8 +233,8 @@ impl Answer {
         let UncertaintyColumns { magnitude, magnitude_sd, magnitude_by, .. } = self.uncertainty;
         let whence = match magnitude_by? {
             MagnitudeSource::Given => "",
-            MagnitudeSource::Usual => " (not given: that of motions that overturn)",
-            MagnitudeSource::Inferred => " (not given: as PGV/PGA tells)",
+            MagnitudeSource::Usual => " (assumed: that of motions that overturn)",
+            MagnitudeSource::Inferred => " (inferred from PGV/PGA)",
         };
         let sd = magnitude_sd
             .filter(|sd| *sd > 0.0)

@@ -82,8 +82,8 @@ pub struct Site {
 }
 
 /// Annual rates of an object, with 95 % limits; empty where the model has no probability. A curve is continued
-/// beyond its last point by its last slope, and the limits contain that no motion there has the effect, and
-/// that each has.
+/// beyond its last point by its last slope; the limits range from no motion there having the effect to each
+/// having it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SiteRates {
     pub states: LimitStates<Interval<Option<f64>>>,

@@ -62,9 +62,9 @@ pub struct Evaluate {
     /// Years represented by the ground-motion fields of --hazard
     #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
-    /// Moment magnitude of motions without one [default: as PGV/PGA tells, else that of motions that overturn];
-    /// at a site the mean of the disaggregation at 2475 years, of SA(1.0 s) with that curve, else of PGA (not
-    /// used with PGV alone)
+    /// Moment magnitude of motions without one [default: inferred from PGV/PGA, else that of motions that
+    /// overturn]; at a site the mean of the disaggregation at 2475 years, of SA(1.0 s) with that curve, else of
+    /// PGA (not used with PGV alone)
     #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
