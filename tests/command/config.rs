@@ -62,8 +62,6 @@ fn mistakes_on_the_command_line_are_named() {
         ("ida --measure pgv --to 300 --structures paper", vec!["to", "300", "cm/s"]),
         ("simulate --structures paper --out responses.csv", vec!["responses.csv", ".parquet"]),
         ("evaluate --width 1 --height 2 --pga 0.3 --period-sd 0.2", vec!["--period"]),
-        ("evaluate --width 1 --height 2 --pga 0.3 --ground-floor 1", vec!["--ground-floor"]),
-        ("evaluate --width 1 --height 2 --years 30", vec!["--hazard"]),
         ("evaluate --width 1 --height 2 --model paper", vec!["--fits"]),
         ("evaluate --width 1 --height 2 --hazard pga.csv --vs30 90", vec!["vs30"]),
     ] {

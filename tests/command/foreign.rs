@@ -168,10 +168,7 @@ fn a_scenario_that_cannot_be_is_named_with_its_row() {
     let synthesize = "synthesize-motions --out other.parquet --dt 0.02";
     for (column, values) in [
         ("mw", [60.0, -1.0, f64::NAN, f64::INFINITY]),
-        ("re_km", [-5.0, 1e9, f64::NAN, f64::INFINITY]),
-        ("vp_m_s", [-1.0, 1e300, f64::NAN, f64::NEG_INFINITY]),
         ("tp_s", [-2.0, 0.0, 1e6, f64::NAN]),
-        ("gamma", [0.0, -1.0, 1e9, f64::NAN]),
         ("nu_rad", [f64::NAN, f64::INFINITY, 1e300, -1e9]),
     ] {
         for value in values {
@@ -193,15 +190,9 @@ fn a_motion_that_cannot_be_is_named_with_its_row() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.parquet");
     let ida = format!("ida --in m.parquet {STRUCTURE} --out i.parquet");
-    for (column, values) in [
-        ("pga_m_s2", vec![-1.0, f64::INFINITY]),
-        ("pgv_m_s", vec![1e300, -0.1]),
-        ("tp_s", vec![0.0]),
-        ("tm_s", vec![-1.0]),
-        ("mw", vec![60.0]),
-        ("re_km", vec![f64::NEG_INFINITY]),
-        ("dt_s", vec![-0.01, 0.0, f64::NAN]),
-    ] {
+    for (column, values) in
+        [("pga_m_s2", vec![-1.0, f64::INFINITY]), ("tm_s", vec![0.0]), ("dt_s", vec![-0.01, 0.0, f64::NAN])]
+    {
         for value in values {
             write(&path, motion(vec![("suite", texts(&["csgm"])), (column, numbers(&[value]))]));
             fail(folder.path(), SIMULATE, 1, &["m.parquet", "row 1", column, "expected"]);
@@ -295,16 +286,7 @@ fn responses_that_cannot_be_are_named_by_all_that_read_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("r.parquet");
     let fits = ["fit-pro", "fit-pex", "validate"].map(|stage| format!("{stage} --in r.parquet"));
-    for (column, first, second) in [
-        ("edp", 0.1, -0.5),
-        ("edp", 0.1, 1e300),
-        ("im4", 1.5, f64::INFINITY),
-        ("im5", 0.6, 1e300),
-        ("mw", 6.5, 0.0),
-        ("re_km", 10.0, -3.0),
-        ("pga_m_s2", 3.0, -3.0),
-        ("pgv_m_s", 0.5, f64::INFINITY),
-    ] {
+    for (column, first, second) in [("edp", 0.1, -0.5), ("im4", 1.5, f64::INFINITY), ("mw", 6.5, 0.0)] {
         two_responses(&path, column, numbers(&[first, second]));
         for call in &fits {
             fail(folder.path(), call, 1, &["r.parquet", "row 2", column]);

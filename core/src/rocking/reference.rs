@@ -3,7 +3,7 @@
 //! theta)] (Eq. 4), from uplift at |a| = g tan alpha (Eq. 5) on; at an impact theta'+ = eta theta'- (Eq. 6).
 //!
 //! [`simulate_all`](super::simulate_all) solves the same equations by Taylor series in vector registers,
-//! hundreds of times faster; a test compares both.
+//! hundreds of times faster; a test compares each with quadruple precision.
 
 use std::f64::consts::FRAC_PI_2;
 

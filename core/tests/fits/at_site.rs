@@ -4,8 +4,8 @@
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
-    Budget, FragilityPoint, GenericSites, GroundMotion, Hazard, HazardCurve, ListProbabilities, ListedObject,
-    Lognormal, PeakHazard, PgvPgaRatio, Site, SiteRates, probability_in_years,
+    Budget, GenericSites, GroundMotion, Hazard, HazardCurve, ListProbabilities, ListedObject, Lognormal,
+    PeakHazard, PgvPgaRatio, Site, SiteRates, probability_in_years,
 };
 use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
@@ -95,19 +95,6 @@ fn what_both_peaks_leave_open_of_the_magnitude_is_m_times_its_spread() {
     let of = |mw| motion(mw).probabilities(&block(0.5)).budget.source_sd(UncertaintySource::Magnitude);
     close(of(None).unwrap(), 0.857 * 0.5398, 1e-6);
     assert_eq!(of(Some(6.5)), None);
-}
-
-#[test]
-fn the_fragility_of_a_thin_block_never_falls() {
-    // IM4 ends in the domain of the surface at 1.6 g.
-    let thin = uncalibrated(&Object::block("thin", 0.2, 2.4));
-    for over in [Peak::Pga, Peak::Pgv] {
-        let points = GenericSites { over, ..GENERAL }.fragility(&thin).points;
-        for state in [LimitState::Failure, LimitState::Overturning] {
-            let p = |point: &FragilityPoint| point.p.get(state).value.unwrap();
-            assert!(points.is_sorted_by(|before, after| p(after) >= p(before) - 1e-9), "{over} {state}");
-        }
-    }
 }
 
 #[test]

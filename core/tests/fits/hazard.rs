@@ -46,13 +46,6 @@ fn a_joint_hazard_has_a_curve_of_each_peak() {
 }
 
 #[test]
-fn motions_beyond_the_curve_count_as_its_last_one() {
-    let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
-    let [all, half] = curve.mean_annual_rates(&[], 0.02, |_| [1.0, 0.5]);
-    assert!((all - 0.01).abs() < 1e-12 && (half - 0.005).abs() < 1e-12);
-}
-
-#[test]
 fn a_rate_becomes_a_probability() {
     assert!((probability_in_years(1.0 / 475.0, 50.0) - 0.0999).abs() < 1e-4);
     close(probability_in_years(1e-12, 50.0), 5e-11, 1e-9);

@@ -3,8 +3,7 @@
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
-    Calibration, Case, Cases, Cluster, Event, LimitStates, Measure, Model, MotionKind, Tau, fit_curve,
-    p_failure_given_rocking,
+    Calibration, Case, Cases, Cluster, LimitStates, Model, MotionKind, Tau, p_failure_given_rocking,
 };
 use rockfrag_core::motion::{Floor, IntensityMeasures, Peaks};
 use rockfrag_core::object::{Object, UncertaintySource};
@@ -190,28 +189,6 @@ fn limits_are_finite_without_events_with_nothing_else_and_of_eight_records() {
                 }
             }
         }
-    }
-}
-
-#[test]
-fn a_pair_that_leaves_the_probit_without_a_fit_leaves_moderate_limits() {
-    let clean = |k: u32| {
-        let im4 = 1.2 + 0.1 * f64::from(k);
-        let outcome = if im4 > 2.95 { Outcome::Overturned } else { Outcome::SafeRocking(0.1) };
-        (outcome, im4, 2.0, k)
-    };
-    let pair = [(Outcome::Overturned, 2.94, 2.0, 50), (Outcome::SafeRocking(0.1), 2.96, 2.0, 50)];
-    let without: Vec<_> = (0..38).map(clean).collect();
-    let with = cases([&without[..], &pair].concat());
-    let probit = fit_curve(&with, Event::Overturning, Measure::Im5, None);
-    assert!(probit.coefficients.get(1).is_none_or(|slope| *slope > 50.0), "{:?}", probit.coefficients);
-    let (with, without) = (calibrated(&with), calibrated(&cases(without)));
-    for im4 in [2.0, 3.0, 4.0] {
-        let motion = IntensityMeasures::from_peaks(im4, im4 / 2.0);
-        let p_ro = |model| given_rocking(model, &equipment(), &motion, Tau::Averaged)[0];
-        let (with, without) = (p_ro(&with), p_ro(&without));
-        expect_limits(with);
-        assert!((with.value - without.value).abs() < 0.1);
     }
 }
 

@@ -8,7 +8,7 @@ use rockfrag_core::units::G_M_S2;
 
 use crate::shared::{Row, close, respond, rows};
 
-const P: f64 = 1.0;
+pub const P: f64 = 1.0;
 const TOLERANCE: f64 = 1e-4;
 const SAMPLES: usize = 4000;
 
@@ -29,7 +29,7 @@ fn changes(mut low: f64, mut high: f64, overturns: impl Fn(f64) -> bool) -> f64 
 
 /// A sine of circular frequency `w` (rad/s) and amplitude `r` g tan(alpha), for so many half cycles, and the
 /// step.
-fn sine(alpha: f64, r: f64, w: f64, half_cycles: f64) -> (Vec<f64>, f64) {
+pub fn sine(alpha: f64, r: f64, w: f64, half_cycles: f64) -> (Vec<f64>, f64) {
     let dt = half_cycles * PI / w / SAMPLES as f64;
     let at = |k: usize| r * G_M_S2 * alpha.tan() * (w * dt * k as f64).sin();
     ((0..SAMPLES).map(at).chain([0.0]).collect(), dt)

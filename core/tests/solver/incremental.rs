@@ -1,60 +1,32 @@
 //! Incremental dynamic analysis: scans against closed forms and known ranges.
 
 use std::convert::Infallible;
-use std::f64::consts::PI;
 
 use rockfrag_core::rocking::{
-    Capacity, CapacityStatus, Outcome, Response, SafeWindow, Scan, ScanPoint, ScanResponse, Structure,
+    CapacityStatus, Outcome, Response, SafeWindow, Scan, ScanPoint, ScanResponse, Structure,
 };
 
+use crate::closed_forms::{P, sine};
 use crate::shared::{Row, close, respond, rows};
-
-/// So slender that the equation of motion is linear.
-const SLENDER: f64 = 1e-5;
 
 fn scan_by(scan: &Scan, of: impl Fn(&ScanPoint) -> Response) -> Vec<ScanResponse> {
     let respond = |points: &[ScanPoint]| Ok::<_, Infallible>(points.iter().map(&of).collect());
     scan.run(1, respond).unwrap().remove(0)
 }
 
-/// Capacity, as PGA/(g tan alpha), of a block under samples whose largest is 1.
-fn capacity(scan: &Scan, block: &Structure, samples: &[f64], dt: f64) -> Capacity {
-    let of = |point: &ScanPoint| {
-        let unit = point.intensity * block.uplift_acceleration_m_s2();
-        respond(block, &samples.iter().map(|a| unit * a).collect::<Vec<f64>>(), dt)
-    };
-    scan.capacity(&scan_by(scan, of))
-}
-
-#[test]
-fn a_rectangular_pulse_overturns_from_the_amplitude_of_the_linear_equation_on() {
-    // With time in 1/p, the unstable mode u = (theta + theta'/p)/alpha - 1 of a block that moves to one side
-    // obeys u' = u + A(t) from u = -1: it overturns where the integral of A(t) exp(-t) exceeds 1. The pulse
-    // ends with a ramp of one step.
-    let block = Structure::new("block", 2.0, SLENDER, 0.9).unwrap();
-    for duration in [0.3, 0.8, 2.0_f64] {
-        let step = duration / 400.0;
-        let samples = [vec![1.0; 401], vec![0.0; 4]].concat();
-        let ramp = 1.0 + (-step).exp_m1() / step;
-        let least = 1.0 / (1.0 - (-duration).exp() + (-duration).exp() * ramp);
-        let found = capacity(&Scan::new(0.5, 20.0, 20), &block, &samples, step / block.p_rad_s);
-        assert_eq!((found.status, &found.windows[..]), (CapacityStatus::Overturns, &[][..]));
-        let (safe, overturning) = (found.safe_below.unwrap(), found.overturning.unwrap());
-        assert!(safe < least * (1.0 + 3e-5) && least * (1.0 - 3e-5) < overturning, "{found:?}, {least}");
-        close(safe, overturning, 1e-3);
-    }
-}
-
 #[test]
 fn a_sine_pulse_overturns_after_an_impact_then_not_and_then_without_one() {
     // The two modes of Zhang & Makris (2001) and the window between them (scripts/reference/one_sine.py).
-    let (scan, steps) = (Scan::new(1.1, 15.0, 60), 4000);
-    let samples: Vec<f64> = (0..=steps).map(|k| (2.0 * PI * f64::from(k) / f64::from(steps)).sin()).collect();
-    let block = Structure::new("block", 1.5, SLENDER, 0.9).unwrap();
+    let (scan, alpha) = (Scan::new(1.1, 15.0, 60), 1e-5);
+    // So slender that the equation of motion is linear.
+    let block = Structure::new("block", P, alpha, 0.9).unwrap();
     let edges: Vec<Row> = rows("rocking/one_sine.csv");
     for edges in edges[..9].chunks(3) {
-        let dt = 2.0 * PI / edges[0].get::<f64>("w_p") / f64::from(steps) / block.p_rad_s;
-        let found = capacity(&scan, &block, &samples, dt);
+        let w_p: f64 = edges[0].get("w_p");
+        let found = scan.capacity(&scan_by(&scan, |point| {
+            let (samples, dt) = sine(alpha, point.intensity, w_p * P, 2.0);
+            respond(&block, &samples, dt)
+        }));
         assert_eq!(found.status, CapacityStatus::Overturns);
         let [SafeWindow { low, high: Some(high) }] = found.windows[..] else { panic!("{found:?}") };
         for (found, edge) in [found.overturning.unwrap(), low, high].into_iter().zip(edges) {
