@@ -1,11 +1,10 @@
 """Judges rates of evaluate --hazard at the sites of sites.py or worlds.py: python site_rates.py FOLDER ROCKFRAG
 
-The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
-magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
-whose c, ln s and eta are drawn from their distributions. A second table tells how far the mean magnitude of the
-motions that overturn lies above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their
-PGV/PGA tells; a third has that mean of all sites, its sd between sites and within. The logits of the truth are those
-of scripts/universal/surface.py.
+The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own magnitude. The
+table has, for each route, the rates over the truth, and how often the 95 % limits hold truths whose c, ln s, m and eta
+are drawn from their distributions. A second table tells how far the mean magnitude of the motions that overturn lies
+above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their PGV/PGA tells; a third has that
+mean of all sites, its sd between sites and within.
 """
 
 import itertools
@@ -15,16 +14,10 @@ import sys
 
 import numpy as np
 import pandas as pd
-import polars as pl
 from scipy.special import expit
 
 import sites as S
-
-scripts = pathlib.Path(__file__).resolve().parents[1]
-sys.path += [str(scripts), str(scripts / "universal")]
-from calibration import apply  # noqa: E402
-from common import ROOT, call  # noqa: E402
-from surface import NO_LIMIT, Surface  # noqa: E402
+from outcomes import PRIOR, SURFACE, apply, call, parts
 
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
 SD_OF_LOSS = 0.4
@@ -38,19 +31,13 @@ names, joint, mean_mw = data["names"], data["joint"], data["mw"]
 random = np.random.default_rng(1)
 
 
-SURFACE = Surface(open(ROOT / "core/data/universal.csv"))
-PRIOR = SURFACE.prior("pro", "recorded")
-
-
 def surface(width, height, eta, mw):
     """Logits of P_ro at the bins of PGA and PGV; -inf below uplift."""
     pga, pgv = np.exp(np.meshgrid(S.X, S.Y, indexing="ij"))
-    uplift, p = 9.81 * width / height, np.sqrt(3 * 9.81 / (2 * np.hypot(width, height)))
-    keep = (pga > uplift) & (pga <= 4.5 * 9.81) & (pgv <= 5)
-    numbers = {"p_rad_s": p, "eta": eta, "mw": mw, "limit": NO_LIMIT}
-    cases = pl.DataFrame({"im4": pga[keep] / uplift, "im5": p * pgv[keep] / uplift, **numbers})
+    keep = (pga > 9.81 * width / height) & (pga <= 4.5 * 9.81) & (pgv <= 5)
+    cases = pd.DataFrame({"pga_m_s2": pga[keep], "pgv_m_s": pgv[keep]})
     result = np.full(pga.shape, -np.inf)
-    result[keep] = apply(PRIOR, SURFACE.parts("pro", "recorded", cases))
+    result[keep] = apply(PRIOR, parts(cases.assign(width=width, height=height, eta=eta, mw=mw)))
     return result
 
 
@@ -73,11 +60,6 @@ class Truth:
         z = self.c + c + np.exp(ln_s) * (z - self.c)
         of = lambda mw: (self.m + m) * (np.clip(mw, *RANGE) - MIDDLE)
         return sum(expit(z + of(mw)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
-
-
-def write_objects():
-    objects = pd.DataFrame(OBJECTS, ["width", "height"]).T
-    objects.to_csv(folder / "objects.csv", index_label="name")
 
 
 def write(k):
@@ -111,8 +93,7 @@ def answers(k, route):
 
 
 def judged(truths):
-    """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
-    truth that is drawn, and the logarithm of their ratio."""
+    """Of each site, route and object ln(rate/truth), how often the limits hold a drawn truth, and ln of their ratio."""
     for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude", "world"])):
         write(k)
         sites = names[k, 1 if names[k, 0] == "world" else 0]
@@ -152,7 +133,7 @@ def summary(rows):
 
 
 if __name__ == "__main__":
-    write_objects()
+    pd.DataFrame(OBJECTS, ["width", "height"]).T.to_csv(folder / "objects.csv", index_label="name")
     of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
     found = pd.DataFrame(judged(of_objects), columns=["sites", "k", "route", "off", "held", "width"])
     print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
