@@ -69,15 +69,19 @@ def write(k):
         levels, rates = data[name][k].T
         curve = pd.DataFrame({heading: levels / unit, "annual_rate_of_exceedance": rates})
         curve[(rates > 1e-9) & (rates < 0.5)].to_csv(folder / f"{name}.csv", index=False)
+        for years in (975, 2475):
+            level = np.minimum(levels, S.inverse(levels, rates, 1 / years)) / unit
+            cut = pd.DataFrame({heading: level, "annual_rate_of_exceedance": np.maximum(rates, 1 / years)})
+            cut[rates < 0.5].drop_duplicates().to_csv(folder / f"{name}{years}.csv", index=False)
     m, a, v = np.nonzero(joint[k] > 1e-10)
     bins = {"pga_m_s2": np.exp(S.X[a]), "pgv_m_s": np.exp(S.Y[v]), "mw": S.MAGNITUDES[m]}
     bins["annual_rate_of_occurrence"] = joint[k][m, a, v]
     pd.DataFrame(bins).to_csv(folder / "joint.csv", index=False)
 
 
-# Curves, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
+# Curves, also cut at so many years, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
 ROUTES = [
-    "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint",
+    "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint", "PGA975", "PGA2475",
 ]  # fmt: skip
 MEANS = {"M": mean_mw, "MS": data["mw_sa"]}
 
@@ -105,7 +109,7 @@ def judged(truths):
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
                 if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    yield sites, k, route, np.log(value / true[name]), held, np.log(high / low)
+                    yield sites, k, route, np.log(value / true[name]), held, np.log(high) - np.log(low)
 
 
 def magnitudes(truths):
