@@ -20,8 +20,7 @@ import sites as S
 from outcomes import PRIOR, SURFACE, apply, call, parts
 
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
-SD_OF_LOSS = 0.4
-DRAWS = 40
+SD_OF_LOSS, DRAWS = 0.4, 40
 # The magnitude that the level of the surface is for, and within which it counts.
 MIDDLE, RANGE = 6.9, (5.0, 7.6)
 LN_LOSS = np.linspace(-1.2, 1.2, 7)
@@ -81,7 +80,8 @@ def write(k):
 
 # Curves, also cut at so many years, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
 ROUTES = [
-    "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint", "PGA975", "PGA2475",
+    "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint",
+    "PGA975", "PGA2475",
 ]  # fmt: skip
 MEANS = {"M": mean_mw, "MS": data["mw_sa"]}
 
