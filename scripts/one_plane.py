@@ -12,41 +12,31 @@ import numpy as np
 import polars as pl
 from scipy.stats import norm
 
-TRANSITION, LIMIT = 1.3, np.log(0.1)
-
-
-def design(first, ln_im3):
-    return np.stack([np.ones_like(first), first, ln_im3], axis=1)
-
-
-def fitted(columns, ln_edp):
-    b = np.linalg.lstsq(columns, ln_edp, rcond=None)[0]
-    return b, np.std(ln_edp - columns @ b)
-
-
-def judged(ln_edp, median, sd):
-    exceeds = np.where(ln_edp > LIMIT, 1, -1)
-    return np.sqrt(np.mean((ln_edp - median) ** 2)), norm.logcdf(exceeds * (median - LIMIT) / sd).mean()
+TRANSITION, LIMIT = np.log([1.3, 0.1])
 
 
 def data(path, suite, structure):
+    """ln of IM4, IM3 and demand in safe rocking."""
     of = (pl.col("suite") == suite) & (pl.col("structure") == structure) & (pl.col("outcome") == "safe_rocking")
     rows = pl.read_parquet(path).filter(of & (pl.col("edp") > 0) & (pl.col("im4") > 1))
-    return (np.log(rows[name].to_numpy()) for name in ("im4", "im3", "edp"))
+    return np.log(rows.select("im4", "im3", "edp").to_numpy().T)
+
+
+def plane(first, here, there):
+    """Root mean square and log score of cases by a plane that is fitted to others; `first` makes its first measure."""
+    columns, judged = (np.stack([np.ones_like(im4), first(im4), im3], axis=1) for im4, im3, _ in (here, there))
+    b = np.linalg.lstsq(columns, here[2], rcond=None)[0]
+    median, sd = judged @ b, np.std(here[2] - columns @ b)
+    side = np.where(there[2] > LIMIT, 1, -1)
+    return np.stack([(there[2] - median) ** 2, norm.logcdf(side * (median - LIMIT) / sd)])
 
 
 for suite, structure in itertools.product(("pulse", "csgm"), ("frame", "electrical-equipment")):
     scores = []
-    for here, there in itertools.permutations(sys.argv[1:], 2):
-        im4, im3, edp = data(here, suite, structure)
-        low = im4 < np.log(TRANSITION)
-        one, sd = fitted(design(np.log(im4), im3), edp)
-        two = [fitted(design(im4[side], im3[side]), edp[side]) for side in (low, ~low)]
-        im4, im3, edp = data(there, suite, structure)
-        low = im4 < np.log(TRANSITION)
-        (below, sd_below), (above, sd_above) = two
-        median = np.where(low, design(im4, im3) @ below, design(im4, im3) @ above)
-        of_one = judged(edp, design(np.log(im4), im3) @ one, sd)
-        scores.append([*of_one, *judged(edp, median, np.where(low, sd_below, sd_above))])
-    rms_one, score_one, rms_two, score_two = np.mean(scores, axis=0)
-    print(f"{suite} {structure}: rms {rms_one:.3f}, {rms_two:.3f}; score {score_one:.3f}, {score_two:.3f}")
+    for files in itertools.permutations(sys.argv[1:], 2):
+        here, there = (data(file, suite, structure) for file in files)
+        sides = [[of[:, (of[0] < TRANSITION) == low] for of in (here, there)] for low in (True, False)]
+        two = np.concatenate([plane(lambda im4: im4, *side) for side in sides], axis=1)
+        square, score = np.transpose([of.mean(axis=1) for of in (plane(np.log, here, there), two)])
+        scores.append([*np.sqrt(square), *score])
+    print(suite, structure, "rms {:.3f}, {:.3f}; score {:.3f}, {:.3f}".format(*np.mean(scores, axis=0)))

@@ -1,8 +1,9 @@
 """Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy:
 python fragility.py > core/tests/reference/fits/fragility_answers.csv
 
-The surface is that of scripts/universal/surface.py. The line of PGV/PGA given PGA is that of recorded_peaks.py, that given PGV
-that of sites.py. Without a magnitude it is that of the motions that overturn, with its scatter. Intensities are PGA in g or PGV in m/s.
+The surface is that of scripts/universal/surface.py. The line of PGV/PGA given PGA is that of recorded_peaks.py, that
+given PGV that of sites.py. Without a magnitude it is that of the motions that overturn, with its scatter. Intensities
+are PGA in g or PGV in m/s.
 """
 
 import itertools
@@ -27,6 +28,7 @@ MAGNITUDE = 6.65, 0.3
 LEVEL_AT = {"pga": 0.4 * G, "pgv": 0.4}
 STRUCTURES = [(2.2, 0.25, 0.91), (1.5, 0.15, 0.95), (3.5, 0.35, 0.85)]
 INTENSITIES = {"pga": (0.3, 0.5, 0.8, 1.5, 3.0), "pgv": (0.15, 0.4, 0.9, 2.5)}
+# That at which the features of P_ro are 0, so that both events have it.
 LIMIT_STATE = 0.2
 surface = Surface(open(root / "core/data/universal.csv"))
 
@@ -42,10 +44,8 @@ def probabilities(structure, pga, pgv, mw):
     """Of failure and of overturning, where the structure is uplifted."""
     p, alpha, eta = structure
     im4, im5 = np.array([pga, p * pgv]) / (G * np.tan(alpha))
-    cases = pl.DataFrame({"im4": im4, "im5": im5}).with_columns(
-        p_rad_s=pl.lit(p), eta=pl.lit(eta), mw=pl.lit(mw), limit=pl.lit(LIMIT_STATE)
-    )
-    overturns = branch("pro", cases.with_columns(limit=pl.lit(0.2)))
+    cases = pl.DataFrame({"im4": im4, "im5": im5, "p_rad_s": p, "eta": eta, "mw": mw, "limit": LIMIT_STATE})
+    overturns = branch("pro", cases)
     return np.array([overturns + (1 - overturns) * branch("pex", cases), overturns])
 
 

@@ -67,9 +67,8 @@ def judged(components, responses):
 
 
 if __name__ == "__main__":
-    components, responses = pd.read_csv(sys.argv[1]), pd.read_parquet(sys.argv[2])
-    for table in (components, responses):
-        table["earthquake"] = table["earthquake"].replace("CHI-CHI TAIWAN", "CHI-CHI 09/20/99")
+    tables = pd.read_csv(sys.argv[1]), pd.read_parquet(sys.argv[2])
+    components, responses = (table.replace("CHI-CHI TAIWAN", "CHI-CHI 09/20/99") for table in tables)
     components["ratio"] = np.log(components["pgv_m_s"] / components["pga_m_s2"])
     components["pga"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"])
     components["mw"] = components["magnitude"] - 6.3

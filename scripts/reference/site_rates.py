@@ -1,11 +1,10 @@
 """Judges rates of evaluate --hazard at the sites of sites.py or worlds.py: python site_rates.py FOLDER ROCKFRAG
 
-The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
-magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
-whose c, ln s and eta are drawn from their distributions. A second table tells how far the mean magnitude of the
-motions that overturn lies above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their
-PGV/PGA tells; a third has that mean of all sites, its sd between sites and within. The logits of the truth are those
-of scripts/universal/surface.py.
+The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own magnitude. The
+table has, for each route, the rates over the truth, and how often the 95 % limits hold truths whose c, ln s, m and eta
+are drawn from their distributions. A second table tells how far the mean magnitude of the motions that overturn lies
+above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their PGV/PGA tells; a third has that
+mean of all sites, its sd between sites and within.
 """
 
 import itertools
@@ -15,20 +14,13 @@ import sys
 
 import numpy as np
 import pandas as pd
-import polars as pl
 from scipy.special import expit
 
 import sites as S
-
-scripts = pathlib.Path(__file__).resolve().parents[1]
-sys.path += [str(scripts), str(scripts / "universal")]
-from calibration import apply  # noqa: E402
-from common import ROOT, call  # noqa: E402
-from surface import NO_LIMIT, Surface  # noqa: E402
+from outcomes import PRIOR, SURFACE, apply, call, parts
 
 OBJECTS = {"cabinet": (0.8, 2.2), "rack": (0.6, 2.0), "statue": (0.45, 1.7), "shelf": (0.35, 1.5)}
-SD_OF_LOSS = 0.4
-DRAWS = 40
+SD_OF_LOSS, DRAWS = 0.4, 40
 # The magnitude that the level of the surface is for, and within which it counts.
 MIDDLE, RANGE = 6.9, (5.0, 7.6)
 LN_LOSS = np.linspace(-1.2, 1.2, 7)
@@ -38,19 +30,13 @@ names, joint, mean_mw = data["names"], data["joint"], data["mw"]
 random = np.random.default_rng(1)
 
 
-SURFACE = Surface(open(ROOT / "core/data/universal.csv"))
-PRIOR = SURFACE.prior("pro", "recorded")
-
-
 def surface(width, height, eta, mw):
     """Logits of P_ro at the bins of PGA and PGV; -inf below uplift."""
     pga, pgv = np.exp(np.meshgrid(S.X, S.Y, indexing="ij"))
-    uplift, p = 9.81 * width / height, np.sqrt(3 * 9.81 / (2 * np.hypot(width, height)))
-    keep = (pga > uplift) & (pga <= 4.5 * 9.81) & (pgv <= 5)
-    numbers = {"p_rad_s": p, "eta": eta, "mw": mw, "limit": NO_LIMIT}
-    cases = pl.DataFrame({"im4": pga[keep] / uplift, "im5": p * pgv[keep] / uplift, **numbers})
+    keep = (pga > 9.81 * width / height) & (pga <= 4.5 * 9.81) & (pgv <= 5)
+    cases = pd.DataFrame({"pga_m_s2": pga[keep], "pgv_m_s": pgv[keep]})
     result = np.full(pga.shape, -np.inf)
-    result[keep] = apply(PRIOR, SURFACE.parts("pro", "recorded", cases))
+    result[keep] = apply(PRIOR, parts(cases.assign(width=width, height=height, eta=eta, mw=mw)))
     return result
 
 
@@ -75,11 +61,6 @@ class Truth:
         return sum(expit(z + of(mw)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
 
 
-def write_objects():
-    objects = pd.DataFrame(OBJECTS, ["width", "height"]).T
-    objects.to_csv(folder / "objects.csv", index_label="name")
-
-
 def write(k):
     """The files of a site as an engineer has them."""
     headings = {"pga": ("pga_g", 9.81), "pgv": ("pgv_m_s", 1), "sa": ("SA(1.0) (g)", 9.81)}
@@ -87,15 +68,20 @@ def write(k):
         levels, rates = data[name][k].T
         curve = pd.DataFrame({heading: levels / unit, "annual_rate_of_exceedance": rates})
         curve[(rates > 1e-9) & (rates < 0.5)].to_csv(folder / f"{name}.csv", index=False)
+        for years in (975, 2475):
+            level = np.minimum(levels, S.inverse(levels, rates, 1 / years)) / unit
+            cut = pd.DataFrame({heading: level, "annual_rate_of_exceedance": np.maximum(rates, 1 / years)})
+            cut[rates < 0.5].drop_duplicates().to_csv(folder / f"{name}{years}.csv", index=False)
     m, a, v = np.nonzero(joint[k] > 1e-10)
     bins = {"pga_m_s2": np.exp(S.X[a]), "pgv_m_s": np.exp(S.Y[v]), "mw": S.MAGNITUDES[m]}
     bins["annual_rate_of_occurrence"] = joint[k][m, a, v]
     pd.DataFrame(bins).to_csv(folder / "joint.csv", index=False)
 
 
-# Curves, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
+# Curves, also cut at so many years, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
 ROUTES = [
     "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint",
+    "PGA975", "PGA2475",
 ]  # fmt: skip
 MEANS = {"M": mean_mw, "MS": data["mw_sa"]}
 
@@ -111,8 +97,7 @@ def answers(k, route):
 
 
 def judged(truths):
-    """Of each site, route and object the logarithm of the rate over the truth, how often the limits hold a
-    truth that is drawn, and the logarithm of their ratio."""
+    """Of each site, route and object ln(rate/truth), how often the limits hold a drawn truth, and ln of their ratio."""
     for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude", "world"])):
         write(k)
         sites = names[k, 1 if names[k, 0] == "world" else 0]
@@ -124,7 +109,7 @@ def judged(truths):
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
                 if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    yield sites, k, route, np.log(value / true[name]), held, np.log(high / low)
+                    yield sites, k, route, np.log(value / true[name]), held, np.log(high) - np.log(low)
 
 
 def magnitudes(truths):
@@ -152,7 +137,7 @@ def summary(rows):
 
 
 if __name__ == "__main__":
-    write_objects()
+    pd.DataFrame(OBJECTS, ["width", "height"]).T.to_csv(folder / "objects.csv", index_label="name")
     of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
     found = pd.DataFrame(judged(of_objects), columns=["sites", "k", "route", "off", "held", "width"])
     print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())

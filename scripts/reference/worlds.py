@@ -82,7 +82,6 @@ WORLDS = {
 }
 
 
-
 def of_worlds():
     for world, (sources, models, vs30s, top, changed) in WORLDS.items():
         ruptures = np.concatenate(sources)
