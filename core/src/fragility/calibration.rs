@@ -304,6 +304,10 @@ impl Branch<'_> {
     pub fn logit(&self, terms: &LogitTerms, point: ModelPoint) -> f64 {
         let Parameters { c, s, m } = match point {
             ModelPoint::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+            ModelPoint::Magnitude(off) => {
+                let Parameters { c, s, m } = self.parameters;
+                Parameters { c: c + m * off, s, m }
+            }
             _ => self.parameters,
         };
         // P must not fall as PGV rises: where it would, a magnitude inferred from PGV / PGA does not count.
@@ -313,9 +317,9 @@ impl Branch<'_> {
         let scaled = s * terms.logit;
         let logit = c + scaled + m * magnitude + terms.uplift_term;
         let (sign, tau) = match point {
-            ModelPoint::Estimate | ModelPoint::Error { .. } => return logit,
             ModelPoint::Low(tau) => (-1.0, tau),
             ModelPoint::High(tau) => (1.0, tau),
+            _ => return logit,
         };
         let between = match tau {
             Tau::Included => self.calibration.tau.hypot(m * terms.magnitude_sd),

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::joint_peaks::JointPeaks;
@@ -28,7 +30,7 @@ pub enum Model {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingDirection {
     pub structure: Structure,
-    pub model: Model,
+    pub model: Arc<Model>,
     /// Number of such objects in a list of which any may rock so; none of a single object.
     pub count: Option<f64>,
 }
@@ -41,18 +43,6 @@ impl RockingDirection {
             None => UpliftIntensities { least: uplift, usual: uplift },
         }
     }
-}
-
-/// Directions under motions of magnitudes higher by `off`: the level c of both branches is then by m off.
-pub(crate) fn at_higher_magnitude(directions: &[RockingDirection], off: f64) -> Vec<RockingDirection> {
-    let mut directions = directions.to_vec();
-    for RockingDirection { model, .. } in &mut directions {
-        if let Model::Surface { overturning, exceeding, .. } = model {
-            overturning.c += overturning.m * off;
-            exceeding.c += exceeding.m * off;
-        }
-    }
-    directions
 }
 
 /// The confidence of limits by the paper's model.

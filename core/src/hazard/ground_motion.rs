@@ -1,11 +1,10 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::conditional_motions::{ConditionalMotions, at_magnitudes};
+use super::conditional_motions::ConditionalMotions;
 use super::fragility_curve::GenericSites;
 use crate::fragility::{
-    AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject,
-    RockingDirection, Tau,
+    AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject, Tau,
 };
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
@@ -78,21 +77,22 @@ impl GroundMotion {
         let (at_quantiles, [averaged, included], magnitude) = match self.given_peak(model) {
             None => {
                 let ready = ReadyObject::new(directions, self.mw);
-                let limit_states = |directions: &[RockingDirection]| {
+                let mut at_quantiles = object.at_quantiles(|directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[ModelPoint::Estimate])[0]
-                };
-                let mut at_quantiles = object.at_quantiles(limit_states);
+                });
                 let inferred = model.inferred_magnitude(peaks);
                 let magnitude = inferred.map(|inferred| self.mw.map_or(inferred, AssumedMagnitude::given));
                 let unknown = magnitude.filter(|magnitude| magnitude.sd > 0.0);
                 at_quantiles.extend(unknown.map(|AssumedMagnitude { sd, .. }| {
-                    at_magnitudes(directions, sd, 1.0, |moved, _| limit_states(moved))
+                    LowHigh::normal(UncertaintySource::Magnitude, sd)
+                        .map(|off| ready.limit_states(peaks, &[ModelPoint::Magnitude(*off)])[0])
                 }));
                 (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)), magnitude)
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
-                let at_quantiles = motions.at_quantiles(object, |given| given.limit_states(intensity));
+                let at_quantiles =
+                    motions.at_quantiles(object, |given, point| given.at_points(intensity, &[point])[0]);
                 let magnitude = motions.magnitude(model, peaks);
                 (at_quantiles, taus.map(|tau| given.estimates(intensity, tau)), magnitude)
             }

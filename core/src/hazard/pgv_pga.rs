@@ -8,7 +8,7 @@ use crate::fragility::{Model, MotionKind, Peak, RatioGiven};
 use crate::object::{LowHigh, UncertaintySource};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
-use crate::statistics::normal::{self, Z_95};
+use crate::statistics::normal;
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
@@ -203,7 +203,7 @@ impl PgvPgaRatio {
 
     /// The uncertainty of the level, as ln of a factor.
     pub fn at_quantiles(&self) -> LowHigh<f64> {
-        LowHigh { source: UncertaintySource::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
+        LowHigh::normal(UncertaintySource::Velocity, self.sd)
     }
 
     /// PGV / PGA in earthquakes of a magnitude, times exp(`ln_factor`).

@@ -1,6 +1,8 @@
 //! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a
 //! change.
 
+use std::sync::Arc;
+
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
@@ -124,7 +126,9 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     let mut object = uncalibrated(&object);
     let direction = &mut object.directions[0];
     let ends = direction.model.at_quantiles();
-    let Model::Surface { overturning, .. } = &mut direction.model else { panic!("the surface") };
+    let Model::Surface { overturning, .. } = Arc::make_mut(&mut direction.model) else {
+        panic!("the surface")
+    };
     for (z, [low, high]) in z[2..].iter().zip(&ends) {
         let (Model::Surface { overturning: low, .. }, Model::Surface { overturning: high, .. }) = (low, high)
         else {

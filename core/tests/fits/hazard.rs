@@ -1,5 +1,7 @@
 //! Annual rates against closed forms.
 
+use std::sync::Arc;
+
 use rockfrag_core::fragility::{
     Event, GivenPeak, Measure, Model, MotionKind, Peak, RatioGiven, RockingDirection, fit_curve,
     p_overturning,
@@ -77,7 +79,8 @@ fn lognormal_over_both_peaks() -> RockingDirection {
     (overturning.coefficients, overturning.covariance) = (B.to_vec(), vec![0.0; 9]);
     let peaks = Model::uncalibrated(MotionKind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
-    RockingDirection { structure: Structure::new("slender", 1.0, 1e-3, 0.9).unwrap(), model, count: None }
+    let structure = Structure::new("slender", 1.0, 1e-3, 0.9).unwrap();
+    RockingDirection { structure, model: Arc::new(model), count: None }
 }
 
 /// The rate of Phi(c + d ln IM) over k0 IM^-k.
@@ -267,7 +270,7 @@ fn averages_over_pgv_pga_are_those_of_scipy() {
     for row in read::<Row>("fragility_answers.csv") {
         let (structure, over, mw) = (row.structure(), row.get("over"), row.text("mw").parse().ok());
         let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.2);
-        let directions = [RockingDirection { structure, model, count: None }];
+        let directions = [RockingDirection { structure, model: Arc::new(model), count: None }];
         let unit = if over == Peak::Pga { 9.81 } else { 1.0 };
         let intensity = unit * row.get::<f64>("intensity");
         let general = GenericSites { over, mw, vs30_m_s: None, ratio_s: None };
