@@ -206,7 +206,10 @@ impl Model {
                 let mut states = [LimitStates::all(Some(0.0)); 3];
                 let direction = ReadyDirection::new(structure, self, mw);
                 let points = ModelPoint::at_limits(tau);
-                direction.at(pga_m_s2).combine_into(ln_pgv_pga, &mut None, &points, &mut states);
+                let at_pga = direction.at(pga_m_s2).into_iter();
+                at_pga.for_each(|at| {
+                    at.for_each_point(ln_pgv_pga, &mut None, &points, |point, of| states[point] = of);
+                });
                 Probabilities::on_floor(LimitStates::from_points(&states))
             }
             Model::Paper { demand, overturning, limit_state, .. } => {

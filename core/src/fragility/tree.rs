@@ -120,7 +120,10 @@ impl NoneOf {
     pub fn and(self, p: f64, count: f64) -> NoneOf {
         let moved = [1.0 / E, E].map(|odds| p * odds / (1.0 - p + p * odds));
         let to_mean = p / (0.5 * (moved[0] + moved[1])).max(f64::MIN_POSITIVE);
-        NoneOf([0, 1].map(|half| self.0[half] * (1.0 - moved[half] * to_mean).max(0.0).powf(count)))
+        let none = moved.map(|moved| (1.0 - moved * to_mean).max(0.0));
+        // Most objects are there once, and a power takes longer than all else here.
+        let none = if count == 1.0 { none } else { none.map(|none| none.powf(count)) };
+        NoneOf([0, 1].map(|half| self.0[half] * none[half]))
     }
 
     pub fn p_any(self) -> f64 {
