@@ -44,8 +44,7 @@ impl ModelPoint {
 
     /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
     pub fn at_errors(directions: &[RockingDirection]) -> Vec<ModelPoint> {
-        let fewest =
-            directions.iter().map(|direction| direction.model.at_quantiles().len()).min().unwrap_or(0);
+        let fewest = directions.iter().map(|direction| direction.model.errors()).min().unwrap_or(0);
         let errors =
             (0..fewest).flat_map(|number| [false, true].map(|is_high| ModelPoint::Error { number, is_high }));
         [ModelPoint::Estimate].into_iter().chain(errors).collect()

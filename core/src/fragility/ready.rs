@@ -84,7 +84,7 @@ impl<'a> ReadyDirection<'a> {
                     None => ReadyModel::Ground(branches),
                 }
             }
-            Model::Paper { .. } => ReadyModel::Paper(model, model.at_quantiles()),
+            Model::Paper { .. } => ReadyModel::Paper(model, model.paper_at_quantiles()),
         };
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }

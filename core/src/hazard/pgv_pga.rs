@@ -220,10 +220,7 @@ fn line_at_pga(level: f64, slope: f64) -> RatioGiven {
 
 /// The annual rate of exceedance of a PGV (m/s), by a curve of PGA and PGV / PGA given PGA.
 fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) -> f64 {
-    let [rate] = pga.mean_annual_rates(&[], PANEL, |a| {
-        [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)]
-    });
-    rate
+    pga.mean_annual_rate(&[], PANEL, |a| normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above))
 }
 
 /// Minimises by Gauss-Newton steps; with the root mean square of `off` at the minimum.

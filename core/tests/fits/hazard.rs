@@ -31,9 +31,8 @@ fn a_power_law_has_a_rate_of_a_lognormal_and_of_a_jump_in_closed_form() {
         [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301), (2.0, 0.5, 0.3, 20_001)]
     {
         let curve = power_law(1e-3, k, n);
-        let [rate, jump] = curve.mean_annual_rates(&[theta], 0.02, |im| {
-            [p_overturning(im, f64::ln(theta), beta), f64::from(u8::from(im >= theta))]
-        });
+        let rate = curve.mean_annual_rate(&[theta], 0.02, |im| p_overturning(im, f64::ln(theta), beta));
+        let jump = curve.mean_annual_rate(&[theta], 0.02, |im| f64::from(u8::from(im >= theta)));
         close(jump, 1e-3 * theta.powf(-k), 1e-9);
         close(rate, jump * (0.5 * k * k * beta * beta).exp(), 1e-9);
     }
@@ -50,7 +49,7 @@ fn a_joint_hazard_has_a_curve_of_each_peak() {
 #[test]
 fn motions_beyond_the_curve_count_as_its_last_one() {
     let curve = HazardCurve::new(vec![(0.1, 0.01), (1.0, 0.001)]).unwrap();
-    let [all, half] = curve.mean_annual_rates(&[], 0.02, |_| [1.0, 0.5]);
+    let [all, half] = [1.0, 0.5].map(|p| curve.mean_annual_rate(&[], 0.02, |_| p));
     assert!((all - 0.01).abs() < 1e-12 && (half - 0.005).abs() < 1e-12);
 }
 
