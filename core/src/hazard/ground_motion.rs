@@ -50,10 +50,10 @@ impl GroundMotion {
     /// A peak that is not known is the median.
     pub fn peaks(&self, model: &Model) -> Peaks {
         match self.given_peak(model) {
-            Some((motions, intensity)) if !self.is_still() => motions.given(&[], 0.0).peaks(intensity, 0.0),
-            _ => {
-                let known = [self.pga_m_s2, self.pgv_m_s].map(|peak| peak.filter(|_| !self.is_still()));
-                let [pga_m_s2, pgv_m_s] = known.map(Option::unwrap_or_default);
+            _ if self.is_still() => Peaks::default(),
+            Some((motions, intensity)) => motions.given(&[], 0.0).peaks(intensity, 0.0),
+            None => {
+                let [pga_m_s2, pgv_m_s] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
                 Peaks { pga_m_s2, pgv_m_s }
             }
         }
@@ -158,7 +158,6 @@ pub(super) fn logit(p: f64) -> f64 {
     (p / (1.0 - p)).ln()
 }
 
-/// The standard deviation of a logit from its 95 % limits.
 fn sd_of_limits(p: Interval) -> f64 {
     let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
     if sd.is_finite() { sd } else { 0.0 }
