@@ -22,9 +22,7 @@ pub struct ListedObject<'a> {
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ListProbabilities {
-    /// The probability that one or more overturn.
     pub at_least_one: Interval<Option<f64>>,
-    /// The expected number of those that overturn.
     pub expected_number: Interval<Option<f64>>,
 }
 

@@ -71,7 +71,6 @@ pub fn strongest(peak: Peak) -> f64 {
     }
 }
 
-/// The hazard of a site, and what else is known of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
     pub hazard: Hazard,

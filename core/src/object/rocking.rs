@@ -44,21 +44,6 @@ impl UncertaintySource {
 }
 
 /// An object in its directions, and its uncertainties.
-///
-/// ```
-/// use rockfrag_core::fragility::MotionKind;
-/// use rockfrag_core::object::{Object, RockingObject, UncertaintySource};
-///
-/// let mut rack = Object::block("rack", 0.6, 1.9);
-/// rack.shape.depth = Some(0.8);
-/// let object = RockingObject::uncalibrated(&rack, MotionKind::Recorded, 0.10)?;
-/// // It may fall over its width or over its depth; the loss at an impact is not known.
-/// assert_eq!(object.directions.len(), 2);
-/// assert_eq!(object.perturbations[0].source, UncertaintySource::Eta);
-/// let bouncier = &object.perturbations[0].high[0];
-/// assert!(bouncier.structure.eta > object.directions[0].structure.eta);
-/// # Ok::<(), rockfrag_core::object::ObjectError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingObject {
     /// The weaker first; one or more.
