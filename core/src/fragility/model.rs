@@ -66,8 +66,8 @@ impl Model {
         Some(self)
     }
 
-    /// How many independent errors the parameters have: an error of one calibration of the surface has the same
-    /// cause as that of the other.
+    /// Number of independent errors of the parameters: those of both calibrations of the surface have the same
+    /// causes.
     pub(super) fn errors(&self) -> usize {
         match self {
             Model::Surface { overturning, exceeding, .. } => {

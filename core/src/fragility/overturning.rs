@@ -123,7 +123,7 @@ pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) 
     predictors.into_par_iter().map(|Predictors { im_x, im_y }| fit_curve(cases, event, im_x, im_y)).collect()
 }
 
-/// A fragility curve: a row of pro.parquet. Fields that a [`DemandFit`](super::DemandFit) has too are as there.
+/// A fragility curve: a row of pro.parquet. What a [`DemandFit`](super::DemandFit) has too is as there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CurveFit {
     pub suite: Option<String>,

@@ -211,8 +211,8 @@ impl<'a> ReadyObject<'a> {
 pub(crate) struct ObjectAtPga<'a>(Vec<(DirectionAtPga<'a>, Option<f64>)>);
 
 impl ObjectAtPga<'_> {
-    /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none. An object rocks
-    /// in each direction independently under one motion. How many of a list rock too far is not asked.
+    /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none. An object
+    /// rocks in each direction independently under one motion; how many of a list rock too far is not asked.
     pub fn limit_states(
         &self,
         ln_pgv_pga: f64,
