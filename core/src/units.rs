@@ -1,6 +1,5 @@
 //! Units and physical constants.
 
-/// Acceleration of gravity, m/s2.
 pub const G_M_S2: f64 = 9.81;
 
 /// Inverse of [`G_M_S2`]: converts m/s2 to g.

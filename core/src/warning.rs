@@ -162,9 +162,7 @@ impl Warnings {
 impl FromIterator<(Warning, String)> for Warnings {
     fn from_iter<I: IntoIterator<Item = (Warning, String)>>(warnings: I) -> Warnings {
         let mut all = Warnings::default();
-        for (warning, about) in warnings {
-            all.add(warning, about);
-        }
+        warnings.into_iter().for_each(|(warning, about)| all.add(warning, about));
         all
     }
 }

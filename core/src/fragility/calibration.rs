@@ -190,7 +190,8 @@ impl Calibration {
 
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
         let surface = StructureSurface::new(self.kind, structure, self.limit_state, mw);
-        let errors = self.errors().map(|at_quantiles| at_quantiles.map(Parameters::new)).collect();
+        let errors =
+            self.errors().into_iter().map(|at_quantiles| at_quantiles.map(Parameters::new)).collect();
         Branch {
             calibration: self,
             surface,
@@ -214,14 +215,9 @@ impl Calibration {
     }
 
     /// c, ln s and m with each of their independent errors at its 2.5 and 97.5 % quantiles.
-    fn errors(&self) -> impl Iterator<Item = [[f64; 3]; 2]> {
+    pub fn errors(&self) -> Vec<[[f64; 3]; 2]> {
         let errors = independent_errors(&[self.c, self.ln_s, self.m], &self.covariance, Z_95);
-        errors.into_iter().map(|at_quantiles| at_quantiles.map(|b| [b[0], b[1], b[2]]))
-    }
-
-    pub(super) fn at_quantiles(&self) -> Vec<[Calibration; 2]> {
-        let with = |[c, ln_s, m]: [f64; 3]| Calibration { c, ln_s, m, ..self.clone() };
-        self.errors().map(|at_quantiles| at_quantiles.map(with)).collect()
+        errors.into_iter().map(|at_quantiles| at_quantiles.map(|b| [b[0], b[1], b[2]])).collect()
     }
 
     pub fn peaks(&self) -> JointPeaks {
@@ -280,7 +276,8 @@ impl Parameters {
 
 impl Branch<'_> {
     fn terms_of(&self, structure: &Structure, measures: &IntensityMeasures) -> Option<LogitTerms> {
-        let ln_pgv_pga = ln_pgv_pga(structure, measures)?;
+        let im5 = Measure::Im5.value_of(measures)?;
+        let ln_pgv_pga = (im5 / (measures.im4 * structure.p_rad_s)).ln();
         let at_im4 = self.surface.at(&Im4Terms::new(measures.im4, measures.im4.ln()));
         Some(self.terms(&at_im4, ln_pgv_pga, self.surface.magnitude(ln_pgv_pga + at_im4.excess)))
     }
@@ -290,7 +287,7 @@ impl Branch<'_> {
         LogitTerms {
             logit: at_im4.logit(ln_pgv_pga),
             magnitude,
-            magnitude_sd: self.surface.magnitude_sd,
+            magnitude_sd: self.surface.magnitude.sd,
             uplift_term: at_im4.uplift_term(ln_pgv_pga),
         }
     }
@@ -304,6 +301,10 @@ impl Branch<'_> {
     pub fn logit(&self, terms: &LogitTerms, point: ModelPoint) -> f64 {
         let Parameters { c, s, m } = match point {
             ModelPoint::Error { number, is_high } => self.errors[number][usize::from(is_high)],
+            ModelPoint::Magnitude(off) => {
+                let Parameters { c, s, m } = self.parameters;
+                Parameters { c: c + m * off, s, m }
+            }
             _ => self.parameters,
         };
         // P must not fall as PGV rises: where it would, a magnitude inferred from PGV / PGA does not count.
@@ -313,9 +314,9 @@ impl Branch<'_> {
         let scaled = s * terms.logit;
         let logit = c + scaled + m * magnitude + terms.uplift_term;
         let (sign, tau) = match point {
-            ModelPoint::Estimate | ModelPoint::Error { .. } => return logit,
             ModelPoint::Low(tau) => (-1.0, tau),
             ModelPoint::High(tau) => (1.0, tau),
+            _ => return logit,
         };
         let between = match tau {
             Tau::Included => self.calibration.tau.hypot(m * terms.magnitude_sd),
@@ -324,12 +325,6 @@ impl Branch<'_> {
         let variance = delta_variance(&self.calibration.covariance, &[1.0, scaled, magnitude]);
         logit + sign * Z_95 * variance.sqrt().hypot(between)
     }
-}
-
-/// ln(PGV / PGA), s; none where a measure is missing.
-fn ln_pgv_pga(structure: &Structure, measures: &IntensityMeasures) -> Option<f64> {
-    let im5 = Measure::Im5.value_of(measures)?;
-    Some((im5 / (measures.im4 * structure.p_rad_s)).ln())
 }
 
 fn logistic(z: f64) -> f64 {

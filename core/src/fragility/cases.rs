@@ -63,7 +63,6 @@ impl Cluster {
     }
 }
 
-/// The response of a structure to a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Case {
     pub outcome: Outcome,
@@ -176,7 +175,6 @@ pub struct Sample<Y> {
     pub ln_im: Vec<Vec<f64>>,
     pub y: Vec<Y>,
     pub clusters: Vec<u32>,
-    /// Least and largest value of each measure.
     pub ranges: Vec<Range>,
 }
 

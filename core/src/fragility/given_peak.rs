@@ -140,7 +140,7 @@ impl<'a> GivenPeak<'a> {
     /// pulses has a dispersion of 0.03.
     pub(crate) fn widest_panel(&self) -> f64 {
         let mut models = self.directions.iter().map(|direction| &direction.model);
-        if models.any(|model| matches!(model, Model::Paper { .. })) { 0.02 } else { 0.6 }
+        if models.any(|model| matches!(**model, Model::Paper { .. })) { 0.02 } else { 0.6 }
     }
 
     /// In m/s2, rising.
@@ -149,7 +149,7 @@ impl<'a> GivenPeak<'a> {
         for direction in self.directions {
             let uplift = direction.uplift_m_s2().least;
             all.push(uplift);
-            if let Model::Paper { demand, .. } = &direction.model {
+            if let Model::Paper { demand, .. } = &*direction.model {
                 let transitions = demand.iter().filter_map(|fit| fit.range_low).filter(|&im4| im4 > 1.0);
                 all.extend(transitions.map(|im4| im4 * uplift));
             }

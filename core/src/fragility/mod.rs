@@ -43,7 +43,6 @@ pub use given_peak::GivenPeak;
 pub use joint_peaks::{JointPeaks, Peak, RatioGiven};
 pub use magnitude::{AssumedMagnitude, MagnitudeSource};
 pub use measure_names::{Measure, Predictors};
-pub(crate) use model::at_higher_magnitude;
 pub use model::{Model, RockingDirection, paper_probabilities};
 pub(crate) use model_point::ModelPoint;
 pub use model_point::Tau;

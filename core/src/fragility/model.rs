@@ -1,9 +1,11 @@
+use std::sync::Arc;
+
 use super::calibration::Calibration;
 use super::demand::DemandFit;
 use super::joint_peaks::JointPeaks;
 use super::magnitude::AssumedMagnitude;
 use super::model_point::{ModelPoint, Tau};
-use super::on_floor::{self, UpliftIntensities};
+use super::on_floor::{AMPLIFIED, UpliftIntensities};
 use super::overturning::CurveFit;
 use super::ready::ReadyDirection;
 use super::surface::{self, MotionKind};
@@ -28,7 +30,7 @@ pub enum Model {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingDirection {
     pub structure: Structure,
-    pub model: Model,
+    pub model: Arc<Model>,
     /// Number of such objects in a list of which any may rock so; none of a single object.
     pub count: Option<f64>,
 }
@@ -36,23 +38,9 @@ pub struct RockingDirection {
 impl RockingDirection {
     pub fn uplift_m_s2(&self) -> UpliftIntensities {
         let uplift = self.structure.uplift_acceleration_m_s2();
-        match self.model.floor() {
-            Some(_) => on_floor::uplift_m_s2(&self.structure),
-            None => UpliftIntensities { least: uplift, usual: uplift },
-        }
+        let [most, usual] = self.model.floor().map_or([1.0; 2], |_| AMPLIFIED);
+        UpliftIntensities { least: uplift / most, usual: uplift / usual }
     }
-}
-
-/// Directions under motions of magnitudes higher by `off`: the level c of both branches is then by m off.
-pub(crate) fn at_higher_magnitude(directions: &[RockingDirection], off: f64) -> Vec<RockingDirection> {
-    let mut directions = directions.to_vec();
-    for RockingDirection { model, .. } in &mut directions {
-        if let Model::Surface { overturning, exceeding, .. } = model {
-            overturning.c += overturning.m * off;
-            exceeding.c += exceeding.m * off;
-        }
-    }
-    directions
 }
 
 /// The confidence of limits by the paper's model.
@@ -78,39 +66,39 @@ impl Model {
         Some(self)
     }
 
-    /// The model with each independent error of its parameters at its 2.5 and 97.5 % quantiles. An error of
-    /// one calibration of the surface has the same cause as that of the other.
-    pub fn at_quantiles(&self) -> Vec<[Model; 2]> {
-        match *self {
-            Model::Surface { ref overturning, ref exceeding, floor } => {
-                let pairs = overturning.at_quantiles().into_iter().zip(exceeding.at_quantiles());
-                let models = pairs.map(|([low, high], [low_ex, high_ex])| {
-                    [(low, low_ex), (high, high_ex)].map(|(overturning, exceeding)| Model::Surface {
-                        overturning,
-                        exceeding,
-                        floor,
-                    })
-                });
-                models.collect()
+    /// Number of independent errors of the parameters: those of both calibrations of the surface have the same
+    /// causes.
+    pub(super) fn errors(&self) -> usize {
+        match self {
+            Model::Surface { overturning, exceeding, .. } => {
+                overturning.errors().len().min(exceeding.errors().len())
             }
-            Model::Paper { ref demand, ref overturning, limit_state, peaks } => {
-                let with = |demand, overturning| Model::Paper { demand, overturning, limit_state, peaks };
-                let curves = overturning.at_quantiles(CONFIDENCE).into_iter();
-                let mut all: Vec<[Model; 2]> = curves
-                    .map(|at_quantiles| at_quantiles.map(|curve| with(demand.clone(), curve)))
-                    .collect();
-                for (at, plane) in demand.iter().enumerate() {
-                    all.extend(plane.at_quantiles(CONFIDENCE).into_iter().map(|at_quantiles| {
-                        at_quantiles.map(|plane| {
-                            let mut planes = demand.clone();
-                            planes[at] = plane;
-                            with(planes, overturning.clone())
-                        })
-                    }));
-                }
-                all
-            }
+            Model::Paper { .. } => self.paper_at_quantiles().len(),
         }
+    }
+
+    /// The paper's fits with each independent error of their parameters at its 2.5 and 97.5 % quantiles.
+    pub(super) fn paper_at_quantiles(&self) -> Vec<[Model; 2]> {
+        let Model::Paper { demand, overturning, limit_state, peaks } = self else { return Vec::new() };
+        let with = |demand, overturning| Model::Paper {
+            demand,
+            overturning,
+            limit_state: *limit_state,
+            peaks: *peaks,
+        };
+        let curves = overturning.at_quantiles(CONFIDENCE).into_iter();
+        let mut all: Vec<[Model; 2]> =
+            curves.map(|at_quantiles| at_quantiles.map(|curve| with(demand.clone(), curve))).collect();
+        for (at, plane) in demand.iter().enumerate() {
+            all.extend(plane.at_quantiles(CONFIDENCE).into_iter().map(|at_quantiles| {
+                at_quantiles.map(|plane| {
+                    let mut planes = demand.clone();
+                    planes[at] = plane;
+                    with(planes, overturning.clone())
+                })
+            }));
+        }
+        all
     }
 
     pub fn kind(&self) -> MotionKind {
@@ -122,10 +110,8 @@ impl Model {
 
     /// `None` on the ground.
     pub fn floor(&self) -> Option<Floor> {
-        match self {
-            Model::Surface { floor, .. } => *floor,
-            Model::Paper { .. } => None,
-        }
+        let Model::Surface { floor, .. } = self else { return None };
+        *floor
     }
 
     pub fn limit_state(&self) -> Option<f64> {
@@ -135,12 +121,10 @@ impl Model {
         }
     }
 
-    /// Responses, or outcomes, that it was fitted to.
     pub fn responses(&self) -> i64 {
-        match self {
-            Model::Surface { overturning, .. } => overturning.n,
-            Model::Paper { overturning, .. } => overturning.n,
-        }
+        let (Model::Surface { overturning: Calibration { n, .. }, .. }
+        | Model::Paper { overturning: CurveFit { n, .. }, .. }) = self;
+        *n
     }
 
     pub fn description(&self) -> String {
@@ -171,18 +155,14 @@ impl Model {
 
     /// The magnitude of a motion, if nobody gives it; none where probabilities do not depend on it.
     pub fn inferred_magnitude(&self, motion: Peaks) -> Option<AssumedMagnitude> {
-        match self {
-            Model::Surface { overturning, .. } => Some(surface::inferred_magnitude(overturning.kind, motion)),
-            Model::Paper { .. } => None,
-        }
+        let Model::Surface { overturning, .. } = self else { return None };
+        Some(surface::inferred_magnitude(overturning.kind, motion))
     }
 
     /// The values of ln(PGV / PGA), s, at which probabilities bend.
     pub(super) fn bends(&self, mw: Option<f64>) -> Vec<f64> {
-        match self {
-            Model::Surface { overturning, .. } => surface::bends(overturning.kind, mw),
-            Model::Paper { .. } => Vec::new(),
-        }
+        let Model::Surface { overturning, .. } = self else { return Vec::new() };
+        surface::bends(overturning.kind, mw)
     }
 
     pub fn peaks(&self) -> JointPeaks {
@@ -216,7 +196,10 @@ impl Model {
                 let mut states = [LimitStates::all(Some(0.0)); 3];
                 let direction = ReadyDirection::new(structure, self, mw);
                 let points = ModelPoint::at_limits(tau);
-                direction.at(pga_m_s2).combine_into(ln_pgv_pga, &mut None, &points, &mut states);
+                let at_pga = direction.at(pga_m_s2).into_iter();
+                at_pga.for_each(|at| {
+                    at.for_each_point(ln_pgv_pga, &mut None, &points, |point, of| states[point] = of);
+                });
                 Probabilities::on_floor(LimitStates::from_points(&states))
             }
             Model::Paper { demand, overturning, limit_state, .. } => {

@@ -13,14 +13,19 @@ pub enum Tau {
     Averaged,
 }
 
-/// The estimate of a probability, one of its 95 % limits, or its value with one of the independent errors of
-/// the model's parameters, by its number, at its 2.5 or 97.5 % quantile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The estimate of a probability, one of its 95 % limits, or its value with one unknown away from its median.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ModelPoint {
     Estimate,
     Low(Tau),
     High(Tau),
-    Error { number: usize, is_high: bool },
+    /// One of the independent errors of the model's parameters at its 2.5 or 97.5 % quantile.
+    Error {
+        number: usize,
+        is_high: bool,
+    },
+    /// Magnitudes higher by this than those inferred: the level c is higher by m times this.
+    Magnitude(f64),
 }
 
 impl ModelPoint {
@@ -29,7 +34,7 @@ impl ModelPoint {
         match self {
             ModelPoint::Low(_) => p.low,
             ModelPoint::High(_) => p.high,
-            ModelPoint::Estimate | ModelPoint::Error { .. } => p.value,
+            _ => p.value,
         }
     }
 
@@ -39,8 +44,7 @@ impl ModelPoint {
 
     /// The estimate, then each error of the models at both quantiles: the same error moves all directions.
     pub fn at_errors(directions: &[RockingDirection]) -> Vec<ModelPoint> {
-        let fewest =
-            directions.iter().map(|direction| direction.model.at_quantiles().len()).min().unwrap_or(0);
+        let fewest = directions.iter().map(|direction| direction.model.errors()).min().unwrap_or(0);
         let errors =
             (0..fewest).flat_map(|number| [false, true].map(|is_high| ModelPoint::Error { number, is_high }));
         [ModelPoint::Estimate].into_iter().chain(errors).collect()

@@ -13,8 +13,7 @@ const OVERTURNING: [f64; 2] = [-1.69, 1.94];
 const EXCEEDING: [f64; 3] = [-0.09, 1.74, -1.22];
 /// Amplification of PGA by the strongest floor, 3 standard deviations above the largest median, and by a
 /// usual resonant floor.
-const MOST_AMPLIFIED: f64 = 7.0;
-const MEDIAN_AMPLIFIED: f64 = 2.5;
+pub(super) const AMPLIFIED: [f64; 2] = [7.0, 2.5];
 /// Seven nodes of the standard normal in a plane with their weights, exact to degree 5: the middle, and six
 /// around it (Stroud 1971).
 const NODES: [[f64; 3]; 7] = [
@@ -35,11 +34,6 @@ pub struct UpliftIntensities {
     pub least: f64,
     /// By a usual floor, with the median PGV / PGA.
     pub usual: f64,
-}
-
-pub(super) fn uplift_m_s2(structure: &Structure) -> UpliftIntensities {
-    let uplift = structure.uplift_acceleration_m_s2();
-    UpliftIntensities { least: uplift / MOST_AMPLIFIED, usual: uplift / MEDIAN_AMPLIFIED }
 }
 
 pub(super) struct OnFloor {

@@ -9,7 +9,7 @@ use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{FitStatus, Interval, held_out_log_score, independent_errors, normal};
+use crate::statistics::{Bounds, FitStatus, Interval, held_out_log_score, independent_errors, normal};
 use crate::statistics::{delta_variance, predict, probit, tested_probit};
 
 /// P_ro at the intensity `im`: Phi((ln IM - mu) / beta) (Eq. 20; Eq. 24 with the hybrid measure).
@@ -123,7 +123,7 @@ pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) 
     predictors.into_par_iter().map(|Predictors { im_x, im_y }| fit_curve(cases, event, im_x, im_y)).collect()
 }
 
-/// A fragility curve: a row of pro.parquet.
+/// A fragility curve: a row of pro.parquet. What a [`DemandFit`](super::DemandFit) has too is as there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CurveFit {
     pub suite: Option<String>,
@@ -136,9 +136,7 @@ pub struct CurveFit {
     pub im_y: Option<Measure>,
     /// b0, b1 and, of a hybrid, b2; empty without a fit.
     pub coefficients: Vec<f64>,
-    /// Covariance of the coefficients, row by row.
     pub covariance: Vec<f64>,
-    /// Whether the covariance allows for dependence within clusters; else there are too few of them.
     pub is_clustered: bool,
     pub n_clusters: i64,
     /// Degrees of freedom of limits, clusters - 1; `None` for normal ones.
@@ -151,14 +149,11 @@ pub struct CurveFit {
     /// Area under the receiver operating characteristic, on the fitted cases like the Brier score.
     pub auc: Option<f64>,
     pub brier: Option<f64>,
-    /// Mean log-likelihood of the cases of a cluster by a fit to the others.
     pub held_out_log_score: Option<f64>,
-    /// Least and largest value of each measure among the cases.
     pub im_x_low: Option<f64>,
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// p-value of the misfit: squares and products of ln IM as further regressors.
     pub misfit_p: Option<f64>,
     pub status: FitStatus,
 }
@@ -203,9 +198,8 @@ impl CurveFit {
             (self.im_y.as_ref(), self.im_y_low, self.im_y_high),
         ];
         ranges.into_iter().all(|(measure, low, high)| {
-            measure.and_then(|measure| measure.value_of(measures)).is_none_or(|value| {
-                low.is_none_or(|low| value >= low) && high.is_none_or(|high| value <= high)
-            })
+            let value = measure.and_then(|measure| measure.value_of(measures));
+            value.is_none_or(|value| Bounds { low, high }.has(value, 1.0))
         })
     }
 

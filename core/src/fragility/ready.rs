@@ -84,58 +84,59 @@ impl<'a> ReadyDirection<'a> {
                     None => ReadyModel::Ground(branches),
                 }
             }
-            Model::Paper { .. } => ReadyModel::Paper(model, model.at_quantiles()),
+            Model::Paper { .. } => ReadyModel::Paper(model, model.paper_at_quantiles()),
         };
         ReadyDirection { structure, uplift_m_s2: structure.uplift_acceleration_m_s2(), by }
     }
 
-    pub fn at(&self, pga_m_s2: f64) -> DirectionAtPga<'_> {
+    /// None where no motion of this PGA uplifts the structure.
+    pub fn at(&self, pga_m_s2: f64) -> Option<DirectionAtPga<'_>> {
         let im4 = pga_m_s2 / self.uplift_m_s2;
         let ln_im4 = im4.ln();
-        match &self.by {
-            ReadyModel::Ground(branches) if im4 >= 1.0 => {
+        Some(match &self.by {
+            ReadyModel::Ground(_) if im4.is_nan() || im4 < 1.0 => return None,
+            ReadyModel::Ground(branches) => {
                 let at = Im4Terms::new(im4, ln_im4);
-                let at_im4 = branches.map(|branch| branch.surface.at(&at));
-                DirectionAtPga::Ground(branches, at_im4)
+                DirectionAtPga::Ground(branches, branches.map(|branch| branch.surface.at(&at)))
             }
-            ReadyModel::Ground(_) => DirectionAtPga::Still,
             ReadyModel::Floor(branches, on_floor) => {
                 DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 }
             }
             ReadyModel::Paper(model, at_quantiles) => {
                 DirectionAtPga::Paper { model, at_quantiles, structure: self.structure, pga_m_s2 }
             }
-        }
+        })
     }
 }
 
 /// Second stage: a direction under motions of one PGA of the ground.
 pub(super) enum DirectionAtPga<'a> {
-    Still,
     Ground(&'a PerBranch<Branch<'a>>, PerBranch<SurfaceAtIm4>),
     Floor { branches: &'a PerBranch<Branch<'a>>, on_floor: &'a OnFloor, im4: f64, ln_im4: f64 },
     Paper { model: &'a Model, at_quantiles: &'a [[Model; 2]], structure: &'a Structure, pga_m_s2: f64 },
 }
 
 impl DirectionAtPga<'_> {
-    /// Third stage: joins the probabilities at each point under motions with this ln(PGV / PGA), s, to those
-    /// of other directions: an object rocks in each independently under one motion. `motions` are those of
-    /// a floor, the same for all directions of an object: the first that needs them computes them.
-    pub fn combine_into(
+    /// Third stage: visits the probabilities at each point, by its number, under motions with this
+    /// ln(PGV / PGA), s. `motions` are those of a floor, the same for all directions of an object: the first
+    /// that needs them computes them.
+    pub fn for_each_point(
         &self,
         ln_pgv_pga: f64,
         motions: &mut Option<(Floor, FloorMotionDistribution)>,
         points: &[ModelPoint],
-        joined: &mut [LimitStates<Option<f64>>],
+        mut visit: impl FnMut(usize, LimitStates<Option<f64>>),
     ) {
+        let points = points.iter().copied().enumerate();
         match self {
-            DirectionAtPga::Still => {}
             DirectionAtPga::Ground(branches, at_im4) => {
                 let terms = branches.zip(at_im4, |branch, at_im4| {
                     let magnitude = branch.surface.magnitude(ln_pgv_pga + at_im4.excess);
                     branch.terms(at_im4, ln_pgv_pga, magnitude)
                 });
-                join(joined, points, |point| branches.limit_states(&terms, point).known(ln_pgv_pga));
+                points.for_each(|(number, point)| {
+                    visit(number, branches.limit_states(&terms, point).known(ln_pgv_pga));
+                });
             }
             DirectionAtPga::Floor { branches, on_floor, im4, ln_im4 } => {
                 let known = motions.filter(|(floor, _)| *floor == on_floor.floor);
@@ -153,33 +154,24 @@ impl DirectionAtPga<'_> {
                 let nodes = motions.nodes.iter().filter(|node| im4 * node.pfa >= 1.0);
                 let nodes: Vec<_> = nodes.map(|node| (node.weight, terms(node))).collect();
                 let rocking = motions.p_rocking(*ln_im4);
-                join(joined, points, |point| branches.mean(&nodes, rocking, point).known(ln_pgv_pga));
+                points.for_each(|(number, point)| {
+                    visit(number, branches.mean(&nodes, rocking, point).known(ln_pgv_pga));
+                });
             }
             DirectionAtPga::Paper { model, at_quantiles, structure, pga_m_s2 } => {
                 let peaks = Peaks { pga_m_s2: *pga_m_s2, pgv_m_s: pga_m_s2 * ln_pgv_pga.exp() };
                 let measures = IntensityMeasures::new(structure, peaks, None, None);
-                join(joined, points, |point| {
+                points.for_each(|(number, point)| {
                     let model = match point {
                         ModelPoint::Error { number, is_high } => &at_quantiles[number][usize::from(is_high)],
                         _ => *model,
                     };
                     let states =
                         model.probabilities(structure, &measures, None, Tau::Averaged).limit_states();
-                    states.map(|p| p.map(|p| point.of(p)))
+                    visit(number, states.map(|p| p.map(|p| point.of(p))));
                 });
             }
         }
-    }
-}
-
-/// Joins the probabilities of a direction at each point to those of other directions.
-fn join(
-    joined: &mut [LimitStates<Option<f64>>],
-    points: &[ModelPoint],
-    states: impl Fn(ModelPoint) -> LimitStates<Option<f64>>,
-) {
-    for (joined, point) in joined.iter_mut().zip(points) {
-        *joined = joined.or(states(*point));
     }
 }
 
@@ -199,7 +191,9 @@ impl<'a> ReadyObject<'a> {
     }
 
     pub fn at(&self, pga_m_s2: f64) -> ObjectAtPga<'_> {
-        ObjectAtPga(self.directions.iter().map(|(one, count)| (one.at(pga_m_s2), *count)).collect())
+        ObjectAtPga(
+            self.directions.iter().filter_map(|(one, count)| Some((one.at(pga_m_s2)?, *count))).collect(),
+        )
     }
 
     pub fn limit_states(&self, peaks: Peaks, points: &[ModelPoint]) -> Vec<LimitStates<Option<f64>>> {
@@ -217,7 +211,8 @@ impl<'a> ReadyObject<'a> {
 pub(crate) struct ObjectAtPga<'a>(Vec<(DirectionAtPga<'a>, Option<f64>)>);
 
 impl ObjectAtPga<'_> {
-    /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none.
+    /// The limit states at this ln(PGV / PGA), s, and each point; none where a model has none. An object
+    /// rocks in each direction independently under one motion; how many of a list rock too far is not asked.
     pub fn limit_states(
         &self,
         ln_pgv_pga: f64,
@@ -228,13 +223,13 @@ impl ObjectAtPga<'_> {
         states.fill(LimitStates::all(Some(0.0)));
         let mut none_of = vec![LimitStates::all(Some(NoneOf::EMPTY)); points.len()];
         for (direction, count) in &self.0 {
-            direction.combine_into(ln_pgv_pga, &mut motions, points, states);
-            if let Some(count) = count {
-                for (none, of) in none_of.iter_mut().zip(&mut *states) {
-                    let one = std::mem::replace(of, LimitStates::all(Some(0.0)));
-                    *none = none.zip(one, |none, p| Some(none?.and(p?, *count)));
+            direction.for_each_point(ln_pgv_pga, &mut motions, points, |point, one| match count {
+                None => states[point] = states[point].or(one),
+                Some(count) => {
+                    let one = LimitStates { failure: None, ..one };
+                    none_of[point] = none_of[point].zip(one, |none, p| Some(none?.and(p?, *count)));
                 }
-            }
+            });
         }
         if self.0.iter().any(|(_, count)| count.is_some()) {
             states.iter_mut().zip(none_of).for_each(|(of, none)| *of = none.map(|none| Some(none?.p_any())));

@@ -59,12 +59,7 @@ pub(super) struct StructureSurface {
     ln_p: f64,
     ln_p_held: f64,
     uplift_term: UpliftTerm,
-    /// M = intercept + slope ln(PGV / PGA), within the magnitudes of the data.
-    intercept: f64,
-    slope: f64,
-    magnitudes: Range,
-    /// Standard deviation of M where it is not known, else 0.
-    pub magnitude_sd: f64,
+    pub magnitude: ExpectedMagnitude,
 }
 
 impl StructureSurface {
@@ -91,29 +86,26 @@ impl StructureSurface {
             coefficients[0][0][0] += a + b * rebound * rebound + d * fixed[1];
             coefficients[1][0][0] += c;
         }
-        let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
-        let (intercept, slope) = mw.map_or((intercept, slope), |mw| (mw, 0.0));
+        let expected = SURFACE.kinds[kind as usize].magnitude;
+        let given = |mw| ExpectedMagnitude { intercept: mw, slope: 0.0, sd: 0.0, ..expected };
         StructureSurface {
             coefficients,
             w_shift: 0.4 * limit,
             ln_p: structure.p_rad_s.ln(),
             ln_p_held: p.ln(),
             uplift_term: branch.uplift_term,
-            intercept,
-            slope,
-            magnitudes: range,
-            magnitude_sd: if mw.is_some() { 0.0 } else { sd },
+            magnitude: mw.map_or(expected, given),
         }
     }
 
     /// M - 6.9 of motions with this ln(PGV / PGA), s.
     pub fn magnitude(&self, ln_pgv_pga: f64) -> f64 {
-        self.magnitudes.clamp(self.intercept + self.slope * ln_pgv_pga) - REFERENCE_MAGNITUDE
+        self.magnitude.mean(ln_pgv_pga) - REFERENCE_MAGNITUDE
     }
 
     /// M - 6.9 in the middle of the magnitudes of the data.
     pub fn middle_magnitude(&self) -> f64 {
-        0.5 * (self.magnitudes.low + self.magnitudes.high) - REFERENCE_MAGNITUDE
+        0.5 * (self.magnitude.range.low + self.magnitude.range.high) - REFERENCE_MAGNITUDE
     }
 
     /// L at an IM4, a cubic in r = ln IM3, by Horner's rule in w = ln IM4 - r - 0.4 limit.
@@ -189,9 +181,9 @@ impl SurfaceAtIm4 {
 }
 
 pub(super) fn inferred_magnitude(kind: MotionKind, motion: Peaks) -> AssumedMagnitude {
-    let ExpectedMagnitude { intercept, slope, sd, range } = SURFACE.kinds[kind as usize].magnitude;
-    let mw = range.clamp(intercept + slope * (motion.pgv_m_s / motion.pga_m_s2).ln());
-    AssumedMagnitude { mw, sd, source: MagnitudeSource::Inferred }
+    let expected = SURFACE.kinds[kind as usize].magnitude;
+    let mw = expected.mean((motion.pgv_m_s / motion.pga_m_s2).ln());
+    AssumedMagnitude { mw, sd: expected.sd, source: MagnitudeSource::Inferred }
 }
 
 /// The PGA (m/s2) at which IM4 is held, the end of its domain.
@@ -301,12 +293,18 @@ struct BranchSurface {
 }
 
 /// A row `magnitude`: M is normal about intercept + slope ln(PGV / PGA), s, within the range of the data.
-#[derive(Clone, Copy)]
-struct ExpectedMagnitude {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ExpectedMagnitude {
     intercept: f64,
     slope: f64,
-    sd: f64,
+    pub sd: f64,
     range: Range,
+}
+
+impl ExpectedMagnitude {
+    fn mean(&self, ln_pgv_pga: f64) -> f64 {
+        self.range.clamp(self.intercept + self.slope * ln_pgv_pga)
+    }
 }
 
 /// The parameters of g = -(d / ((IM4 - 1) IM5^k))^n: a row `uplift`.

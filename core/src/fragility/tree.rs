@@ -10,7 +10,6 @@ use crate::statistics::Interval;
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[strum(parse_err_ty = String, parse_err_fn = unknown_word::<LimitState>)]
 pub enum LimitState {
-    /// LS1: rocking.
     #[serde(rename = "LS1")]
     #[strum(serialize = "LS1")]
     Rocking,
@@ -18,7 +17,6 @@ pub enum LimitState {
     #[serde(rename = "LS2")]
     #[strum(serialize = "LS2")]
     Failure,
-    /// LS3: overturning.
     #[serde(rename = "LS3")]
     #[strum(serialize = "LS3")]
     Overturning,
@@ -40,14 +38,6 @@ pub fn p_failure(p_nr: f64, given_rocking: f64) -> f64 {
 }
 
 /// What there is of each limit state: a probability, a rate, an estimate of either.
-///
-/// ```
-/// use rockfrag_core::fragility::LimitStates;
-///
-/// let rates = LimitStates { rocking: 4e-3, failure: 9e-4, overturning: 4e-4 };
-/// let return_periods = rates.map(f64::recip);
-/// assert_eq!(return_periods.rocking, 250.0);
-/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LimitStates<T> {
     pub rocking: T,
@@ -120,7 +110,10 @@ impl NoneOf {
     pub fn and(self, p: f64, count: f64) -> NoneOf {
         let moved = [1.0 / E, E].map(|odds| p * odds / (1.0 - p + p * odds));
         let to_mean = p / (0.5 * (moved[0] + moved[1])).max(f64::MIN_POSITIVE);
-        NoneOf([0, 1].map(|half| self.0[half] * (1.0 - moved[half] * to_mean).max(0.0).powf(count)))
+        let none = moved.map(|moved| (1.0 - moved * to_mean).max(0.0));
+        // Most objects are there once, and a power takes longer than all else here.
+        let none = if count == 1.0 { none } else { none.map(|none| none.powf(count)) };
+        NoneOf([0, 1].map(|half| self.0[half] * none[half]))
     }
 
     pub fn p_any(self) -> f64 {

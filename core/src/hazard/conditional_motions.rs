@@ -5,11 +5,10 @@ use std::ops::RangeInclusive;
 use super::fragility_curve::GenericSites;
 use super::pgv_pga::{PgvPgaRatio, VelocitySource};
 use crate::fragility::{
-    AssumedMagnitude, GivenPeak, MagnitudeSource, Model, Peak, RockingDirection, at_higher_magnitude,
+    AssumedMagnitude, GivenPeak, MagnitudeSource, Model, ModelPoint, Peak, RockingDirection,
 };
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
-use crate::statistics::normal::Z_95;
 use crate::warning::Warning;
 
 /// The mean magnitude by which PGV / PGA of generic sites is that of the motions that overturn, and its
@@ -105,21 +104,23 @@ impl ConditionalMotions {
     pub fn at_quantiles<T>(
         &self,
         object: &RockingObject,
-        result: impl Fn(&GivenPeak) -> T,
+        result: impl Fn(&GivenPeak, ModelPoint) -> T,
     ) -> Vec<LowHigh<T>> {
         let directions = &object.directions[..];
         let mut at_quantiles = Vec::new();
         let AssumedMagnitude { mw, sd, .. } = self.mean;
-        if sd > 0.0 && matches!(directions[0].model, Model::Surface { .. }) {
+        if sd > 0.0 && matches!(*directions[0].model, Model::Surface { .. }) {
             // What PGV / PGA leaves open moves the part of PGV / PGA that depends on the magnitude, too.
             let share = if self.above.is_none() { SD_OF_INFERRED / sd } else { 0.0 };
-            at_quantiles.push(at_magnitudes(directions, sd, share, |directions, off| {
-                result(&self.with_mean(directions, mw + off, 0.0))
+            at_quantiles.push(LowHigh::normal(UncertaintySource::Magnitude, sd).map(|off| {
+                result(&self.with_mean(directions, mw + off, 0.0), ModelPoint::Magnitude(share * off))
             }));
         }
-        at_quantiles
-            .push(self.pgv_pga.at_quantiles().map(|ln_factor| result(&self.given(directions, *ln_factor))));
-        at_quantiles.extend(object.at_quantiles(|directions| result(&self.given(directions, 0.0))));
+        let estimate = |directions: &[RockingDirection], ln_factor| {
+            result(&self.given(directions, ln_factor), ModelPoint::Estimate)
+        };
+        at_quantiles.push(self.pgv_pga.at_quantiles().map(|ln_factor| estimate(directions, *ln_factor)));
+        at_quantiles.extend(object.at_quantiles(|directions| estimate(directions, 0.0)));
         at_quantiles
     }
 }
@@ -129,15 +130,4 @@ pub fn unusual_motions(mw: Option<f64>, vs30_m_s: Option<f64>) -> impl Iterator<
     let magnitude = mw.is_some_and(|mw| mw > LARGEST_FITTED).then_some(Warning::UnusualMagnitude);
     let is_unusual = vs30_m_s.is_some_and(|vs30| !USUAL_VS30_M_S.contains(&vs30));
     magnitude.into_iter().chain(is_unusual.then_some(Warning::UnusualGround))
-}
-
-/// Results with the magnitude off to its quantiles; where it is inferred, this share of that moves c.
-pub(super) fn at_magnitudes<T>(
-    directions: &[RockingDirection],
-    sd: f64,
-    share: f64,
-    result: impl Fn(&[RockingDirection], f64) -> T,
-) -> LowHigh<T> {
-    let off = LowHigh { source: UncertaintySource::Magnitude, low: -Z_95 * sd, high: Z_95 * sd };
-    off.map(|off| result(&at_higher_magnitude(directions, share * off), *off))
 }

@@ -8,7 +8,6 @@ const FREQUENT: f64 = 0.02;
 /// Annual rates of exceedance of an intensity; between points ln rate is linear in ln IM.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HazardCurve {
-    /// Intensity and annual rate of exceedance.
     points: Vec<(f64, f64)>,
 }
 
@@ -110,21 +109,10 @@ impl HazardCurve {
         rate * ((rate_at_high / rate).ln() * (im / low).ln() / (high / low).ln()).exp()
     }
 
-    /// Mean annual rates of events with these probabilities at an intensity: the integral of P(im) |dH(im)|.
+    /// Mean annual rate of an event with a probability p at an intensity: the integral of p(im) |dH(im)|.
     /// Motions above the last intensity count with the probability at it, those below the first do not count.
-    pub fn mean_annual_rates<const N: usize>(
-        &self,
-        breaks: &[f64],
-        widest: f64,
-        probabilities: impl Fn(f64) -> [f64; N],
-    ) -> [f64; N] {
-        let mut rates = [0.0; N];
-        for node in self.nodes(breaks, widest) {
-            for (sum, p) in rates.iter_mut().zip(probabilities(node.intensity)) {
-                *sum += p * node.annual_rate;
-            }
-        }
-        rates
+    pub fn mean_annual_rate(&self, breaks: &[f64], widest: f64, p: impl Fn(f64) -> f64) -> f64 {
+        self.nodes(breaks, widest).iter().map(|node| p(node.intensity) * node.annual_rate).sum()
     }
 
     /// Nodes of the quadrature, rising; the last stands for all motions beyond the curve. A probability is

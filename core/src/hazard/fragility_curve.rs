@@ -134,9 +134,8 @@ impl Fragility {
         let intensities: Vec<f64> = equal_ratios(start, end, STEPS).collect();
         let model_points = ModelPoint::at_errors(&object.directions);
         let by_point = probabilities(&middle, &intensities, &model_points);
-        let mut at_quantiles = motions.at_quantiles(object, |given| {
-            probabilities(given, &intensities, &[ModelPoint::Estimate]).remove(0)
-        });
+        let mut at_quantiles = motions
+            .at_quantiles(object, |given, point| probabilities(given, &intensities, &[point]).remove(0));
         at_quantiles.extend(LowHigh::from_fit_errors(&by_point));
         let values = &by_point[0];
         let budget = |k: usize, state: LimitState| {

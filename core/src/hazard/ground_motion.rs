@@ -1,11 +1,10 @@
 //! Probabilities of the limit states under one motion, of which both peaks or one are known.
 
 use super::budget::Budget;
-use super::conditional_motions::{ConditionalMotions, at_magnitudes};
+use super::conditional_motions::ConditionalMotions;
 use super::fragility_curve::GenericSites;
 use crate::fragility::{
-    AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject,
-    RockingDirection, Tau,
+    AssumedMagnitude, LimitState, LimitStates, MagnitudeSource, Model, ModelPoint, Peak, ReadyObject, Tau,
 };
 use crate::motion::Peaks;
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
@@ -51,10 +50,10 @@ impl GroundMotion {
     /// A peak that is not known is the median.
     pub fn peaks(&self, model: &Model) -> Peaks {
         match self.given_peak(model) {
-            Some((motions, intensity)) if !self.is_still() => motions.given(&[], 0.0).peaks(intensity, 0.0),
-            _ => {
-                let known = [self.pga_m_s2, self.pgv_m_s].map(|peak| peak.filter(|_| !self.is_still()));
-                let [pga_m_s2, pgv_m_s] = known.map(Option::unwrap_or_default);
+            _ if self.is_still() => Peaks::default(),
+            Some((motions, intensity)) => motions.given(&[], 0.0).peaks(intensity, 0.0),
+            None => {
+                let [pga_m_s2, pgv_m_s] = [self.pga_m_s2, self.pgv_m_s].map(Option::unwrap_or_default);
                 Peaks { pga_m_s2, pgv_m_s }
             }
         }
@@ -78,21 +77,22 @@ impl GroundMotion {
         let (at_quantiles, [averaged, included], magnitude) = match self.given_peak(model) {
             None => {
                 let ready = ReadyObject::new(directions, self.mw);
-                let limit_states = |directions: &[RockingDirection]| {
+                let mut at_quantiles = object.at_quantiles(|directions| {
                     ReadyObject::new(directions, self.mw).limit_states(peaks, &[ModelPoint::Estimate])[0]
-                };
-                let mut at_quantiles = object.at_quantiles(limit_states);
+                });
                 let inferred = model.inferred_magnitude(peaks);
                 let magnitude = inferred.map(|inferred| self.mw.map_or(inferred, AssumedMagnitude::given));
                 let unknown = magnitude.filter(|magnitude| magnitude.sd > 0.0);
                 at_quantiles.extend(unknown.map(|AssumedMagnitude { sd, .. }| {
-                    at_magnitudes(directions, sd, 1.0, |moved, _| limit_states(moved))
+                    LowHigh::normal(UncertaintySource::Magnitude, sd)
+                        .map(|off| ready.limit_states(peaks, &[ModelPoint::Magnitude(*off)])[0])
                 }));
                 (at_quantiles, taus.map(|tau| ready.estimates(peaks, tau)), magnitude)
             }
             Some((motions, intensity)) => {
                 let given = motions.given(directions, 0.0);
-                let at_quantiles = motions.at_quantiles(object, |given| given.limit_states(intensity));
+                let at_quantiles =
+                    motions.at_quantiles(object, |given, point| given.at_points(intensity, &[point])[0]);
                 let magnitude = motions.magnitude(model, peaks);
                 (at_quantiles, taus.map(|tau| given.estimates(intensity, tau)), magnitude)
             }
@@ -158,7 +158,6 @@ pub(super) fn logit(p: f64) -> f64 {
     (p / (1.0 - p)).ln()
 }
 
-/// The standard deviation of a logit from its 95 % limits.
 fn sd_of_limits(p: Interval) -> f64 {
     let sd = (logit(p.high) - logit(p.low)) / (2.0 * Z_95);
     if sd.is_finite() { sd } else { 0.0 }

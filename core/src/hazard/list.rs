@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use super::budget::Budget;
 use super::ground_motion::GroundMotion;
 use super::probability_in_years;
@@ -20,9 +22,7 @@ pub struct ListedObject<'a> {
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ListProbabilities {
-    /// The probability that one or more overturn.
     pub at_least_one: Interval<Option<f64>>,
-    /// The expected number of those that overturn.
     pub expected_number: Interval<Option<f64>>,
 }
 
@@ -36,26 +36,22 @@ impl Site {
             listed.count * probability_in_years(rate, years)
         };
         let sum: f64 = list.iter().map(|listed| number(listed, 0.0)).sum();
-        let mut budget = Budget::default();
-        for &source in UncertaintySource::VARIANTS {
-            // How far each unknown of each object moves the number.
-            let moves = list.iter().map(|listed| {
-                let at = |change: &f64| number(listed, *change) - number(listed, 0.0);
-                listed.budget.of(source).map(|of| of.map(at)).collect()
-            });
-            let mut moves: Vec<Vec<LowHigh<f64>>> = moves.collect();
-            if source.is_of_site() {
-                let unknowns = 0..moves.iter().map(Vec::len).max().unwrap_or(0);
-                let joined = unknowns.map(|unknown| {
-                    let of_all = || moves.iter().filter_map(|of| of.get(unknown));
-                    let [low, high] = [of_all().map(|of| of.low).sum(), of_all().map(|of| of.high).sum()];
-                    LowHigh { source, low, high }
-                });
-                moves = vec![joined.collect()];
+        // How far each unknown moves the number: one of the site is the same for all objects.
+        let mut moves: BTreeMap<_, LowHigh<f64>> = BTreeMap::new();
+        for (place, listed) in list.iter().enumerate() {
+            let now = number(listed, 0.0);
+            for &source in UncertaintySource::VARIANTS {
+                let of = if source.is_of_site() { 0 } else { place };
+                for (unknown, change) in listed.budget.of(source).enumerate() {
+                    let none = LowHigh { source, low: 0.0, high: 0.0 };
+                    let sum = moves.entry((source, of, unknown)).or_insert(none);
+                    sum.low += number(listed, change.low) - now;
+                    sum.high += number(listed, change.high) - now;
+                }
             }
-            let moves = moves.into_iter().flatten();
-            budget.changes.extend(moves.map(|of| of.map(|moved| (moved / sum).ln_1p() / Z_95)));
         }
+        let changes = moves.into_values().map(|of| of.map(|moved| (moved / sum).ln_1p() / Z_95));
+        let budget = Budget { changes: changes.collect() };
         if list.is_empty() {
             return ListProbabilities::default();
         }

@@ -8,7 +8,7 @@ use crate::fragility::{Model, MotionKind, Peak, RatioGiven};
 use crate::object::{LowHigh, UncertaintySource};
 use crate::plausibility::PGV_PGA_OF_SITE_S;
 use crate::spelling::unknown_word;
-use crate::statistics::normal::{self, Z_95};
+use crate::statistics::normal;
 use crate::statistics::numerics::equal_ratios;
 use crate::units::G_M_S2;
 
@@ -203,7 +203,7 @@ impl PgvPgaRatio {
 
     /// The uncertainty of the level, as ln of a factor.
     pub fn at_quantiles(&self) -> LowHigh<f64> {
-        LowHigh { source: UncertaintySource::Velocity, low: -Z_95 * self.sd, high: Z_95 * self.sd }
+        LowHigh::normal(UncertaintySource::Velocity, self.sd)
     }
 
     /// PGV / PGA in earthquakes of a magnitude, times exp(`ln_factor`).
@@ -220,10 +220,7 @@ fn line_at_pga(level: f64, slope: f64) -> RatioGiven {
 
 /// The annual rate of exceedance of a PGV (m/s), by a curve of PGA and PGV / PGA given PGA.
 fn exceedance_of_velocity(pga: &HazardCurve, line: &RatioGiven, pgv_m_s: f64) -> f64 {
-    let [rate] = pga.mean_annual_rates(&[], PANEL, |a| {
-        [normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above)]
-    });
-    rate
+    pga.mean_annual_rate(&[], PANEL, |a| normal::cdf((a * line.ratio(a, 0.0) / pgv_m_s).ln() / line.sd_above))
 }
 
 /// Minimises by Gauss-Newton steps; with the root mean square of `off` at the minimum.

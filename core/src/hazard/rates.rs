@@ -1,5 +1,7 @@
 //! Rates of limit states: the hazard, of one peak or pairs of peaks, times the probabilities by a model.
 
+use rayon::prelude::*;
+
 use super::curve::{HazardCurve, Node};
 use super::site::strongest;
 use crate::fragility::{GivenPeak, LimitStates, ModelPoint, ReadyObject, RockingDirection};
@@ -50,7 +52,7 @@ impl OverCurve {
         let nodes = curve.continued(end).nodes(&breaks, given_peak.widest_panel());
         let given = nodes.partition_point(|node| node.intensity < last || last >= end);
         let at = |node: Node| (node, given_peak.at_points(node.intensity, points));
-        OverCurve { nodes: nodes.into_iter().map(at).collect(), given }
+        OverCurve { nodes: nodes.into_par_iter().map(at).collect(), given }
     }
 
     pub fn rates(&self, point: usize) -> LimitStates<Option<Interval>> {

@@ -10,7 +10,6 @@ const PANEL: f64 = 0.1;
 pub struct RateByIntensity {
     /// Edges of the bins, m/s2 or m/s.
     pub edges: Vec<f64>,
-    /// Annual rate of overturning within each bin.
     pub rates: Vec<f64>,
     /// Annual rate of overturning by motions beyond the curve, which is continued.
     pub beyond: f64,

@@ -1,7 +1,7 @@
 //! Annual rates of an object at a site, with the uncertainty of the hazard and of the rate beyond its curve.
 
 use super::budget::Budget;
-use super::conditional_motions::{ConditionalMotions, SD_OF_INFERRED, at_magnitudes, unusual_motions};
+use super::conditional_motions::{ConditionalMotions, SD_OF_INFERRED, unusual_motions};
 use super::curve::HazardCurve;
 use super::ground::unusual_ground;
 use super::pgv_pga::{MatchError, PgvPgaRatio, VelocitySource, velocity_of_spectrum};
@@ -71,7 +71,6 @@ pub fn strongest(peak: Peak) -> f64 {
     }
 }
 
-/// The hazard of a site, and what else is known of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Site {
     pub hazard: Hazard,
@@ -118,17 +117,19 @@ impl Site {
             Hazard::Joint(bins) => {
                 let points = ModelPoint::at_errors(&object.directions);
                 let all = rates_over_pairs(&object.directions, self.mw, bins, &points);
-                let rates = |directions: &[RockingDirection]| {
-                    rates_over_pairs(directions, self.mw, bins, &[ModelPoint::Estimate])[0]
+                let rates = |directions: &[RockingDirection], point| {
+                    rates_over_pairs(directions, self.mw, bins, &[point])[0]
                 };
-                let mut at_quantiles = object.at_quantiles(rates);
+                let mut at_quantiles =
+                    object.at_quantiles(|directions| rates(directions, ModelPoint::Estimate));
                 let strongest = bins.iter().max_by(|a, b| a.peaks.pga_m_s2.total_cmp(&b.peaks.pga_m_s2));
                 let motion = strongest.map_or(Peaks::default(), |bin| bin.peaks);
                 let mut magnitude = self.mw.map(AssumedMagnitude::given);
                 if bins.iter().any(|bin| bin.mw.or(self.mw).is_none()) {
-                    at_quantiles.push(at_magnitudes(&object.directions, SD_OF_INFERRED, 1.0, |moved, _| {
-                        rates(moved)
-                    }));
+                    at_quantiles.push(
+                        LowHigh::normal(UncertaintySource::Magnitude, SD_OF_INFERRED)
+                            .map(|off| rates(&object.directions, ModelPoint::Magnitude(*off))),
+                    );
                     magnitude = object.directions[0].model.inferred_magnitude(motion);
                 }
                 let warnings = unusual_motions(self.mw, None).collect();
@@ -164,7 +165,8 @@ impl Site {
         let middle = motions.given(&object.directions, 0.0);
         let points = ModelPoint::at_errors(&object.directions);
         let over = OverCurve::new(&middle, &hazard.curve, &points);
-        let mut at_quantiles = motions.at_quantiles(object, |given| rates_over_curve(given, &hazard.curve));
+        let mut at_quantiles = motions
+            .at_quantiles(object, |given, point| OverCurve::new(given, &hazard.curve, &[point]).rates(0));
         if let Some([low, high]) = &hazard.fractiles {
             let fractiles = LowHigh { source: UncertaintySource::Hazard, low, high };
             at_quantiles.push(fractiles.map(|curve| rates_over_curve(&middle, curve)));

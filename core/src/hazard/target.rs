@@ -9,29 +9,12 @@ use crate::statistics::Interval;
 /// Bases that meet a target, m, by the rate and by its upper limit: the width beside the depth that the
 /// object has or, where that depth is what is too small, the least of both sides; none of an object without
 /// width and height.
-///
-/// ```
-/// use rockfrag_core::fragility::{MotionKind, Peak};
-/// use rockfrag_core::hazard::{Hazard, HazardCurve, Site};
-/// use rockfrag_core::object::{Object, RockingObject};
-///
-/// let curve = HazardCurve::new(vec![(0.5, 2e-2), (5.0, 5e-4), (20.0, 8e-6), (45.0, 4e-7)])?;
-/// let site = Site::new(Hazard::over(Peak::Pga, curve));
-/// let with_models = |object: &Object| RockingObject::uncalibrated(object, MotionKind::Recorded, 0.10).ok();
-/// let cabinet = Object::block("cabinet", 0.5, 1.9);
-/// let rate = site.rates(&with_models(&cabinet).expect("it rocks")).states.overturning;
-/// // Once in 10,000 years.
-/// let bases = site.bases(&cabinet, &with_models, rate, 1e-4);
-/// let width = bases.target_width_m;
-/// assert!(0.5 < width.value.unwrap() && width.value < width.high);
-/// # Ok::<(), rockfrag_core::hazard::HazardError>(())
-/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Bases {
     pub target_width_m: Side,
     pub target_sides_m: Side,
-    /// What ended the search where it found no base.
+    /// Why there is no base that meets it, or none by the upper limit.
     pub target_end: Option<SearchEnd>,
 }
 
@@ -82,13 +65,14 @@ impl Site {
             {
                 let search = Search { site: self, object, with_models, base, target, least, most };
                 let estimate = search.ln_side(start, Site::overturning);
-                let limit = estimate.and_then(|ln_side| match self.rate_beyond() < target {
+                let by_hazard = estimate.is_some() && self.rate_beyond() >= target;
+                let limit = estimate.filter(|_| !by_hazard).and_then(|ln_side| {
                     // The limit is about as far above the rate as for the present object.
-                    true => search.ln_side((ln_side + ln_margin / FALL).clamp(least, most), upper_limit),
-                    false => Err(SearchEnd::Hazard),
+                    search.ln_side((ln_side + ln_margin / FALL).clamp(least, most), upper_limit)
                 });
-                let [value, high] = [estimate, limit].map(|side| side.ok().map(f64::exp));
-                bases.target_end = limit.err();
+                let [value, high] = [estimate, limit].map(|side| side.map(f64::exp));
+                let end = if by_hazard { SearchEnd::Hazard } else { SearchEnd::Model };
+                bases.target_end = limit.is_none().then_some(end);
                 match base {
                     Base::Width => bases.target_width_m = Side { value, high },
                     Base::Sides => {
@@ -113,7 +97,6 @@ impl Site {
     }
 }
 
-/// What of a base is changed.
 #[derive(Clone, Copy)]
 enum Base {
     /// The width, beside the depth as it is.
@@ -169,48 +152,41 @@ fn upper_limit(site: &Site, object: &RockingObject) -> Option<f64> {
 
 impl Search<'_> {
     /// ln of a rate over the target.
-    fn excess(&self, ln_side: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
+    fn excess(&self, ln_side: f64, rate: RateFunction) -> Option<f64> {
         let resized = self.base.resize(self.object, ln_side.exp());
-        let rate = (self.with_models)(&resized).and_then(|object| rate(self.site, &object));
-        Ok((rate.ok_or(SearchEnd::Model)?.max(LEAST) / self.target).ln())
+        let rate = rate(self.site, &(self.with_models)(&resized)?)?;
+        Some((rate.max(LEAST) / self.target).ln())
     }
 
     /// ln of the first side, outwards from `start`, at which the rate is the target: by steps, and between
     /// the last two by Brent's method. The least side if the rate is below the target even there.
-    fn ln_side(&self, start: f64, rate: RateFunction) -> Result<f64, SearchEnd> {
+    fn ln_side(&self, start: f64, rate: RateFunction) -> Option<f64> {
         let (mut side, mut off) = (start, self.excess(start, rate)?);
         let edge = if off > 0.0 { self.most } else { self.least };
         let mut step = off / FALL;
         while off.abs() > RATE_ACCURACY {
             let next = if step.abs() < (edge - side).abs() { side + step } else { edge };
             if next == side {
-                return if off > 0.0 { Err(SearchEnd::Model) } else { Ok(side) };
+                return (off <= 0.0).then_some(side);
             }
             let there = self.excess(next, rate)?;
             if (there > 0.0) != (off > 0.0) {
+                let solver = BrentRoot::new(side, next, ACCURACY);
                 let bracket = Bracket { search: self, rate, ends: [(side, off), (next, there)] };
-                return bracket.root().ok_or(SearchEnd::Model);
+                let root = Executor::new(bracket, solver).timer(false);
+                let root = root.configure(|state| state.target_cost(RATE_ACCURACY));
+                return root.run().ok()?.state.take_best_param();
             }
             (side, off, step) = (next, there, 2.0 * step);
         }
-        Ok(side)
+        Some(side)
     }
 }
 
-/// Two sides with excesses of different signs.
 struct Bracket<'a> {
     search: &'a Search<'a>,
     rate: RateFunction,
     ends: [(f64, f64); 2],
-}
-
-impl Bracket<'_> {
-    fn root(self) -> Option<f64> {
-        let solver = BrentRoot::new(self.ends[0].0, self.ends[1].0, ACCURACY);
-        let search =
-            Executor::new(self, solver).timer(false).configure(|state| state.target_cost(RATE_ACCURACY));
-        search.run().ok()?.state.take_best_param()
-    }
 }
 
 impl CostFunction for Bracket<'_> {
@@ -219,7 +195,7 @@ impl CostFunction for Bracket<'_> {
 
     fn cost(&self, ln_side: &f64) -> Result<f64, Error> {
         let known = self.ends.iter().find(|(end, _)| end == ln_side);
-        let excess = known.map_or_else(|| self.search.excess(*ln_side, self.rate), |(_, off)| Ok(*off));
-        excess.map_err(|end| Error::msg(end.to_string()))
+        let excess = known.map(|(_, off)| *off).or_else(|| self.search.excess(*ln_side, self.rate));
+        excess.ok_or_else(|| Error::msg("no rate"))
     }
 }

@@ -12,7 +12,6 @@ pub struct Changed {
 
 /// How much a base is widened on each side, of its width.
 const WIDER: [f64; 2] = [0.1, 0.25];
-/// How much lower a centre of mass is, of its height.
 const LOWER: f64 = 0.25;
 /// The third of five storeys, with a tenth of a second for each.
 const EXAMPLE_UPPER_FLOOR: Floor = Floor { period_s: 0.5, level: 0.6 };

@@ -64,10 +64,9 @@ impl FromStr for Wall {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Wall, String> {
-        if matches!(text, "yes" | "true") {
-            Ok(Wall::Yes)
-        } else {
-            Field::Wall.parse_value(text).map(Wall::Rebound)
+        match text {
+            "yes" | "true" => Ok(Wall::Yes),
+            _ => Field::Wall.parse_value(text).map(Wall::Rebound),
         }
     }
 }

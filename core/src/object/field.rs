@@ -9,39 +9,27 @@ use crate::plausibility::GIVEN_FREQUENCIES_RAD_S;
 use crate::spelling::unknown_word;
 use crate::units::{Quantity, Unit};
 
-/// A number that may be known of an object. Lengths are in m.
+/// What may be known of an object: [`Field::entry`] says of each what it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case", parse_err_ty = String, parse_err_fn = unknown_word::<Field>)]
 pub enum Field {
-    /// Width of the base of a block, body or column.
     Width,
     Depth,
     Height,
-    /// Height of the centre of mass above the base.
     CentreHeight,
-    /// Distance of the centre of mass from the middle of the width.
     CentreOffset,
-    /// Moment of inertia about the centre of mass, per unit mass, m2.
     Inertia,
-    /// Mass of the beam of a frame over that of all columns.
     BeamMassRatio,
-    /// Frequency parameter, rad/s.
     P,
-    /// Slenderness, rad.
     Alpha,
     Eta,
-    /// First period of the building, s.
     Period,
-    /// Height of the floor over that of the roof.
     Level,
-    /// Standard deviation of ln(period).
     PeriodSd,
     Friction,
-    /// A word: what it stands on.
     Base,
-    /// Rebound from a wall behind it.
     Wall,
     EtaSd,
     CentreHeightSd,
@@ -66,7 +54,7 @@ pub struct Entry {
 }
 
 impl Field {
-    /// The words of the fields of [`Shape`](super::Shape).
+    /// The words of the fields of [`Shape`](super::Shape); the others are of [`Place`](super::Place).
     pub const OF_SHAPE: [&str; 10] = [
         "width",
         "height",
@@ -78,18 +66,6 @@ impl Field {
         "p",
         "alpha",
         "eta",
-    ];
-    /// The words of the fields of [`Place`](super::Place).
-    pub const OF_PLACE: [&str; 9] = [
-        "period",
-        "level",
-        "period-sd",
-        "friction",
-        "base",
-        "wall",
-        "eta-sd",
-        "centre-height-sd",
-        "centre-offset-sd",
     ];
 
     /// No rocking structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a

@@ -72,10 +72,9 @@ impl FromStr for Restitution {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Restitution, String> {
-        if text == "housner" {
-            Ok(Restitution::Housner)
-        } else {
-            Field::Eta.parse_value(text).map(Restitution::Number)
+        match text {
+            "housner" => Ok(Restitution::Housner),
+            _ => Field::Eta.parse_value(text).map(Restitution::Number),
         }
     }
 }

@@ -21,7 +21,5 @@ pub use changes::Changed;
 pub use contacts::{Base, Wall};
 pub use field::{Entry, Field};
 pub use given::{Object, ObjectError, Place, Restitution, Shape};
-pub use rocking::{
-    LowHigh, Perturbation, RockingObject, SD_OF_PERIOD, UncertaintySource, structure_warnings,
-};
+pub use rocking::{LowHigh, RockingObject, SD_OF_PERIOD, UncertaintySource, structure_warnings};
 pub use sides::Side;

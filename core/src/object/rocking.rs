@@ -1,5 +1,7 @@
 //! An object with its models and its uncertainty, as changes that are applied on demand.
 
+use std::sync::Arc;
+
 use super::given::{Object, ObjectError};
 use super::sides::Side;
 use crate::fragility::{Model, MotionKind, RockingDirection};
@@ -42,31 +44,17 @@ impl UncertaintySource {
 }
 
 /// An object in its directions, and its uncertainties.
-///
-/// ```
-/// use rockfrag_core::fragility::MotionKind;
-/// use rockfrag_core::object::{Object, RockingObject, UncertaintySource};
-///
-/// let mut rack = Object::block("rack", 0.6, 1.9);
-/// rack.shape.depth = Some(0.8);
-/// let object = RockingObject::uncalibrated(&rack, MotionKind::Recorded, 0.10)?;
-/// // It may fall over its width or over its depth; the loss at an impact is not known.
-/// assert_eq!(object.directions.len(), 2);
-/// assert_eq!(object.perturbations[0].source, UncertaintySource::Eta);
-/// let bouncier = object.perturbed(&object.perturbations[0].high);
-/// assert!(bouncier[0].structure.eta > object.directions[0].structure.eta);
-/// # Ok::<(), rockfrag_core::object::ObjectError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RockingObject {
     /// The weaker first; one or more.
     pub directions: Vec<RockingDirection>,
-    pub perturbations: Vec<LowHigh>,
+    /// The directions with each unknown of the object at its quantiles.
+    pub perturbations: Vec<LowHigh<Vec<RockingDirection>>>,
 }
 
-/// A quantity that is uncertain, a perturbation of an object, or a result of either.
+/// A quantity that is uncertain, an object of which one is, or a result of either.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LowHigh<T = Perturbation> {
+pub struct LowHigh<T> {
     pub source: UncertaintySource,
     /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.
     pub low: T,
@@ -77,6 +65,13 @@ pub struct LowHigh<T = Perturbation> {
 impl<T> LowHigh<T> {
     pub fn map<U>(&self, result: impl Fn(&T) -> U) -> LowHigh<U> {
         LowHigh { source: self.source, low: result(&self.low), high: result(&self.high) }
+    }
+}
+
+impl LowHigh<f64> {
+    /// Of a normal distribution about 0.
+    pub(crate) fn normal(source: UncertaintySource, sd: f64) -> LowHigh<f64> {
+        LowHigh { source, low: -Z_95 * sd, high: Z_95 * sd }
     }
 }
 
@@ -92,13 +87,6 @@ impl<T: Clone> LowHigh<T> {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub enum Perturbation {
-    /// Other structures, one for each direction.
-    Structures(Vec<Structure>),
-    Floor(Floor),
-}
-
 /// Standard deviation of the logarithm of a building's period that is not given.
 pub const SD_OF_PERIOD: f64 = 0.25;
 /// Below this a coefficient of restitution is more likely a typing error.
@@ -111,33 +99,38 @@ impl RockingObject {
     /// Why there is no answer.
     pub fn new(object: &Object, models: Vec<Model>) -> Result<RockingObject, ObjectError> {
         let (sides, floor) = (object.sides()?, object.place.floor()?);
-        let mut perturbations = Vec::new();
-        // All sides of an object have the same sources of uncertainty.
-        for (number, LowHigh { source, .. }) in sides[0].at_quantiles.iter().enumerate() {
-            let all = sides.iter().map(|side| &side.at_quantiles[number]);
-            let (low, high) = all.map(|structure| (structure.low.clone(), structure.high.clone())).unzip();
-            perturbations.push(LowHigh {
-                source: *source,
-                low: Perturbation::Structures(low),
-                high: Perturbation::Structures(high),
-            });
-        }
-        if let Some(floor) = floor {
-            let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
-            let off = LowHigh { source: UncertaintySource::Floor, low: -Z_95, high: Z_95 };
-            perturbations.push(off.map(|off| {
-                Perturbation::Floor(Floor { period_s: floor.period_s * (off * sd).exp(), ..floor })
-            }));
-        }
-        let directions = sides.into_iter().zip(models).map(|(Side { structure, .. }, model)| {
-            let is_known = structure.rebound.is_none() || matches!(model, Model::Surface { .. });
-            let model = model.on(floor).filter(|_| is_known)?;
-            Some(RockingDirection { structure, model, count: None })
-        });
+        let on = |floor: Option<Floor>| -> Option<Vec<Arc<Model>>> {
+            models.iter().map(|model| Some(Arc::new(model.clone().on(floor)?))).collect()
+        };
+        let is_known = object.place.wall.is_none() || matches!(models[0], Model::Surface { .. });
         let problem = "period or wall: the paper's model is that of a free object on the ground";
-        let directions: Option<Vec<RockingDirection>> = directions.collect();
-        let directions = directions.ok_or_else(|| ObjectError::Implausible(problem.to_string()))?;
-        Ok(RockingObject { directions, perturbations })
+        let problem = || ObjectError::Implausible(problem.to_string());
+        let usual = on(floor).filter(|_| is_known).ok_or_else(problem)?;
+        let directions = |models: &[Arc<Model>], structure: &dyn Fn(&Side) -> Structure| {
+            let joined = sides.iter().zip(models).map(|(side, model)| RockingDirection {
+                structure: structure(side),
+                model: Arc::clone(model),
+                count: None,
+            });
+            joined.collect::<Vec<RockingDirection>>()
+        };
+        // All sides of an object have the same sources of uncertainty.
+        let of_shape = sides[0].at_quantiles.iter().enumerate().map(|(number, unknown)| LowHigh {
+            source: unknown.source,
+            low: directions(&usual, &|side| side.at_quantiles[number].low.clone()),
+            high: directions(&usual, &|side| side.at_quantiles[number].high.clone()),
+        });
+        let of_floor = floor.map(|floor| {
+            let sd = object.place.period_sd.unwrap_or(SD_OF_PERIOD);
+            LowHigh::normal(UncertaintySource::Floor, sd).map(|off| {
+                let moved = on(Some(Floor { period_s: floor.period_s * off.exp(), ..floor }));
+                directions(&moved.unwrap_or_default(), &|side| side.structure.clone())
+            })
+        });
+        Ok(RockingObject {
+            directions: directions(&usual, &|side| side.structure.clone()),
+            perturbations: of_shape.chain(of_floor).collect(),
+        })
     }
 
     /// With the uncalibrated surface. `limit_state` is the demand |theta|max / alpha of failure.
@@ -166,29 +159,9 @@ impl RockingObject {
         RockingObject { directions: directions.collect(), perturbations: Vec::new() }
     }
 
-    pub fn perturbed(&self, perturbation: &Perturbation) -> Vec<RockingDirection> {
-        let mut directions = self.directions.clone();
-        match perturbation {
-            Perturbation::Structures(structures) => {
-                for (direction, structure) in directions.iter_mut().zip(structures) {
-                    direction.structure = structure.clone();
-                }
-            }
-            Perturbation::Floor(floor) => {
-                for RockingDirection { model, .. } in &mut directions {
-                    if let Some(moved) = model.clone().on(Some(*floor)) {
-                        *model = moved;
-                    }
-                }
-            }
-        }
-        directions
-    }
-
     /// Results with each source of uncertainty at its quantiles.
     pub fn at_quantiles<T>(&self, result: impl Fn(&[RockingDirection]) -> T) -> Vec<LowHigh<T>> {
-        let all = self.perturbations.iter();
-        all.map(|bounds| bounds.map(|perturbation| result(&self.perturbed(perturbation)))).collect()
+        self.perturbations.iter().map(|unknown| unknown.map(|directions| result(directions))).collect()
     }
 
     pub fn structure_warnings(&self) -> Vec<Warning> {

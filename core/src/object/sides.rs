@@ -89,7 +89,6 @@ impl Object {
         }
     }
 
-    /// Refuses dimensions that contradict each other.
     fn check_dimensions(&self, width: f64, height: f64) -> Result<(), ObjectError> {
         let (shape, place) = (&self.shape, &self.place);
         let side = shape.depth.map_or(width, |depth| depth.min(width));

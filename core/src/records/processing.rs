@@ -19,7 +19,6 @@ use crate::warning::Warning;
 /// A loss of more than this share of the PGA by resampling is reported.
 const NOTICEABLE_LOSS: f64 = 0.01;
 
-/// A record with its name and its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedRecord {
     /// Unique among the imported records.
@@ -33,7 +32,6 @@ pub struct NamedRecord {
     pub doubts: Vec<(Warning, String)>,
 }
 
-/// Why a record cannot be processed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ProcessingError {
     #[error("{0} (--accept-implausible imports it anyway)")]

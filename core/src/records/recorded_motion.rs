@@ -40,7 +40,6 @@ impl RecordedMotion {
     }
 }
 
-/// A peak acceleration in a header.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeaderPga {
     /// Absolute value, m/s2.

@@ -4,13 +4,6 @@ use super::structure::{Structure, StructureError};
 use crate::units::G_M_S2;
 
 /// A rigid body on the edges of a base, in the plane in which it rocks.
-///
-/// ```
-/// use rockfrag_core::rocking::Body;
-/// let block = Body::solid(0.4, 1.6);
-/// let bottom_heavy = Body { centre_height_m: 0.5, ..block };
-/// assert!(bottom_heavy.alpha_rad() > block.alpha_rad());
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Width of the base, m.

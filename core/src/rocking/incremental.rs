@@ -30,19 +30,6 @@ const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// The intensities of an incremental dynamic analysis: levels in equal ratios, halved where the structure
 /// rocks, and halved further where the outcome changes or a peak may graze the tipping point.
-///
-/// ```
-/// use rockfrag_core::rocking::{Outcome, Response, Scan, ScanPoint};
-/// // A structure that overturns from an intensity of 3 on; others are simulated.
-/// let respond = |point: &ScanPoint| {
-///     let outcome = if point.intensity < 3.0 { Outcome::SafeRocking(0.5) } else { Outcome::Overturned };
-///     Response { outcome, impacts: 0 }
-/// };
-/// let scan = Scan::new(1.0, 10.0, 8);
-/// let found = scan.run(1, |points| Ok::<_, ()>(points.iter().map(respond).collect()))?;
-/// assert!(scan.capacity(&found[0]).overturning.is_some_and(|intensity| (intensity - 3.0).abs() < 0.003));
-/// # Ok::<(), ()>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     /// Intensities at which every case is simulated, ascending.

@@ -16,15 +16,6 @@ use crate::units::G_PER_M_S2;
 const LONGEST_STEP: f64 = 0.03;
 
 /// A structure, initially at rest, and its ground motion.
-///
-/// ```
-/// use rockfrag_core::rocking::{Problem, Record, Structure, simulate_all};
-/// let structures = [Structure::new("a", 2.5, 0.2, 0.92)?, Structure::new("b", 1.0, 0.1, 0.92)?];
-/// let record = Record::new(&[0.0, 4.0, -4.0, 0.0], 0.1)?;
-/// let responses = simulate_all(&structures.each_ref().map(|structure| Problem { structure, record }));
-/// assert_eq!(responses.len(), 2);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
     pub structure: &'a Structure,

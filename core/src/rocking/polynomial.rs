@@ -36,7 +36,10 @@ pub fn roots(c: &Polynomial) -> Vec<f64> {
 fn add_roots(c: &Polynomial, b: &Polynomial, low: f64, high: f64, roots: &mut Vec<f64>) {
     match sign_changes(b) {
         0 => {}
-        1 => roots.push(root_in_bracket(c, low, high, starts_positive(b))),
+        1 => {
+            let first = b.iter().find(|coefficient| **coefficient != 0.0);
+            roots.push(root_in_bracket(c, low, high, first > Some(&0.0)));
+        }
         _ if high - low < NARROWEST_BRACKET => roots.push(0.5 * (low + high)),
         _ => {
             let middle = 0.5 * (low + high);
@@ -85,10 +88,6 @@ fn sign_changes(b: &Polynomial) -> usize {
     let mut positive = b.iter().filter(|&&coefficient| coefficient != 0.0).map(|c| *c > 0.0);
     let Some(mut last) = positive.next() else { return 0 };
     positive.filter(|&sign| std::mem::replace(&mut last, sign) != sign).count()
-}
-
-fn starts_positive(b: &Polynomial) -> bool {
-    b.iter().find(|&&coefficient| coefficient != 0.0).is_some_and(|&first| first > 0.0)
 }
 
 /// Finds the only root in a bracket by Newton's method with bisection; `falling` if values are positive left

@@ -4,14 +4,6 @@ use crate::plausibility::{LARGEST_M_S2, TIME_STEPS_S};
 const ROUNDING: f64 = 1e-9;
 
 /// A ground acceleration sampled at a constant step: linear between samples, zero after the last one.
-///
-/// ```
-/// use rockfrag_core::rocking::Record;
-/// let record = Record::new(&[0.0, 3.0, -1.0], 0.01)?;
-/// assert_eq!((record.peak_m_s2(), record.acceleration_at(0.005)), (3.0, 1.5));
-/// assert!((record.ground_at([0.0, 0.01])[1].velocity_m_s - 0.015).abs() < 1e-12);
-/// # Ok::<(), rockfrag_core::rocking::RecordError>(())
-/// ```
 #[derive(Debug, Clone, Copy)]
 pub struct Record<'a> {
     acceleration_m_s2: &'a [f64],
@@ -49,8 +41,8 @@ impl<'a> Record<'a> {
             acceleration_m_s2.iter().map(|value| value.abs().to_bits()).max().map_or(0.0, f64::from_bits);
         let accepted = -LARGEST_M_S2..=LARGEST_M_S2;
         if !accepted.contains(&peak_m_s2) {
-            let sample = acceleration_m_s2.iter().position(|value| !accepted.contains(value));
-            let sample = sample.unwrap_or_default();
+            let refused = |value: &f64| !accepted.contains(value);
+            let sample = acceleration_m_s2.iter().position(refused).unwrap_or_default();
             let value = acceleration_m_s2[sample];
             return Err(match value.is_finite() {
                 true => RecordError::TooLarge { sample, value },

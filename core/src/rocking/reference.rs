@@ -27,9 +27,7 @@ struct Rocking {
     velocity: f64,
 }
 
-/// Computes the angular acceleration (rad/s2) from the side, the rotation and the ground acceleration over g,
-/// by the equation of motion (Eq. 4):
-/// theta'' = -p^2 [sin(alpha sgn theta - theta) + a/g cos(alpha sgn theta - theta)].
+/// theta'', rad/s2 (Eq. 4); `ground` is the ground acceleration over g.
 fn angular_acceleration(structure: &Structure, side: f64, theta: f64, ground: f64) -> f64 {
     let p2 = structure.p_rad_s * structure.p_rad_s;
     let angle = structure.alpha_rad * side - theta;
@@ -77,15 +75,6 @@ pub enum SolverEvent {
 }
 
 /// A point of a traced response: a sample of the record, or an event between two samples.
-///
-/// ```
-/// use rockfrag_core::rocking::{Record, SolverEvent, Structure, trace};
-/// let block = Structure::new("block", 2.5, 0.2, 0.92)?;
-/// let (_, points) = trace(&block, &Record::new(&[0.0, 4.0, 0.0], 0.1)?, 0.0);
-/// let uplift = points.iter().find(|point| point.solver_event == Some(SolverEvent::Uplift));
-/// assert!(uplift.is_some_and(|point| 0.0 < point.time_s && point.time_s < 0.1));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {
     pub time_s: f64,

@@ -1,10 +1,5 @@
-//! One Taylor step of the equation of motion (Eq. 4),
-//!
-//! ```text
-//! theta'' = -p^2 [ sin(alpha sgn(theta) - theta) + a/g cos(alpha sgn(theta) - theta) ]
-//! ```
-//!
-//! With r = |theta|, x = p t, and w the ground acceleration over g, positive towards the base:
+//! One Taylor step of the equation of motion (Eq. 4), which [`reference`](super::reference) prints. With
+//! r = |theta|, x = p t, and w the ground acceleration over g, positive towards the base:
 //!
 //! ```text
 //! r'' = -[ sin(alpha - r) + w cos(alpha - r) ] = -[ A cos r + B sin r ]

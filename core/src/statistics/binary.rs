@@ -17,14 +17,6 @@ pub const FEW_EVENTS: usize = 10;
 const SEPARATION_SE: f64 = 1e3;
 
 /// A probit regression P(event) = Phi(z), z = b0 + b1 x1 + ...
-///
-/// ```
-/// use rockfrag_core::statistics::{FitStatus, probit};
-/// let x: Vec<f64> = (0..20).map(f64::from).collect();
-/// let fit = probit(&[x], &std::array::from_fn::<_, 20, _>(|k| k > 12 || k % 4 == 3))?;
-/// assert!(fit.fit.coefficients[1] > 0.0 && fit.fit.status == FitStatus::Ok);
-/// # Ok::<(), FitStatus>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbitFit {
     pub fit: Fit,
@@ -67,7 +59,6 @@ fn derivatives(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>) -> Objective
     })
 }
 
-/// Computes the maximum of the log-likelihood (Eq. 22).
 fn maximum(x: &DMatrix<f64>, events: &[bool]) -> Maximum {
     let share = events.iter().filter(|event| **event).count() as f64 / events.len() as f64;
     let mut start = DVector::zeros(x.ncols());
@@ -131,7 +122,6 @@ pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<
     Ok(probit)
 }
 
-/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
 fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
     let columns = with_squares(x)?;
     let wider = DesignMatrix::new(&columns).ok()?;

@@ -45,7 +45,6 @@ impl DesignMatrix {
         if shares.min() < LEAST_SHARE { Err(FitStatus::Degenerate) } else { Ok(DesignMatrix { x, to_given }) }
     }
 
-    /// Transforms coefficients and covariance of `x` to those of the original predictors.
     pub fn to_given(&self, b: &DVector<f64>, covariance: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
         (&self.to_given * b, &self.to_given * covariance * self.to_given.transpose())
     }

@@ -56,7 +56,6 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Makes a fit of `n` cases, without clusters or test of the form.
     pub(super) fn new(
         (coefficients, covariance): (DVector<f64>, DMatrix<f64>),
         degrees_of_freedom: f64,

@@ -2,14 +2,6 @@ use serde::{Deserialize, Serialize};
 
 /// A value with its confidence limits. In `Interval<Option<f64>>` all three are none where nothing is known,
 /// and only the value where bounds alone are known.
-///
-/// ```
-/// use rockfrag_core::statistics::Interval;
-/// let rate = Interval::around(-2.0, 0.5).map(f64::exp);
-/// assert!(rate.low < rate.value && rate.value < rate.high && Interval::exact(0.5).low == 0.5);
-/// let bounds = Interval { value: None, ..Interval::from(rate) };
-/// assert_eq!((bounds.estimate(), bounds.high), (None, Some(rate.high)));
-/// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Interval<T = f64> {
     pub value: T,

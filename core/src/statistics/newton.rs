@@ -45,7 +45,6 @@ impl Objective {
     }
 }
 
-/// The end of the iterations.
 #[derive(Debug, Clone)]
 pub struct Maximum {
     pub at: DVector<f64>,

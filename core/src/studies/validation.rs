@@ -13,15 +13,6 @@ const BINS: usize = 10;
 const LEAST: f64 = 1e-15;
 
 /// Probabilities of an event in some cases of a structure and suite by one model, and whether it happened.
-///
-/// ```
-/// use rockfrag_core::fragility::Event;
-/// use rockfrag_core::studies::Forecasts;
-/// let (probabilities, happened, clusters) = (&[0.1, 0.8, 0.3], &[false, true, false], &[0, 1, 2]);
-/// let (suite, structure, event, model) = (None, "cabinet", Event::Overturning, "mine");
-/// let forecasts = Forecasts { suite, structure, event, model, probabilities, happened, clusters };
-/// assert!(forecasts.validate().is_some_and(|scores| scores.observed == 1 && scores.brier < 0.05));
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecasts<'a> {
     pub suite: Option<&'a str>,

@@ -1,6 +1,8 @@
 //! What a page shows of an object at a site: where its rate comes from, its fragility, and the rate after a
 //! change.
 
+use std::sync::Arc;
+
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::fragility::{LimitState, Model, MotionKind, Peak};
 use rockfrag_core::hazard::{
@@ -61,10 +63,9 @@ fn the_fragility_at_a_site_integrates_to_its_rate() {
         let [a, b] = [low, high].map(|point| point.p.get(state).value.unwrap());
         if im < points[0].intensity { 0.0 } else { a + (b - a) * share.min(1.0) }
     };
-    let states = [LimitState::Overturning, LimitState::Failure];
-    let sums =
-        curve().mean_annual_rates(&[points[0].intensity], 0.02, |im| states.map(|state| at(im, state)));
-    for (sum, rate) in sums.into_iter().zip([rate.states.overturning, rate.states.failure]) {
+    for state in [LimitState::Overturning, LimitState::Failure] {
+        let sum = curve().mean_annual_rate(&[points[0].intensity], 0.02, |im| at(im, state));
+        let rate = rate.states.get(state);
         close(sum, rate.value.unwrap(), 1e-3);
     }
 }
@@ -110,17 +111,14 @@ fn drawn(width: f64, z: &[f64]) -> f64 {
     object.shape.eta = Some(Restitution::Number(1.0 - (1.0 - median) * (-0.4 * z[0]).exp()));
     let mut object = uncalibrated(&object);
     let direction = &mut object.directions[0];
-    let ends = direction.model.at_quantiles();
-    let Model::Surface { overturning, .. } = &mut direction.model else { panic!("the surface") };
-    for (z, [low, high]) in z[2..].iter().zip(&ends) {
-        let (Model::Surface { overturning: low, .. }, Model::Surface { overturning: high, .. }) = (low, high)
-        else {
-            panic!("the surface")
-        };
+    let Model::Surface { overturning, .. } = Arc::make_mut(&mut direction.model) else {
+        panic!("the surface")
+    };
+    for (z, [low, high]) in z[2..].iter().zip(overturning.errors()) {
         let step = z / (2.0 * Z_95);
-        overturning.c += step * (high.c - low.c);
-        overturning.ln_s += step * (high.ln_s - low.ln_s);
-        overturning.m += step * (high.m - low.m);
+        overturning.c += step * (high[0] - low[0]);
+        overturning.ln_s += step * (high[1] - low[1]);
+        overturning.m += step * (high[2] - low[2]);
     }
     // That of motions is above a mean of the disaggregation.
     let mean = 6.35 + 0.6 * z[1] - 0.25;

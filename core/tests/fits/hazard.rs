@@ -1,5 +1,7 @@
 //! Annual rates against closed forms.
 
+use std::sync::Arc;
+
 use rockfrag_core::fragility::{
     Event, GivenPeak, Measure, Model, MotionKind, Peak, RatioGiven, RockingDirection, fit_curve,
     p_overturning,
@@ -29,9 +31,8 @@ fn a_power_law_has_a_rate_of_a_lognormal_and_of_a_jump_in_closed_form() {
         [(1.0, 0.3, 0.4, 2), (2.5, 1.0, 0.2, 17), (3.0, 0.7, 0.08, 301), (2.0, 0.5, 0.3, 20_001)]
     {
         let curve = power_law(1e-3, k, n);
-        let [rate, jump] = curve.mean_annual_rates(&[theta], 0.02, |im| {
-            [p_overturning(im, f64::ln(theta), beta), f64::from(u8::from(im >= theta))]
-        });
+        let rate = curve.mean_annual_rate(&[theta], 0.02, |im| p_overturning(im, f64::ln(theta), beta));
+        let jump = curve.mean_annual_rate(&[theta], 0.02, |im| f64::from(u8::from(im >= theta)));
         close(jump, 1e-3 * theta.powf(-k), 1e-9);
         close(rate, jump * (0.5 * k * k * beta * beta).exp(), 1e-9);
     }
@@ -70,7 +71,8 @@ fn lognormal_over_both_peaks() -> RockingDirection {
     (overturning.coefficients, overturning.covariance) = (B.to_vec(), vec![0.0; 9]);
     let peaks = Model::uncalibrated(MotionKind::Csgm, &equipment(), 0.1).peaks();
     let model = Model::Paper { demand: vec![], overturning, limit_state: 0.1, peaks };
-    RockingDirection { structure: Structure::new("slender", 1.0, 1e-3, 0.9).unwrap(), model, count: None }
+    let structure = Structure::new("slender", 1.0, 1e-3, 0.9).unwrap();
+    RockingDirection { structure, model: Arc::new(model), count: None }
 }
 
 /// The rate of Phi(c + d ln IM) over k0 IM^-k.
@@ -260,7 +262,7 @@ fn averages_over_pgv_pga_are_those_of_scipy() {
     for row in read::<Row>("fragility_answers.csv") {
         let (structure, over, mw) = (row.structure(), row.get("over"), row.text("mw").parse().ok());
         let model = Model::uncalibrated(MotionKind::Recorded, &structure, 0.2);
-        let directions = [RockingDirection { structure, model, count: None }];
+        let directions = [RockingDirection { structure, model: Arc::new(model), count: None }];
         let unit = if over == Peak::Pga { 9.81 } else { 1.0 };
         let intensity = unit * row.get::<f64>("intensity");
         let general = GenericSites { over, mw, vs30_m_s: None, ratio_s: None };

@@ -12,6 +12,7 @@ use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::{UNNAMED, Warning, Warnings};
 use serde::{Deserialize, Serialize};
+use strum::VariantArray;
 
 use crate::inputs::Renames;
 use crate::inputs::objects::{self, ListDefaults};
@@ -24,7 +25,8 @@ pub fn with_fields(stage: Command) -> Command {
     let has = |option: &str| stage.get_arguments().any(|arg| arg.get_id() == option);
     let (shape, place) = (has("structures"), has("pga"));
     let of_shape = Field::OF_SHAPE.into_iter().filter(|_| shape).map(|word| (word, "Structure"));
-    let of_place = Field::OF_PLACE.into_iter().filter(|_| place).map(|word| (word, "Object"));
+    let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !Field::OF_SHAPE.contains(word));
+    let of_place = others.filter(|_| place).map(|word| (word, "Object"));
     stage.args(of_shape.chain(of_place).filter_map(|(word, heading)| {
         let of = word.parse::<Field>().ok()?;
         let Entry { symbol, help, .. } = of.entry();

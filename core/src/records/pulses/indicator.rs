@@ -6,8 +6,7 @@ use crate::motion::measures::peak;
 use crate::records::rotation::Parts;
 use crate::spelling::unknown_word;
 
-// Least indicator, least peak velocity and early arrival of a pulse are those of Baker (2007).
-/// Range of pulse periods, s.
+// The least indicator and peak velocity, and the early arrival, of a pulse are those of Baker (2007).
 pub const PERIODS_S: (f64, f64) = (0.25, 15.0);
 /// Number of periods of the scan, in equal ratios, and subdivisions of an interval about a local maximum.
 const PERIODS: usize = 60;
@@ -19,10 +18,8 @@ const WAVELETS: usize = 10;
 const REACH: f64 = 10.0 / 25.0 * 5.0 / 7.0;
 /// Largest time step of the search, s, unless the record is coarser: 12 steps in the shortest period.
 const STEP_S: f64 = 0.02;
-/// Least indicator of a pulse.
-pub const THRESHOLD: f64 = 0.85;
-/// Least peak velocity of a pulse-like record, m/s.
-pub const LEAST_PGV_M_S: f64 = 0.3;
+const THRESHOLD: f64 = 0.85;
+const LEAST_PGV_M_S: f64 = 0.3;
 /// A pulse is early if the first share of its squared velocity precedes the second share of the record's.
 const EARLY: (f64, f64) = (0.10, 0.20);
 
@@ -152,7 +149,6 @@ fn energy(velocity: &[f64]) -> f64 {
     velocity.iter().map(|v| v * v).sum()
 }
 
-/// Finds the first sample at which a fraction of the squared velocity is reached.
 fn sample_of_share(velocity: &[f64], share: f64) -> usize {
     let target = share * energy(velocity);
     let mut sum = 0.0;

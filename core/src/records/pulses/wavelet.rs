@@ -50,7 +50,6 @@ impl Wavelet {
         self.dt_s * inside.zip(values).map(|(sample, value)| sample * value).sum::<f64>()
     }
 
-    /// Adds `factor` times the wavelet, centred at a sample, to a series.
     pub fn add_to(&self, series: &mut [f64], centre: i64, factor: f64) {
         let first = centre - self.reach as i64;
         let inside = series.iter_mut().skip(first.max(0) as usize);
@@ -111,7 +110,6 @@ pub struct WaveletTransform {
 }
 
 impl WaveletTransform {
-    /// Prepares the transform of series at steps of `dt_s`, for periods up to `longest_s`.
     pub fn new(series: &[Vec<f64>], dt_s: f64, longest_s: f64) -> WaveletTransform {
         let samples = series.first().map_or(0, Vec::len);
         let length = even_smooth_at_least(samples + 2 * Wavelet::new(longest_s, dt_s).reach + 1);
