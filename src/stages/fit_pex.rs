@@ -77,7 +77,8 @@ impl Stage for FitPex {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, Some(self.transition), self.confidence, &self.pairs, self.all));
+            let made = fit_demand(cases, Some(self.transition), self.confidence, &self.pairs, self.all);
+            fits.extend(made.into_iter().map(|fit| fit.compared(cases, &self.limit_state)));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
             bar.advance(1)?;
@@ -102,4 +103,5 @@ impl Stage for FitPex {
     }
 }
 
-const COLUMNS: &str = "suite structure model im_x im_y range_low n r2 beta held_out_log_score status";
+const COLUMNS: &str = "suite structure model im_x im_y range_low n r2 beta held_out_log_score calibration_slope \
+                       largest_difference status";

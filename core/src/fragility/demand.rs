@@ -8,14 +8,15 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Group, Sample};
+use super::cases::{Cases, Event, Group, Sample};
 use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::spelling::unknown_word;
-use crate::statistics::{FitStatus, Interval, LinearFit, held_out_log_score, least_squares};
-use crate::statistics::{delta_variance, independent_errors, normal, tested_least_squares};
+use crate::statistics::scores::largest_difference;
+use crate::statistics::{FitStatus, Interval, LinearFit, clustered_least_squares, held_out};
+use crate::statistics::{delta_variance, independent_errors, least_squares, normal};
 
 /// P_ex from the logarithm of the median demand Dm and the dispersion beta: Phi((ln Dm - ln c) / beta)
 /// (Eq. 14, which prints the argument with the other sign, by which P_ex would fall with demand).
@@ -209,6 +210,8 @@ pub struct DemandFit {
     pub r2_overall: Option<f64>,
     /// Mean log-likelihood of the cases of a cluster by a fit to the others; of two planes, over both.
     pub held_out_log_score: Option<f64>,
+    /// Slope of ln EDP on its mean by a fit to the others: 1 is best, below it the regression is too steep.
+    pub calibration_slope: Option<f64>,
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
     pub transition_low: Option<f64>,
@@ -219,8 +222,8 @@ pub struct DemandFit {
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// p-value of the misfit: squares and products of ln IM as further regressors.
-    pub misfit_p: Option<f64>,
+    /// Largest difference of P_ex at the limit states from the share of events in bins of cases, beyond chance.
+    pub largest_difference: Option<f64>,
     pub status: FitStatus,
 }
 
@@ -236,8 +239,12 @@ impl DemandFit {
     /// `range` is that of IM4.
     fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
         let sample = demands(cases, measures, &range);
-        let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
+        let linear = clustered_least_squares(&sample.x(), &sample.y, &sample.clusters);
         let fitted = linear.as_ref().ok();
+        let without = |x: &[Vec<f64>], ln_edp: &[f64]| {
+            least_squares(x, ln_edp).ok().map(|law| (law.fit.clone(), law.residual_sd()))
+        };
+        let held_out = fitted.and_then(|_| held_out(&sample.x(), &sample.y, &sample.clusters, without));
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
             suite: cases.suite.clone(),
@@ -259,12 +266,15 @@ impl DemandFit {
             r2: fitted.map(LinearFit::r2),
             r2_pooled: None,
             r2_overall: None,
-            held_out_log_score: fitted.and_then(|_| {
-                held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, ln_edp| {
-                    let law = least_squares(x, ln_edp).ok()?;
-                    let sd = law.residual_sd();
-                    Some((law.fit, move |mean, ln_edp| normal::ln_density((ln_edp - mean) / sd) - sd.ln()))
-                })
+            held_out_log_score: held_out.as_ref().map(|cases| {
+                let score = |(&(mean, sd), ln_edp): (&(f64, f64), &f64)| {
+                    normal::ln_density((ln_edp - mean) / sd) - sd.ln()
+                };
+                cases.iter().zip(&sample.y).map(score).sum::<f64>() / cases.len() as f64
+            }),
+            calibration_slope: held_out.and_then(|cases| {
+                let means: Vec<f64> = cases.iter().map(|(mean, _)| *mean).collect();
+                Some(least_squares(&[means], &sample.y).ok()?.fit.coefficients[1])
             }),
             transition_found: None,
             transition_low: None,
@@ -274,13 +284,34 @@ impl DemandFit {
             im_x_high: sample.range(0).map(|range| range.high),
             im_y_low: sample.range(1).map(|range| range.low),
             im_y_high: sample.range(1).map(|range| range.high),
-            misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
+            largest_difference: None,
             status: match &linear {
-                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
-                Ok(linear) => linear.fit.status,
+                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => measures[0].falling(measures.get(1)),
+                Ok(_) => FitStatus::Ok,
                 Err(status) => *status,
             },
         }
+    }
+
+    /// Compares P_ex at limit states with the share of the cases that exceed them: a fit that is usable may
+    /// be a poor one.
+    pub fn compared(self, cases: &Cases, limit_states: &[f64]) -> DemandFit {
+        let Some(beta) = self.beta else { return self };
+        let largest_difference = limit_states.iter().filter_map(|&limit_state| {
+            let pairs = cases.all.iter().filter(|case| self.holds_at(case.measures.im4)).filter_map(|case| {
+                let ims = values(&self.im_x, self.im_y.as_ref(), &case.measures)?;
+                let p = p_exceeding(ln_median_demand(&self.coefficients, &ims), limit_state, beta);
+                Some((p, Event::Exceeding.happened(case.outcome, limit_state)?))
+            });
+            let (probabilities, events): (Vec<f64>, Vec<bool>) = pairs.unzip();
+            largest_difference(&probabilities, &events)
+        });
+        let largest_difference = largest_difference.reduce(f64::max);
+        let status = match self.status {
+            FitStatus::Ok => FitStatus::by_difference(largest_difference),
+            status => status,
+        };
+        DemandFit { largest_difference, status, ..self }
     }
 
     /// The residual sum of squares, and that about the mean.
@@ -327,7 +358,7 @@ impl DemandFit {
         (self.n - self.coefficients.len() as i64) as f64
     }
 
-    /// ln a, b1, b2, beta and zeta = beta / b1; none without a fit.
+    /// ln a, b1, b2, beta and zeta = beta / |b1|; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         let Some(beta) = self.beta else { return Vec::new() };
         let b = &self.coefficients;
@@ -337,21 +368,25 @@ impl DemandFit {
         let names = [Parameter::LnA, Parameter::B1, Parameter::B2];
         let coefficients = names.into_iter().zip(b.iter().copied().zip(errors));
         let dispersions =
-            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1], error_of_zeta))];
+            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1].abs(), error_of_zeta))];
         let quantile = quantile(confidence, self.degrees);
-        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
-            suite: self.suite.clone(),
-            structure: self.structure.clone(),
-            model: self.model.to_string(),
-            im_x: self.im_x.clone(),
-            im_y: self.im_y.clone(),
-            range_low: self.range_low,
-            parameter,
-            value,
-            standard_error,
-            low: value - quantile * standard_error,
-            high: value + quantile * standard_error,
-            confidence,
+        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| {
+            let Interval { low, high, .. } = parameter.around(value, quantile * standard_error);
+            ParameterRow {
+                suite: self.suite.clone(),
+                structure: self.structure.clone(),
+                model: self.model.to_string(),
+                im_x: self.im_x.clone(),
+                im_y: self.im_y.clone(),
+                range_low: self.range_low,
+                parameter,
+                value,
+                standard_error,
+                low,
+                high,
+                confidence,
+                status: self.status,
+            }
         });
         rows.collect()
     }

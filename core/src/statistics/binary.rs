@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::clusters::sandwich;
-use super::design::{DesignMatrix, with_squares};
-use super::distributions::chi_squared_upper_tail;
+use super::design::DesignMatrix;
 use super::fit::{Fit, FitStatus, predict};
 use super::newton::{Maximum, Objective, maximise};
 use super::normal;
+use super::scores::largest_difference;
 
 /// A fit needs this many events, and this many cases without an event.
 const LEAST_EVENTS: usize = 5;
@@ -22,7 +22,7 @@ const SEPARATION_SE: f64 = 1e3;
 /// use rockfrag_core::statistics::{FitStatus, probit};
 /// let x: Vec<f64> = (0..20).map(f64::from).collect();
 /// let fit = probit(&[x], &std::array::from_fn::<_, 20, _>(|k| k > 12 || k % 4 == 3))?;
-/// assert!(fit.fit.coefficients[1] > 0.0 && fit.fit.status == FitStatus::Ok);
+/// assert!(fit.fit.coefficients[1] > 0.0 && fit.status == FitStatus::Ok);
 /// # Ok::<(), FitStatus>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +30,10 @@ pub struct ProbitFit {
     pub fit: Fit,
     /// Logarithm of the likelihood at the maximum (Eq. 21).
     pub log_likelihood: f64,
+    /// Of the probability from the share of events; none if not compared, or of too few cases.
+    pub largest_difference: Option<f64>,
+    /// A usable one.
+    pub status: FitStatus,
 }
 
 impl ProbitFit {
@@ -94,7 +98,8 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
         return Err(FitStatus::NotConverged);
     }
     let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY, events.len());
-    Ok(ProbitFit { fit, log_likelihood: log_likelihood(&design.x, events, &at) })
+    let log_likelihood = log_likelihood(&design.x, events, &at);
+    Ok(ProbitFit { fit, log_likelihood, largest_difference: None, status: FitStatus::Ok })
 }
 
 /// Whether events and other cases do not overlap in z, or the standard error of some z is so large that the
@@ -114,28 +119,21 @@ fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance:
     do_not_overlap || largest_variance > SEPARATION_SE * SEPARATION_SE
 }
 
-/// Fits as [`probit`], adds the clustered covariance, and tests the form: likelihood-ratio test of the
-/// squares and products of the predictors. `clusters` has the cluster of each case.
-pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
+/// Fits as [`probit`], adds the clustered covariance, and compares the probability with the share of events.
+/// `clusters` has the cluster of each case.
+pub fn clustered_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
     let mut probit = probit(x, events)?;
     let z = predict(probit.fit.coefficients.as_slice(), x);
     let signs = events.iter().map(|&event| if event { 1.0 } else { -1.0 });
     let scores: Vec<f64> =
         z.iter().zip(signs).map(|(&z, sign)| sign * normal::ln_cdf_and_slope(sign * z).1).collect();
-    probit.fit.note_misfit(misfit(&probit, x, events));
+    let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
+    probit.largest_difference = largest_difference(&probabilities, events);
     let count = events.iter().filter(|event| **event).count();
-    if count.min(events.len() - count) < FEW_EVENTS {
-        probit.fit.status = FitStatus::FewEvents;
-    }
+    probit.status = match count.min(events.len() - count) {
+        0..FEW_EVENTS => FitStatus::FewEvents,
+        _ => FitStatus::by_difference(probit.largest_difference),
+    };
     probit.fit.note_clusters(sandwich(x, &scores, &probit.fit.covariance, clusters));
     Ok(probit)
-}
-
-/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
-fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
-    let columns = with_squares(x)?;
-    let wider = DesignMatrix::new(&columns).ok()?;
-    // If the wider curve separates the outcomes, its likelihood is larger still.
-    let gained = maximum(&wider.x, events).objective.value - probit.log_likelihood;
-    Some(chi_squared_upper_tail(2.0 * gained.max(0.0), (columns.len() - x.len()) as f64))
 }

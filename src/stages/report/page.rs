@@ -1,6 +1,6 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
-use rockfrag_core::fragility::{Cases, DemandModel, Measure, Parameter};
+use rockfrag_core::fragility::{Cases, DemandModel, Measure};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -18,6 +18,7 @@ use crate::figures::common::{by, called, name, rocked, scaled_label, short_label
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
+use crate::stages::shared::fits::CurveLine;
 use crate::table::responses::CapacityFitRow;
 
 /// Structures in the first sentence; the table has all.
@@ -168,6 +169,10 @@ fn cell(row: &Value, field: &str) -> String {
             (Some(count), _) => number::count(count as usize),
             (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
         },
+        Value::Object(_) => {
+            let value: Option<Interval<Option<f64>>> = serde_json::from_value(row[field].clone()).ok();
+            value.map_or(String::new(), |value| TWO_DIGITS.both(value, ""))
+        }
         Value::String(name) if field == "structure" => literal(name),
         Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
         Value::String(text) => text.replace('_', " "),
@@ -233,12 +238,8 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
 fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, Interval<Option<f64>>) {
-    let curve = tables.fits.curve(cases, &Measure::Im5, None);
-    let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-    let [theta, beta] = [Parameter::Theta, Parameter::Beta].map(|which| {
-        let row = parameters.iter().find(|row| row.parameter == which);
-        row.map_or(Interval::default(), |row| Interval::<Option<f64>>::from(row.estimate()))
-    });
+    let Some(fit) = tables.fits.curve(cases, &Measure::Im5, None) else { return Default::default() };
+    let CurveLine { theta, beta, .. } = CurveLine::new(fit, 0.95);
     let pgv_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
     (theta.map(|im5| im5 * pgv_m_s), beta)
 }
@@ -259,11 +260,15 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
                 "quantity structure suite published ours mean sd z",
             ),
             table(
-                "Lognormal curves of overturning",
-                &tables.fits.curves,
-                "structure suite im_x im_y auc n n_events status",
+                "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
+                tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
+                "structure suite im_x im_y theta beta lambda auc n_events largest_difference status",
             ),
-            table("Planes of the demand", planes, "structure suite range_low range_high r2 beta n status"),
+            table(
+                "Planes of the demand",
+                planes,
+                "structure suite range_low range_high r2 beta n largest_difference status",
+            ),
         ]);
     }
     all.push(table(
