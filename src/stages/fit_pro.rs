@@ -91,7 +91,9 @@ impl Stage for FitPro {
             }
             let lines: Vec<_> = best_first.iter().map(|fit| CurveLine::new(fit, self.confidence)).collect();
             let percent = 100.0 * self.confidence;
-            summary += &format!("\nlognormal curves (paper), best first, with {percent} % limits\n");
+            summary += &format!(
+                "\nlognormal curves (paper), the best on held-out cases first, with {percent} % limits\n"
+            );
             summary += &text(&lines, CURVE_COLUMNS, &self.out)?;
         }
         context.warn(warnings(&calibrations));
@@ -103,4 +105,4 @@ impl Stage for FitPro {
 }
 
 const CURVE_COLUMNS: &str = "suite structure im_x im_y theta theta_low theta_high beta beta_low beta_high \
-                             lambda held_out_log_score calibration_slope largest_difference status";
+                             lambda largest_difference status";

@@ -55,12 +55,8 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
     if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
     {
         let rss = low_rss + high_rss;
-        let all = demands(cases, &PLANE, &EVERYWHERE).y;
-        let mean = all.iter().sum::<f64>() / all.len() as f64;
-        let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
         for fit in &mut planes {
             fit.r2_pooled = Some(1.0 - rss / (low_tss + high_tss));
-            fit.r2_overall = Some(1.0 - rss / tss);
         }
     }
     let score: Option<f64> = planes.iter().map(|fit| Some(fit.held_out_log_score? * fit.n as f64)).sum();
@@ -84,9 +80,6 @@ const LEAST_CASES: usize = 20;
 pub struct TransitionPoint {
     pub im4: f64,
     pub pooled_rss: f64,
-    /// Cases below im4, and from it on.
-    pub n_low: i64,
-    pub n_high: i64,
 }
 
 /// Tries all places where two planes may meet with enough cases on each side.
@@ -105,13 +98,9 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
         let below = rows.partition_point(|row| row[1] < im4.ln() - x_mean);
         low += moments(&rows[n_low..below]);
         n_low = below;
-        let n_high = rows.len() - below;
-        if n_low.min(n_high) < LEAST_CASES {
-            continue;
-        }
-        if let Some((rss_low, rss_high)) = residual(low).zip(residual(all - low)) {
-            let (n_low, n_high) = (n_low as i64, n_high as i64);
-            points.push(TransitionPoint { im4, pooled_rss: rss_low + rss_high, n_low, n_high });
+        if n_low.min(rows.len() - n_low) >= LEAST_CASES {
+            let both = residual(low).zip(residual(all - low));
+            points.extend(both.map(|(low, high)| TransitionPoint { im4, pooled_rss: low + high }));
         }
     }
     points
@@ -128,42 +117,28 @@ fn residual(moments: Matrix4<f64>) -> Option<f64> {
     Some(1.0 / moments.try_inverse()?[(3, 3)])
 }
 
-/// The place of the least pooled residual in a scan, and the first and last place whose residual is no more
-/// than chance above it: confidence limits of a break whose jump is large against the scatter, which is the
-/// same on both sides (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603).
-pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Interval> {
-    let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
-    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
-    let likely = scan.iter().filter(|point| {
-        let cases = (point.n_low + point.n_high) as f64;
-        cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
-    });
-    let mut likely = likely.map(|point| point.im4);
-    let low = likely.next()?;
-    Some(Interval { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
+/// The place of the least pooled residual in a scan.
+pub fn transition(scan: &[TransitionPoint]) -> Option<f64> {
+    Some(scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?.im4)
 }
 
 /// Fits two planes that meet at this IM4 (`None`: where their pooled residual is least or, with too few
 /// cases, where the paper's meet); if `all`, each measure alone and one plane over all cases; then what is
-/// `asked` for over all cases. `confidence` is that of the limits of the transition of least residual.
+/// `asked` for over all cases. P_ex at `limit_states` is compared with the share of the cases that exceed them.
 pub fn fit_demand(
     cases: &Cases,
     im4: Option<f64>,
-    confidence: f64,
+    limit_states: &[f64],
     asked: &[Predictors],
     all: bool,
 ) -> Vec<DemandFit> {
-    let found = transition(&scan_transition(cases), confidence);
-    let im4 = im4.or(found.map(|found| found.value)).unwrap_or(TRANSITION);
-    let mut fits = fit_planes(cases, im4).to_vec();
-    for fit in &mut fits {
-        fit.transition_found = found.map(|found| found.value);
-        fit.transition_low = found.map(|found| found.low);
-        fit.transition_high = found.map(|found| found.high);
-    }
+    let transition_found = transition(&scan_transition(cases));
+    let mut fits = fit_planes(cases, im4.or(transition_found).unwrap_or(TRANSITION)).to_vec();
+    fits.iter_mut().for_each(|fit| fit.transition_found = transition_found);
     let usual = Measure::SCALAR.map(Predictors::one).into_iter().chain([Predictors::two(PLANE)]);
     let predictors = Predictors::without_repeats(usual.filter(|_| all).collect(), asked);
     fits.par_extend(predictors.into_par_iter().map(|predictors| fit_law(cases, predictors)));
+    fits.iter_mut().for_each(|fit| fit.compare(cases, limit_states));
     fits
 }
 
@@ -206,16 +181,12 @@ pub struct DemandFit {
     pub r2: Option<f64>,
     /// R2 of both planes, each about the mean on its own side, as in the paper.
     pub r2_pooled: Option<f64>,
-    /// R2 of both planes about the mean of all cases.
-    pub r2_overall: Option<f64>,
     /// Mean log-likelihood of the cases of a cluster by a fit to the others; of two planes, over both.
     pub held_out_log_score: Option<f64>,
     /// Slope of ln EDP on its mean by a fit to the others: 1 is best, below it the regression is too steep.
     pub calibration_slope: Option<f64>,
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
-    pub transition_low: Option<f64>,
-    pub transition_high: Option<f64>,
     pub n: i64,
     /// Least and largest value of each measure among the cases.
     pub im_x_low: Option<f64>,
@@ -265,7 +236,6 @@ impl DemandFit {
             beta: fitted.map(LinearFit::residual_sd),
             r2: fitted.map(LinearFit::r2),
             r2_pooled: None,
-            r2_overall: None,
             held_out_log_score: held_out.as_ref().map(|cases| {
                 let score = |(&(mean, sd), ln_edp): (&(f64, f64), &f64)| {
                     normal::ln_density((ln_edp - mean) / sd) - sd.ln()
@@ -277,8 +247,6 @@ impl DemandFit {
                 Some(least_squares(&[means], &sample.y).ok()?.fit.coefficients[1])
             }),
             transition_found: None,
-            transition_low: None,
-            transition_high: None,
             n: sample.y.len() as i64,
             im_x_low: sample.range(0).map(|range| range.low),
             im_x_high: sample.range(0).map(|range| range.high),
@@ -293,11 +261,10 @@ impl DemandFit {
         }
     }
 
-    /// Compares P_ex at limit states with the share of the cases that exceed them: a fit that is usable may
-    /// be a poor one.
-    pub fn compared(self, cases: &Cases, limit_states: &[f64]) -> DemandFit {
-        let Some(beta) = self.beta else { return self };
-        let largest_difference = limit_states.iter().filter_map(|&limit_state| {
+    /// Compares P_ex at limit states with the share of the cases that exceed them.
+    fn compare(&mut self, cases: &Cases, limit_states: &[f64]) {
+        let Some(beta) = self.beta else { return };
+        let differences = limit_states.iter().filter_map(|&limit_state| {
             let pairs = cases.all.iter().filter(|case| self.holds_at(case.measures.im4)).filter_map(|case| {
                 let ims = values(&self.im_x, self.im_y.as_ref(), &case.measures)?;
                 let p = p_exceeding(ln_median_demand(&self.coefficients, &ims), limit_state, beta);
@@ -306,12 +273,10 @@ impl DemandFit {
             let (probabilities, events): (Vec<f64>, Vec<bool>) = pairs.unzip();
             largest_difference(&probabilities, &events)
         });
-        let largest_difference = largest_difference.reduce(f64::max);
-        let status = match self.status {
-            FitStatus::Ok => FitStatus::by_difference(largest_difference),
-            status => status,
-        };
-        DemandFit { largest_difference, status, ..self }
+        self.largest_difference = differences.reduce(f64::max);
+        if self.status == FitStatus::Ok {
+            self.status = FitStatus::by_difference(self.largest_difference);
+        }
     }
 
     /// The residual sum of squares, and that about the mean.
@@ -370,23 +335,20 @@ impl DemandFit {
         let dispersions =
             [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1].abs(), error_of_zeta))];
         let quantile = quantile(confidence, self.degrees);
-        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| {
-            let Interval { low, high, .. } = parameter.around(value, quantile * standard_error);
-            ParameterRow {
-                suite: self.suite.clone(),
-                structure: self.structure.clone(),
-                model: self.model.to_string(),
-                im_x: self.im_x.clone(),
-                im_y: self.im_y.clone(),
-                range_low: self.range_low,
-                parameter,
-                value,
-                standard_error,
-                low,
-                high,
-                confidence,
-                status: self.status,
-            }
+        let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
+            suite: self.suite.clone(),
+            structure: self.structure.clone(),
+            model: self.model.to_string(),
+            im_x: self.im_x.clone(),
+            im_y: self.im_y.clone(),
+            range_low: self.range_low,
+            parameter,
+            value,
+            standard_error,
+            low: parameter.around(value, quantile * standard_error).low,
+            high: parameter.around(value, quantile * standard_error).high,
+            confidence,
+            status: self.status,
         });
         rows.collect()
     }

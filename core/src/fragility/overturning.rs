@@ -63,8 +63,6 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         n: sample.y.len() as i64,
         n_events: sample.y.iter().filter(|happened| **happened).count() as i64,
         log_likelihood: fitted.map(|probit| probit.log_likelihood),
-        aic: fitted.map(|probit| probit.aic()),
-        bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
         held_out_log_score: held_out.as_ref().map(|z| {
@@ -150,8 +148,6 @@ pub struct CurveFit {
     pub n: i64,
     pub n_events: i64,
     pub log_likelihood: Option<f64>,
-    pub aic: Option<f64>,
-    pub bic: Option<f64>,
     /// Area under the receiver operating characteristic, on the fitted cases like the Brier score.
     pub auc: Option<f64>,
     pub brier: Option<f64>,
@@ -229,7 +225,6 @@ impl CurveFit {
             let value = if parameter == Parameter::Beta { value.abs() } else { value };
             let standard_error = delta_variance(&self.covariance, &gradient).sqrt();
             let half_width = quantile(confidence, self.degrees) * standard_error;
-            let Interval { low, high, .. } = parameter.around(value, half_width);
             ParameterRow {
                 suite: self.suite.clone(),
                 structure: self.structure.clone(),
@@ -240,8 +235,8 @@ impl CurveFit {
                 parameter,
                 value,
                 standard_error,
-                low,
-                high,
+                low: parameter.around(value, half_width).low,
+                high: parameter.around(value, half_width).high,
                 confidence,
                 status: self.status,
             }

@@ -36,16 +36,6 @@ pub struct ProbitFit {
     pub status: FitStatus,
 }
 
-impl ProbitFit {
-    pub fn aic(&self) -> f64 {
-        2.0 * self.fit.coefficients.len() as f64 - 2.0 * self.log_likelihood
-    }
-
-    pub fn bic(&self) -> f64 {
-        self.fit.coefficients.len() as f64 * (self.fit.n as f64).ln() - 2.0 * self.log_likelihood
-    }
-}
-
 /// Computes the log-likelihood (Eq. 21): the sum of ln Phi(z) over events (overturning) and ln(1 - Phi(z))
 /// over other cases, z = X b being (ln IM - mu) / beta of Eqs. 20 and 24. `x` is n x k, `b` has k elements.
 pub fn log_likelihood(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>) -> f64 {
@@ -97,7 +87,7 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
     if !converged {
         return Err(FitStatus::NotConverged);
     }
-    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY, events.len());
+    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY);
     let log_likelihood = log_likelihood(&design.x, events, &at);
     Ok(ProbitFit { fit, log_likelihood, largest_difference: None, status: FitStatus::Ok })
 }

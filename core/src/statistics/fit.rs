@@ -55,17 +55,15 @@ pub struct Fit {
     pub clusters: usize,
     /// Degrees of freedom of the limits without clusters: n - k of least squares, infinite of a likelihood.
     pub degrees_of_freedom: f64,
-    pub n: usize,
 }
 
 impl Fit {
-    /// Makes a fit of `n` cases, without clusters.
+    /// Makes a fit without clusters.
     pub(super) fn new(
         (coefficients, covariance): (DVector<f64>, DMatrix<f64>),
         degrees_of_freedom: f64,
-        n: usize,
     ) -> Fit {
-        Fit { coefficients, covariance, clustered: None, clusters: 0, degrees_of_freedom, n }
+        Fit { coefficients, covariance, clustered: None, clusters: 0, degrees_of_freedom }
     }
 
     /// Takes the clustered covariance of many clusters; that of two and more only widens the model's.

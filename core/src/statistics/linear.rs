@@ -38,8 +38,7 @@ pub fn least_squares(x: &[impl AsRef<[f64]>], y: &[f64]) -> Result<LinearFit, Fi
     b += &inverse * design.x.tr_mul(&(&y - &design.x * &b));
     let rss = (&y - &design.x * &b).norm_squared();
     let degrees_of_freedom = (y.len() - b.len()) as f64;
-    let fit =
-        Fit::new(design.to_given(&b, &(inverse * (rss / degrees_of_freedom))), degrees_of_freedom, y.len());
+    let fit = Fit::new(design.to_given(&b, &(inverse * (rss / degrees_of_freedom))), degrees_of_freedom);
     Ok(LinearFit { fit, rss, tss: y.add_scalar(-mean).norm_squared() })
 }
 

@@ -87,7 +87,7 @@ fn limits_of_a_share_equal_those_of_scipy() {
 /// these measures.
 fn scores(safe: &Cases, overturning: &Cases, measures: &[&str]) -> [Vec<[Option<f64>; 2]>; 2] {
     let asked: Vec<Predictors> = measures.iter().map(|one| one.parse().unwrap()).collect();
-    let demand = fit_demand(safe, Some(1.3), 0.95, &asked, false);
+    let demand = fit_demand(safe, Some(1.3), &[0.1], &asked, false);
     let curves = fit_curves(overturning, Event::Overturning, &asked, false);
     let of_demand = |one: &Predictors| demand.iter().skip(2).find(|fit| fit.predictors() == *one);
     let of_curves = |one: &Predictors| curves.iter().find(|fit| fit.predictors() == *one);
@@ -118,7 +118,7 @@ fn each_score_equals_that_of_statsmodels_and_scipy() {
             }
         }
     }
-    for plane in &fit_demand(&safe, Some(1.3), 0.95, &[], false) {
+    for plane in &fit_demand(&safe, Some(1.3), &[0.1], &[], false) {
         close(plane.held_out_log_score.unwrap(), of("p_ex_im4:im3_broken", "log_score"), 1e-7);
     }
 }

@@ -32,11 +32,7 @@ pub struct CurveLine {
     pub theta: Interval<Option<f64>>,
     pub beta: Interval<Option<f64>>,
     lambda: Option<f64>,
-    n: i64,
     n_events: i64,
-    auc: Option<f64>,
-    held_out_log_score: Option<f64>,
-    calibration_slope: Option<f64>,
     largest_difference: Option<f64>,
     status: FitStatus,
 }
@@ -55,11 +51,7 @@ impl CurveLine {
             theta: of(Parameter::Theta),
             beta: of(Parameter::Beta),
             lambda: of(Parameter::Lambda).value,
-            n: fit.n,
             n_events: fit.n_events,
-            auc: fit.auc,
-            held_out_log_score: fit.held_out_log_score,
-            calibration_slope: fit.calibration_slope,
             largest_difference: fit.largest_difference,
             status: fit.status,
         }
