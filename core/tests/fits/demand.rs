@@ -3,13 +3,13 @@
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandModel, Measure, PLANE, fit_demand, fit_plane, fit_planes, fit_power_law,
-    ln_median_demand, p_exceeding, scan_transition, transition,
+    Cases, DemandModel, Measure, fit_demand, fit_plane, fit_planes, fit_power_law, ln_median_demand,
+    p_exceeding, scan_transition, transition,
 };
 use rockfrag_core::motion::IntensityMeasures;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::distributions::t_quantile;
-use rockfrag_core::statistics::{FitStatus, least_squares, normal};
+use rockfrag_core::statistics::{FitStatus, normal};
 
 use crate::common::{answers, cases, close, data, random};
 
