@@ -120,11 +120,11 @@ fn curves_that_cannot_be_made_have_a_status_and_no_numbers() {
         (Event::Rocking, Measure::Im4, None, FitStatus::TooFewEvents),
         (Event::Overturning, Measure::Im1, None, FitStatus::TooFewEvents),
         (Event::Overturning, Measure::Im3, Some(Measure::Im3Inverse), FitStatus::Degenerate),
-        (Event::Overturning, Measure::Im3, None, FitStatus::WrongSign),
+        (Event::Overturning, Measure::Im3, None, FitStatus::Inverse),
     ] {
         let fit = fit_curve(&cases, event, im_x, im_y);
         assert_eq!(fit.status, status);
-        assert!(status == FitStatus::WrongSign || fit.coefficients.is_empty());
+        assert!(status == FitStatus::Inverse || fit.coefficients.is_empty());
     }
     let overturned = cases.all.iter_mut().filter(|case| case.outcome == Outcome::Overturned);
     overturned.for_each(|case| case.measures.im4 += 100.0);
