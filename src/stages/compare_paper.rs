@@ -56,7 +56,7 @@ impl Stage for ComparePaper {
         let numbers = rows::batch(compared.iter().filter(|row| row.plane.is_none()))?;
         let columns = "quantity suite structure published mean z p ours ours_z".split(' ');
         let summary = format!(
-            "{}\n{}\n\nplanes of Table II: published / mean of seeds / this run (its z if {FAR} or more)\n{}\n\
+            "{}\n{}\n\nplanes of Table II: published / mean of seeds / this run (its z from {FAR} on)\n{}\n\
              other numbers\n{}",
             verdict(&compared),
             of_this_run(&compared, &differences),
@@ -132,8 +132,8 @@ fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
     differences
 }
 
-/// The eight planes of Table II: suite, structure, side of the transition, ln a, b1, b2 and R2, each as published,
-/// as the mean of the seeds, and of this run; T2 and p of the published plane.
+/// The eight planes of Table II: suite, structure, side of the transition, ln a, b1, b2 and R2, each as
+/// published, as the mean of the seeds, and of this run; T2 and p of the published plane.
 pub fn table_two(compared: &[Comparison]) -> Vec<[String; 9]> {
     let group = |row: &Comparison| (row.suite.clone(), row.structure.clone(), row.plane.clone());
     let planes = compared.chunk_by(|a, b| group(a) == group(b)).filter_map(|rows| {

@@ -124,7 +124,7 @@ pub fn transition(scan: &[TransitionPoint]) -> Option<f64> {
 
 /// Fits two planes that meet at this IM4 (`None`: where their pooled residual is least or, with too few
 /// cases, where the paper's meet); if `all`, each measure alone and one plane over all cases; then what is
-/// `asked` for over all cases. P_ex at `limit_states` is compared with the share of the cases that exceed them.
+/// `asked` for over all cases. P_ex at `limit_states` is compared with the share of cases that exceed them.
 pub fn fit_demand(
     cases: &Cases,
     im4: Option<f64>,
@@ -193,7 +193,7 @@ pub struct DemandFit {
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// Largest difference of P_ex at the limit states from the share of events in bins of cases, beyond chance.
+    /// Largest difference of P_ex at the limit states from the share of events in bins, beyond chance.
     pub largest_difference: Option<f64>,
     pub status: FitStatus,
 }

@@ -212,8 +212,8 @@ impl CurveFit {
         })
     }
 
-    /// lambda (of a hybrid), mu, beta and theta, with errors by the delta method; none without a fit. beta of a
-    /// falling curve is that over the inverse.
+    /// lambda (of a hybrid), mu, beta and theta, with errors by the delta method; none without a fit. beta of
+    /// a falling curve is that over the inverse.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         if self.coefficients.is_empty() {
             return Vec::new();

@@ -1,7 +1,7 @@
 //! Scores of predicted probabilities, and quantiles of a sample.
 
-/// A bin of [`largest_difference`] has at least this sum of p (1 - p), by which the standard error of its share
-/// is at most 1/12.
+/// A bin of [`largest_difference`] has at least this sum of p (1 - p), by which the standard error of its
+/// share is at most 1/12.
 const LEAST_VARIANCE: f64 = 9.0;
 const MOST_BINS: f64 = 10.0;
 /// Chance explains a difference of fewer standard errors (99 %).

@@ -83,8 +83,8 @@ pub fn verdict(compared: &[Comparison]) -> String {
     let [others, all_others] = agree(|row| row.plane.is_none());
     let chosen = if READINGS > 1 { format!(" (reading chosen among {READINGS})") } else { String::new() };
     format!(
-        "{planes} of the paper's {all_planes} planes and {others} of its {all_others} other numbers agree with \
-         twenty seeds of rockfrag (p > {LEVEL}){chosen}."
+        "{planes} of the paper's {all_planes} planes and {others} of its {all_others} other numbers agree \
+         with twenty seeds of rockfrag (p > {LEVEL}){chosen}."
     )
 }
 
@@ -101,8 +101,8 @@ fn of_seeds(numbers: &[&Published], seeds: &[SeedValue]) -> Vec<Vec<f64>> {
 }
 
 /// Hotelling's T2 of one more of k numbers, whose errors have further `variances`, about the mean of a sample
-/// of n: their covariance is that of the sample, times 1 + 1/n for the error of the mean. T2 (n - k) / (k (n -
-/// 1)) is F with k and n - k degrees of freedom (Hotelling 1931, Annals of Mathematical Statistics 2,
+/// of n: their covariance is that of the sample, times 1 + 1/n for the error of the mean. T2 (n - k) / (k
+/// (n - 1)) is F with k and n - k degrees of freedom (Hotelling 1931, Annals of Mathematical Statistics 2,
 /// 360-378). None if n <= k.
 pub fn hotelling(sample: &[Vec<f64>], one_more: &[f64], variances: &[f64]) -> Option<Distance> {
     let (n, k) = (sample.len() as f64, one_more.len() as f64);

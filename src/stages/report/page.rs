@@ -256,7 +256,7 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     if tables.answers.is_empty() {
         all.extend([
             table(
-                "Further numbers of the paper, with *z* of each, and of that of this run, about the mean of seeds",
+                "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
                 published,
                 "quantity structure suite published mean z ours ours_z",
             ),
