@@ -15,6 +15,10 @@ pub const LIMIT_STATE: f64 = 0.10;
 pub const ETA: f64 = 0.92;
 /// Name, p (rad/s) and alpha (rad) of the two structures.
 pub const STRUCTURES: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrical-equipment", 2.5, 0.20)];
+/// alpha (rad) that the text prints for the frame, and Table II for the equipment.
+pub const OTHER_ALPHA: [f64; 2] = [0.149, 0.19];
+/// Readings of section 2.1 among which the set-up was chosen by Table II.
+pub const READINGS: usize = 1;
 
 pub fn structures() -> Vec<Structure> {
     STRUCTURES.map(|(name, p, alpha)| Structure::new(name, p, alpha, ETA).expect("possible values")).into()
@@ -37,14 +41,25 @@ pub struct Published {
     pub place: String,
     pub suite: String,
     pub structure: String,
-    /// None in a row with the test of a whole plane.
-    pub published: Option<f64>,
+    /// Of a number of a plane, its side of the transition: below or above.
+    pub plane: Option<String>,
+    pub published: f64,
     /// Least and largest number that round to the printed one.
-    pub print_low: Option<f64>,
-    pub print_high: Option<f64>,
-    /// Hotelling's T2 of a plane against ours over seeds, and its p-value (scripts/seed_spread.py).
-    pub t2: Option<f64>,
-    pub t2_p: Option<f64>,
+    pub print_low: f64,
+    pub print_high: f64,
+}
+
+impl Published {
+    /// Whether both are the same number, or numbers of one plane.
+    pub fn is_tested_with(&self, other: &Published) -> bool {
+        let group = |one: &Published| (one.suite.clone(), one.structure.clone(), one.plane.clone());
+        group(self) == group(other) && (self.plane.is_some() || self.quantity == other.quantity)
+    }
+
+    /// The variance of the rounding in print, width^2 / 12.
+    pub fn rounding(&self) -> f64 {
+        (self.print_high - self.print_low).powi(2) / 12.0
+    }
 }
 
 /// Our value of a published quantity for one seed: a row of data/seed_spread.csv.

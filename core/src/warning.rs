@@ -74,7 +74,7 @@ impl Warning {
             OtherStructure => "calibrated on responses of a different structure (--name)",
             Extrapolated => "outside the range of motions that the model was fitted to",
             UnusualStructure => "the surface was fitted to p 0.4 to 8 rad/s, alpha to 0.50, eta from 0.70",
-            PoorFit => "the paper's curve or planes do not fit these responses",
+            PoorFit => "the paper's curve or planes differ from the observed shares by more than 0.15",
             NoEvents => "all or no responses overturned: the estimate rests on other structures",
             FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",
             FewClusters => "fewer than ten earthquakes or cells: limits use a typical spread between them",

@@ -9,7 +9,7 @@ use rockfrag_core::object::{Object, structure_warnings};
 use rockfrag_core::records::implausibility::implausibility;
 use rockfrag_core::rocking::{Ground, Record, TracePoint, simulate, trace};
 use rockfrag_core::statistics::distributions::t_quantile;
-use rockfrag_core::statistics::{FitStatus, Interval, delta_variance, normal, tested_probit};
+use rockfrag_core::statistics::{FitStatus, Interval, clustered_probit, delta_variance, normal};
 use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
@@ -112,7 +112,7 @@ pub fn fit_curve<'py>(
             return refuse(format!("confidence is {confidence}; expected a level from 0.5 to 1"));
         }
         let ln_im: Vec<f64> = im.iter().map(|im| im.ln()).collect();
-        Ok((tested_probit(&[&ln_im], &happened, &[]), happened))
+        Ok((clustered_probit(&[&ln_im], &happened, &[]), happened))
     };
     // Many cases are fitted on several threads.
     let (probit, happened) = run(py, None, None, fit)?;
@@ -128,14 +128,17 @@ pub fn fit_curve<'py>(
     };
     let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
     let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
-    let estimate = |DeltaEstimate { value, gradient }| {
-        Interval::around(value, quantile * delta_variance(covariance, &gradient).sqrt())
-    };
+    let half_width = |gradient: &[f64]| quantile * delta_variance(covariance, gradient).sqrt();
+    let estimate = |DeltaEstimate { value, gradient }| Interval::around(value, half_width(&gradient));
+    // The limits of a dispersion are on the scale of its logarithm.
+    let beta = beta(b);
+    let ln_beta = Interval::around(beta.value.abs().ln(), half_width(&beta.gradient) / beta.value.abs());
     let three = |Interval { value, low, high }: Interval| [value, low, high];
-    let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.fit.status };
+    let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.status };
     result.set_item("status", status.to_string())?;
     result.set_item("theta", three(estimate(mu(b)).map(f64::exp)))?;
-    result.set_item("beta", three(estimate(beta(b))))?;
+    result.set_item("beta", three(ln_beta.map(f64::exp)))?;
+    result.set_item("largest_difference", probit.largest_difference.unwrap_or(f64::NAN))?;
     result.set_item("coefficients", b)?;
     result.set_item("covariance", covariance)?;
     result.set_item("quantile", quantile)?;

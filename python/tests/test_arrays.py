@@ -68,7 +68,7 @@ def test_a_curve_is_the_probit_of_statsmodels():
     of_mu, of_beta = np.array([-1 / b[1], b[0] / b[1] ** 2]), np.array([0, -1 / b[1] ** 2])
     error_of_mu, error_of_beta = (np.sqrt(gradient @ covariance @ gradient) for gradient in (of_mu, of_beta))
     errors = 1.959964 * np.array([-1, 0, 1])
-    theta, beta = np.exp(-b[0] / b[1] + errors * error_of_mu), 1 / b[1] + errors * error_of_beta
+    theta, beta = np.exp(-b[0] / b[1] + errors * error_of_mu), np.exp(errors * error_of_beta * b[1]) / b[1]
     assert np.allclose([curve.theta_low, curve.theta, curve.theta_high], theta, rtol=1e-5)
     assert np.allclose([curve.beta_low, curve.beta, curve.beta_high], beta, rtol=1e-5)
     at = np.array([[0.3, 1.0], [2.0, 5.0]])

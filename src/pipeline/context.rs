@@ -133,7 +133,7 @@ impl Context {
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
         let (summary, warnings) = (summary.to_string(), self.warnings());
-        let made = Provenance { summary, warnings, ..self.plan.output(output) };
+        let made = Provenance { summary, warnings, ..self.plan.output(output).with_before() };
         locked(&self.written).push(writer.finish(&made)?);
         Ok(())
     }

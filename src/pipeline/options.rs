@@ -270,7 +270,7 @@ impl UsageError {
 pub struct SeveralErrors(pub Vec<String>);
 
 /// Lines that are printed of a list.
-const MOST_LINES: usize = 10;
+const MOST_LINES: usize = 16;
 
 /// Returns the first lines of a printed list after its headings, and where all are.
 pub fn first_lines(text: &str, headings: usize, file: &Path) -> String {

@@ -1,19 +1,18 @@
-//! compare-paper: each published number beside that of this run.
+//! compare-paper: each published number beside ours over seeds, and beside that of this run.
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::DemandFit;
-use rockfrag_core::paper;
+use rockfrag_core::paper::{self, OTHER_ALPHA};
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::studies::comparison::{Comparison, compare};
+use rockfrag_core::studies::comparison::{Comparison, compare, verdict};
 use serde::{Deserialize, Serialize};
 
 use super::default_options;
-use super::shared::fits::text;
-use crate::number::{counted, fixed};
+use crate::number::{aligned, fixed, significant};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::paths::Read;
@@ -21,11 +20,11 @@ use crate::table::frame;
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
 
-/// Compare fits of the paper's set-up with the published numbers
+/// Compare what the paper publishes with twenty seeds of its set-up, and with the fits of this run
 #[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag compare-paper\n\
-    rockfrag compare-paper --pex fits/pex.parquet --pro fits/pro.parquet --all --out paper.parquet")]
+    rockfrag compare-paper --pex fits/pex.parquet --pro fits/pro.parquet --out paper.parquet")]
 pub struct ComparePaper {
     /// Fits of fit-pex
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pex.parquet")]
@@ -36,125 +35,119 @@ pub struct ComparePaper {
     /// Comparison to write
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "paper.parquet")]
     out: PathBuf,
-    /// Print every number, not only those that differ from those of this run
-    #[arg(long)]
-    #[serde(skip_serializing)]
-    all: bool,
 }
 
 impl Stage for ComparePaper {
     fn inputs(&self) -> Vec<Read> {
-        let beside = Read::new("beside", UPSTREAM_FILES.map(|name| self.pex.with_file_name(name)));
-        let beside = Read { optional: true, ..beside };
-        vec![Read::new("pex", [&self.pex]), Read::new("pro", [&self.pro]), beside]
+        vec![Read::new("pex", [&self.pex]), Read::new("pro", [&self.pro])]
     }
 
     fn outputs(&self) -> Vec<PathBuf> {
         vec![self.out.to_path_buf()]
     }
 
-    fn printed(&self, verdict: &str) -> anyhow::Result<Option<String>> {
-        self.text(verdict, &rows::read(&self.out)?).map(Some)
-    }
-
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let demand: Vec<DemandFit> = rows::read(&self.pex)?;
         let compared = compare(&demand, &rows::read(&self.pro)?);
-        let differences = [other_structures(&demand), other_options(&self.pex)].concat();
-        let verdict = verdict(&compared, &differences);
-        context.write::<Comparison>(&self.out, &compared, &verdict)?;
-        self.text(&verdict, &compared)
+        let fits = [&self.pex, &self.pro].map(|path| Provenance::read(path).ok().flatten());
+        let differences = [other_structures(&demand), other_options(fits.into_iter().flatten())].concat();
+        let heads = ["suite", "structure", "plane", "ln a", "b1", "b2", "R2", "T2", "p"].map(str::to_string);
+        let planes: Vec<_> = [heads].into_iter().chain(table_two(&compared)).map(Vec::from).collect();
+        let numbers = rows::batch(compared.iter().filter(|row| row.plane.is_none()))?;
+        let columns = "quantity suite structure published mean z p ours ours_z".split(' ');
+        let summary = format!(
+            "{}\n{}\n\nplanes of Table II: published / mean of seeds / this run (its z from {FAR} on)\n{}\n\
+             other numbers\n{}",
+            verdict(&compared),
+            of_this_run(&compared, &differences),
+            aligned(&planes, |column| column > 2),
+            frame::text(&frame::from_batch(&numbers)?.select(columns)?),
+        );
+        context.write::<Comparison>(&self.out, &compared, &summary)?;
+        Ok(summary)
     }
 }
 
-impl ComparePaper {
-    fn text(&self, verdict: &str, compared: &[Comparison]) -> anyhow::Result<String> {
-        let differs = |row: &&Comparison| row.z.is_some_and(|z| z.abs() >= AGREES);
-        let rows = match self.all {
-            true => frame::text(&frame::from_batch(&rows::batch(compared)?)?),
-            false => text(compared.iter().filter(differs), COLUMNS, &self.out)?,
-        };
-        Ok(verdict.to_string() + &rows)
-    }
-}
+/// A number of the run this many standard deviations from the mean of the seeds is not one more of them.
+const FAR: f64 = 3.0;
 
-const COLUMNS: &str = "quantity place suite structure published ours z";
-/// Within this many standard deviations over seeds a published number agrees with that of the run.
-const AGREES: f64 = 2.0;
-
-/// How many published numbers agree with those of this run, and what is not the paper's set-up.
-fn verdict(compared: &[Comparison], differences: &[String]) -> String {
-    let z: Vec<f64> = compared.iter().filter_map(|row| row.z).collect();
-    let agree = z.iter().filter(|z| z.abs() < AGREES).count();
-    let others = compared.iter().filter(|row| row.published.is_some()).count() - z.len();
-    let count = format!(
-        "{agree} of {} are within two standard deviations (over 20 seeds) of those of this run, {} are not; \
-         {others} more cannot be compared.\n",
-        counted(z.len(), "published number"),
-        z.len() - agree
-    );
-    match differences {
-        [] => count,
-        _ => format!("not the paper's set-up ({}): {count}", differences.join("; ")),
-    }
+/// Whether this run is in the paper's set-up, and how many of its numbers are not those of one more seed.
+fn of_this_run(compared: &[Comparison], differences: &[String]) -> String {
+    let z: Vec<f64> = compared.iter().filter_map(|row| row.ours_z).collect();
+    let far = z.iter().filter(|z| z.abs() >= FAR).count();
+    let set_up = match differences {
+        [] => "in the paper's set-up".to_string(),
+        _ => format!("not in the paper's set-up ({})", differences.join("; ")),
+    };
+    let numbers = z.len();
+    format!(
+        "This run is {set_up}. {FAR} or more standard deviations from the seeds: {far} of {numbers} numbers."
+    )
 }
 
 /// Which of the paper's structures have no fits.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let is_fitted = |Structure { name, p_rad_s, alpha_rad, eta, .. }: &Structure| {
+    let is_fitted = |(Structure { name, p_rad_s, alpha_rad, eta, .. }, other): &(Structure, f64)| {
         let mut its = demand.iter().filter(|fit| fit.structure == *name);
-        its.any(|fit| (fit.p_rad_s, fit.alpha_rad, fit.eta) == (*p_rad_s, *alpha_rad, *eta))
+        its.any(|fit| {
+            (fit.p_rad_s, fit.eta) == (*p_rad_s, *eta) && [*alpha_rad, *other].contains(&fit.alpha_rad)
+        })
     };
-    let others = paper::structures().into_iter().filter(|structure| !is_fitted(structure));
-    others.map(|structure| format!("no fits of its {}", structure.name)).collect()
+    let others = paper::structures().into_iter().zip(OTHER_ALPHA).filter(|structure| !is_fitted(structure));
+    others.map(|(structure, _)| format!("no fits of its {}", structure.name)).collect()
 }
 
+/// The stages of the paper, whose defaults are its set-up.
+const STAGES: [&str; 5] = ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"];
 /// Options that do not change what is compared.
-const NEUTRAL: [&str; 7] = ["seed", "partition", "housner", "sa", "structure", "structures", "trace"];
+const NEUTRAL: [&str; 10] =
+    ["all", "housner", "in", "motions", "partition", "sa", "seed", "structure", "structures", "trace"];
+/// Options that may have more than the paper's.
+const LISTS: [&str; 3] = ["limit-state", "pairs", "suite"];
 
-/// The tables of the stages before the fits, the last first.
-const UPSTREAM_FILES: [&str; 3] = ["responses.parquet", "motions.parquet", "scenarios.parquet"];
-
-/// What options of the stages before the fits are not the paper's, which are the defaults; as far as the
-/// files of these stages are beside the fits.
-fn other_options(fits: &Path) -> Vec<String> {
-    let read = |path: &Path| Provenance::read(path).ok().flatten();
-    let (mut differences, mut child) = (Vec::new(), read(fits).unwrap_or_default());
-    for file in UPSTREAM_FILES {
-        let made = read(&fits.with_file_name(file)).filter(|made| child.input("in") == Some(made.key()));
-        let Some(made) = made else { break };
-        let paper = default_options(&made.stage);
-        let flags: BTreeSet<&String> = made.arguments.keys().chain(paper.keys()).collect();
-        for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
-            let now = made.arguments.get(flag).map(text_of).or(made.names(flag));
-            let [now, then] = [now, paper.get(flag).map(text_of)].map(|text| text.unwrap_or("none".into()));
-            if now != then {
-                differences.push(format!("{} --{flag} {now}, not {then}", made.stage));
+/// What options of the fits, and of the stages before, are not the paper's.
+fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
+    let stated: Vec<(String, BTreeMap<String, String>)> = fits.flat_map(|made| made.all_stated()).collect();
+    let mut differences = Vec::new();
+    for stage in STAGES {
+        let mut its = stated.iter().filter(|(name, _)| name == stage).map(|(_, stated)| stated).peekable();
+        if its.peek().is_none() {
+            differences.push(format!("no {stage}"));
+        }
+        let paper = default_options(stage);
+        for stated in its {
+            let flags: BTreeSet<&String> = stated.keys().chain(paper.keys()).collect();
+            for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
+                let [now, then] = [stated.get(flag).cloned(), paper.get(flag).map(text_of)]
+                    .map(|text| text.unwrap_or("none".into()));
+                let has =
+                    |one: &str| LISTS.contains(&flag.as_str()) && now.split(',').any(|other| other == one);
+                let difference = format!("{stage} --{flag} {now}, not {then}");
+                if now != then && !then.split(',').all(has) && !differences.contains(&difference) {
+                    differences.push(difference);
+                }
             }
         }
-        child = made;
     }
     differences
 }
 
-/// The eight planes of Table II: suite, structure, side of the transition, ln a, b1, b2 and R2.
-pub fn table_two(compared: &[Comparison]) -> impl Iterator<Item = [String; 7]> {
-    let planes = compared.iter().filter(|number| number.quantity.ends_with("_plane"));
-    planes.map(|Comparison { quantity, suite, structure, .. }| {
-        let [ln_a, b1, b2, r2] = ["ln_a", "b1", "b2", "r2"].map(|name| {
-            let its = (&quantity.replace("plane", name), suite, structure);
-            let number = compared.iter().find(|row| (&row.quantity, &row.suite, &row.structure) == its);
-            number.map_or(String::new(), both)
-        });
-        let side = if quantity == "low_plane" { "below" } else { "above" };
-        [suite.clone(), structure.clone(), side.to_string(), ln_a, b1, b2, r2]
-    })
+/// The eight planes of Table II: suite, structure, side of the transition, ln a, b1, b2 and R2, each as
+/// published, as the mean of the seeds, and of this run; T2 and p of the published plane.
+pub fn table_two(compared: &[Comparison]) -> Vec<[String; 9]> {
+    let group = |row: &Comparison| (row.suite.clone(), row.structure.clone(), row.plane.clone());
+    let planes = compared.chunk_by(|a, b| group(a) == group(b)).filter_map(|rows| {
+        let [ln_a, b1, b2, r2] = rows.iter().map(in_words).collect::<Vec<_>>().try_into().ok()?;
+        let (suite, structure, plane) = group(&rows[0]);
+        let [t2, p] = [rows[0].test.t2, rows[0].test.p].map(|number| significant(number, 2));
+        Some([suite, structure, plane?, ln_a, b1, b2, r2, t2, p])
+    });
+    planes.collect()
 }
 
-/// A number as published, of this run, and how far they are apart.
-fn both(row: &Comparison) -> String {
-    let [published, ours] =
-        [row.published, row.ours].map(|value| value.map_or("-".to_string(), |value| fixed(value, 2)));
-    let z = row.z.map_or(String::new(), |z| format!(" ({z:+.1})"));
-    format!("{published} / {ours}{z}")
+fn in_words(row: &Comparison) -> String {
+    let [published, mean] = [row.published, row.mean].map(|value| fixed(value, 2));
+    let ours = row.ours.map_or("-".to_string(), |value| fixed(value, 2));
+    let far = row.ours_z.filter(|z| z.abs() >= FAR).map_or(String::new(), |z| format!(" ({z:+.1})"));
+    format!("{published} / {mean} / {ours}{far}")
 }

@@ -77,7 +77,7 @@ impl Stage for FitPex {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
             cases.raise_demands(self.demand_floor);
-            fits.extend(fit_demand(cases, Some(self.transition), self.confidence, &self.pairs, self.all));
+            fits.extend(fit_demand(cases, Some(self.transition), &self.limit_state, &self.pairs, self.all));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));
             bar.advance(1)?;
@@ -102,4 +102,5 @@ impl Stage for FitPex {
     }
 }
 
-const COLUMNS: &str = "suite structure model im_x im_y range_low n r2 beta held_out_log_score status";
+const COLUMNS: &str = "suite structure model im_x im_y range_low n r2 beta held_out_log_score \
+                       largest_difference status";

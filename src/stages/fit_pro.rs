@@ -4,12 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::{
-    Calibration, CurveFit, Event, Parameter, ParameterRow, Predictors, fit_curves,
-};
+use rockfrag_core::fragility::{Calibration, CurveFit, Event, Predictors, fit_curves};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fits::{by_score, text, warnings};
+use super::shared::fits::{CurveLine, by_score, text, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::{observed, responses};
 use crate::pipeline::Stage;
@@ -32,7 +30,12 @@ pub struct FitPro {
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "pro.parquet")]
     out: PathBuf,
     /// Measures, and pairs of them for hybrid curves, besides IM4 and IM5; or columns of --motions
-    #[arg(long, value_name = "IM[:IM],...", value_delimiter = ',', default_value = "im4:im3_inv")]
+    #[arg(
+        long,
+        value_name = "IM[:IM],...",
+        value_delimiter = ',',
+        default_value = "im4:im3_inv,im5:im3_inv"
+    )]
     pairs: Vec<Predictors>,
     /// Motions of these responses; p and g tan alpha make columns in m/s2, m/s, m and s dimensionless
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
@@ -77,22 +80,21 @@ impl Stage for FitPro {
             }
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
-        let mut best_first: Vec<&CurveFit> = fits.iter().collect();
-        for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
-            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-        }
-        let is_printed = |row: &&ParameterRow| matches!(row.parameter, Parameter::Theta | Parameter::Beta);
-        let medians = parameters.iter().filter(is_printed);
         let [calibration_out, parameters_out] =
             ["calibration", "parameters"].map(|name| part(&self.out, name));
         let mut summary = "cases, events, and events that the surface as shipped expects\n".to_string();
         summary += &text(&calibrations, "suite structure n n_events expected", &calibration_out)?;
         if !fits.is_empty() {
-            summary += "\nlognormal curves (paper); log score of held-out cells or earthquakes\n";
-            summary += &text(best_first, CURVE_COLUMNS, &self.out)?;
-            summary +=
-                &format!("\nmedian theta and dispersion beta, with {} % limits\n", 100.0 * self.confidence);
-            summary += &text(medians, PARAMETER_COLUMNS, &parameters_out)?;
+            let mut best_first: Vec<&CurveFit> = fits.iter().collect();
+            for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
+                its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
+            }
+            let lines: Vec<_> = best_first.iter().map(|fit| CurveLine::new(fit, self.confidence)).collect();
+            let percent = 100.0 * self.confidence;
+            summary += &format!(
+                "\nlognormal curves (paper), the best on held-out cases first, with {percent} % limits\n"
+            );
+            summary += &text(&lines, CURVE_COLUMNS, &self.out)?;
         }
         context.warn(warnings(&calibrations));
         context.write(&calibration_out, &calibrations, &summary)?;
@@ -102,5 +104,5 @@ impl Stage for FitPro {
     }
 }
 
-const CURVE_COLUMNS: &str = "suite structure im_x im_y held_out_log_score status";
-const PARAMETER_COLUMNS: &str = "suite structure im_x im_y parameter value low high";
+const CURVE_COLUMNS: &str = "suite structure im_x im_y theta theta_low theta_high beta beta_low beta_high \
+                             lambda largest_difference status";

@@ -11,7 +11,7 @@ use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
     CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
 };
-use rockfrag_core::statistics::FitStatus;
+use rockfrag_core::statistics::{FEW_EVENTS, FitStatus};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 use serde::{Deserialize, Serialize};
@@ -36,8 +36,8 @@ const ANALYSES: usize = 480;
 const MOST_SAMPLES: usize = 1 << 20;
 
 /// What is printed of each structure.
-const COLUMNS: &str =
-    "suite structure measure n n_safe n_below half_overturn_at theta theta_low theta_high beta";
+const COLUMNS: &str = "suite structure measure theta theta_low theta_high beta n n_safe n_below \
+                       half_overturn_at status";
 
 /// Scale motions until they overturn each structure (incremental dynamic analysis)
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -151,8 +151,8 @@ impl Stage for Ida {
         let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));
         let mut weakest_first: Vec<&CapacityFitRow> = fits.iter().collect();
-        let half = |row: &CapacityFitRow| row.half_overturn_at.or(row.theta.value).unwrap_or(f64::INFINITY);
-        weakest_first.sort_by(|a, b| half(a).total_cmp(&half(b)));
+        let median = |row: &CapacityFitRow| row.theta.value.unwrap_or(f64::INFINITY);
+        weakest_first.sort_by(|a, b| median(a).total_cmp(&median(b)));
         let summary = text(weakest_first, COLUMNS, &fragility_file)?;
         let capacities: Vec<CapacityRow> = scanned.into_iter().map(|case| case.capacity).collect();
         context.finish(stripes, &summary)?;
@@ -237,7 +237,11 @@ impl Ida {
             half_overturn_at: half_overturn_at(levels, cases),
             theta: fit.as_ref().map(|fit| fit.theta.into()).unwrap_or_default(),
             beta: fit.as_ref().map(|fit| fit.beta.into()).unwrap_or_default(),
-            status: fit.err().unwrap_or(FitStatus::Ok),
+            status: match fit {
+                Ok(_) if cases.len() as i64 - n_safe - n_below < FEW_EVENTS as i64 => FitStatus::FewEvents,
+                Ok(_) => FitStatus::Ok,
+                Err(status) => status,
+            },
         }
     }
 }

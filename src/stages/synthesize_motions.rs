@@ -89,7 +89,16 @@ struct SyntheticMotion {
     motion_id: String,
     suite: Suite,
     dt_s: f64,
-    scenario: Scenario,
+    scenario_id: i64,
+    cell: i32,
+    sample: i32,
+    mw: f64,
+    re_km: f64,
+    /// The parameters of the pulse; high frequencies alone have none.
+    vp_m_s: Option<f64>,
+    tp_s: Option<f64>,
+    gamma: Option<f64>,
+    nu_rad: Option<f64>,
     measures: MotionMeasures,
     #[serde(skip)]
     acceleration_m_s2: Vec<f32>,
@@ -199,11 +208,29 @@ fn synthesize(
 ) -> Vec<SyntheticMotion> {
     let synthetic = synthesizer.synthesize(scenario);
     let dt_s = synthetic.dt_s;
+    let Scenario { scenario_id, cell, sample, mw, re_km, vp_m_s, tp_s, gamma, nu_rad } = *scenario;
     let motions = suites.iter().map(|&suite| {
         let samples = synthetic.samples(suite).iter().copied();
         let (acceleration_m_s2, measures) = plan.measure_written(samples, dt_s);
-        let motion_id = suite.motion_id(scenario.scenario_id).to_string();
-        SyntheticMotion { motion_id, suite, dt_s, scenario: *scenario, measures, acceleration_m_s2 }
+        let motion_id = suite.motion_id(scenario_id).to_string();
+        let [vp_m_s, tp_s, gamma, nu_rad] =
+            [vp_m_s, tp_s, gamma, nu_rad].map(|of_pulse| Some(of_pulse).filter(|_| suite != Suite::Hfc));
+        SyntheticMotion {
+            motion_id,
+            suite,
+            dt_s,
+            scenario_id,
+            cell,
+            sample,
+            mw,
+            re_km,
+            vp_m_s,
+            tp_s,
+            gamma,
+            nu_rad,
+            measures,
+            acceleration_m_s2,
+        }
     });
     motions.collect()
 }

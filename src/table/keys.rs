@@ -67,6 +67,14 @@ impl Provenance {
     pub fn read(path: &Path) -> Result<Option<Provenance>, TableError> {
         Ok(Provenance::from_footer(file::metadata(path)?.metadata()))
     }
+
+    /// Returns it with what is stated of the tables that were read.
+    pub fn with_before(self) -> Provenance {
+        let read = self.inputs.values().flatten().filter(|file| is_table(&file.path));
+        let made = read.filter_map(|file| Provenance::read(&file.path).ok().flatten());
+        let before = made.flat_map(Provenance::all_stated).collect();
+        Provenance { before, ..self }
+    }
 }
 
 /// Computes the key of a table, or of the tables in a folder.

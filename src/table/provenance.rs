@@ -33,6 +33,8 @@ pub struct Provenance {
     pub inputs: BTreeMap<String, Vec<InputFile>>,
     /// Which of the files of the stage it is, from 0.
     pub output: usize,
+    /// The options, and names of files, of all stages before, by stage and flag.
+    pub before: BTreeMap<String, BTreeMap<String, String>>,
     /// Text printed by the stage.
     pub summary: String,
     pub warnings: Warnings,
@@ -127,6 +129,14 @@ impl Provenance {
     pub fn names(&self, flag: &str) -> Option<String> {
         let names = self.inputs.get(flag)?.iter().take(MOST_NAMED).map(|file| file.name.as_str());
         Some(names.collect::<Vec<_>>().join(", "))
+    }
+
+    /// Returns the options, and names of files, of this stage and all before.
+    pub fn all_stated(self) -> BTreeMap<String, BTreeMap<String, String>> {
+        let names = self.inputs.keys().filter_map(|flag| Some((flag.clone(), self.names(flag)?)));
+        let options = self.arguments.iter().map(|(flag, value)| (flag.clone(), text_of(value)));
+        let stated = names.chain(options).collect();
+        self.before.into_iter().chain([(self.stage, stated)]).collect()
     }
 
     /// Reads the provenance in a footer, of another version stage, version and summary at least; `None` if

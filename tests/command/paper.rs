@@ -95,7 +95,7 @@ fn the_bare_commands_in_an_empty_folder_make_table_ii_of_the_run() {
     let bare = planes(&folder.path().join("pex.parquet"));
     assert_eq!(bare.len(), 8);
     assert_eq!(bare, planes(&out("pex.parquet")));
-    assert!(!print("compare-paper").contains("not the paper"));
+    assert!(print("compare-paper").contains("is in the paper's set-up"));
     fail(folder.path(), "ida", 2, &["no structure"]);
 }
 
@@ -117,6 +117,34 @@ fn responses_have_the_measures_of_eq_13() {
             assert!((ours / expected - 1.0).abs() < 1e-12, "{row:?}");
         }
     }
+}
+
+#[test]
+fn what_is_not_the_papers_set_up_is_named() {
+    let folder = RUN.path();
+    for (fit, is_papers) in [
+        ("--transition 2.5", false),
+        ("--limit-state 0.5", false),
+        ("--demand-floor 0.001", false),
+        ("--limit-state 0.1,0.5 --all", true),
+    ] {
+        succeed(folder, &format!("fit-pex --in out/responses.parquet {fit} --out other/pex.parquet --force"));
+        let call = "compare-paper --pex other/pex.parquet --pro out/pro.parquet --out other/paper.parquet";
+        let printed = succeed(folder, call).0;
+        assert!(printed.contains(&format!("fit-pex {fit}")) != is_papers, "{printed}");
+        assert!(printed.contains("is in the paper's set-up") == is_papers, "{printed}");
+    }
+}
+
+#[test]
+fn high_frequencies_alone_have_no_pulse_and_no_im1() {
+    let folder = RUN.path();
+    succeed(folder, "sample-scenarios --samples 1 --out hfc/scenarios.parquet");
+    succeed(folder, "synthesize-motions --in hfc/scenarios.parquet --suite hfc --out hfc/motions.parquet");
+    succeed(folder, "simulate --in hfc/motions.parquet --out hfc/responses.parquet");
+    let rows: Vec<ResponseRow> = rows::read(&folder.join("hfc/responses.parquet")).unwrap();
+    let has_none = |row: &ResponseRow| row.tp_s.is_none() && row.measures.im1.is_none();
+    assert!(rows.len() == 70 && rows.iter().all(|row| has_none(row) && row.measures.im2.is_some()));
 }
 
 /// Each column: name, type, unit.

@@ -8,14 +8,15 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Group, Sample};
+use super::cases::{Cases, Event, Group, Sample};
 use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
 use crate::spelling::unknown_word;
-use crate::statistics::{FitStatus, Interval, LinearFit, held_out_log_score, least_squares};
-use crate::statistics::{delta_variance, independent_errors, normal, tested_least_squares};
+use crate::statistics::scores::largest_difference;
+use crate::statistics::{FitStatus, Interval, LinearFit, clustered_least_squares, held_out};
+use crate::statistics::{delta_variance, independent_errors, least_squares, normal};
 
 /// P_ex from the logarithm of the median demand Dm and the dispersion beta: Phi((ln Dm - ln c) / beta)
 /// (Eq. 14, which prints the argument with the other sign, by which P_ex would fall with demand).
@@ -54,12 +55,8 @@ pub fn fit_planes(cases: &Cases, transition: f64) -> [DemandFit; 2] {
     if let [Some((low_rss, low_tss)), Some((high_rss, high_tss))] = planes.each_ref().map(DemandFit::squares)
     {
         let rss = low_rss + high_rss;
-        let all = demands(cases, &PLANE, &EVERYWHERE).y;
-        let mean = all.iter().sum::<f64>() / all.len() as f64;
-        let tss: f64 = all.iter().map(|ln_edp| (ln_edp - mean).powi(2)).sum();
         for fit in &mut planes {
             fit.r2_pooled = Some(1.0 - rss / (low_tss + high_tss));
-            fit.r2_overall = Some(1.0 - rss / tss);
         }
     }
     let score: Option<f64> = planes.iter().map(|fit| Some(fit.held_out_log_score? * fit.n as f64)).sum();
@@ -83,9 +80,6 @@ const LEAST_CASES: usize = 20;
 pub struct TransitionPoint {
     pub im4: f64,
     pub pooled_rss: f64,
-    /// Cases below im4, and from it on.
-    pub n_low: i64,
-    pub n_high: i64,
 }
 
 /// Tries all places where two planes may meet with enough cases on each side.
@@ -104,13 +98,9 @@ pub fn scan_transition(cases: &Cases) -> Vec<TransitionPoint> {
         let below = rows.partition_point(|row| row[1] < im4.ln() - x_mean);
         low += moments(&rows[n_low..below]);
         n_low = below;
-        let n_high = rows.len() - below;
-        if n_low.min(n_high) < LEAST_CASES {
-            continue;
-        }
-        if let Some((rss_low, rss_high)) = residual(low).zip(residual(all - low)) {
-            let (n_low, n_high) = (n_low as i64, n_high as i64);
-            points.push(TransitionPoint { im4, pooled_rss: rss_low + rss_high, n_low, n_high });
+        if n_low.min(rows.len() - n_low) >= LEAST_CASES {
+            let both = residual(low).zip(residual(all - low));
+            points.extend(both.map(|(low, high)| TransitionPoint { im4, pooled_rss: low + high }));
         }
     }
     points
@@ -127,42 +117,28 @@ fn residual(moments: Matrix4<f64>) -> Option<f64> {
     Some(1.0 / moments.try_inverse()?[(3, 3)])
 }
 
-/// The place of the least pooled residual in a scan, and the first and last place whose residual is no more
-/// than chance above it: confidence limits of a break whose jump is large against the scatter, which is the
-/// same on both sides (Hansen 2000, Sample splitting and threshold estimation, Econometrica 68, 575-603).
-pub fn transition(scan: &[TransitionPoint], confidence: f64) -> Option<Interval> {
-    let best = scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?;
-    let critical = -2.0 * (1.0 - confidence.sqrt()).ln();
-    let likely = scan.iter().filter(|point| {
-        let cases = (point.n_low + point.n_high) as f64;
-        cases * (point.pooled_rss - best.pooled_rss) / best.pooled_rss <= critical
-    });
-    let mut likely = likely.map(|point| point.im4);
-    let low = likely.next()?;
-    Some(Interval { value: best.im4, low, high: likely.next_back().unwrap_or(low) })
+/// The place of the least pooled residual in a scan.
+pub fn transition(scan: &[TransitionPoint]) -> Option<f64> {
+    Some(scan.iter().min_by(|a, b| a.pooled_rss.total_cmp(&b.pooled_rss))?.im4)
 }
 
 /// Fits two planes that meet at this IM4 (`None`: where their pooled residual is least or, with too few
 /// cases, where the paper's meet); if `all`, each measure alone and one plane over all cases; then what is
-/// `asked` for over all cases. `confidence` is that of the limits of the transition of least residual.
+/// `asked` for over all cases. P_ex at `limit_states` is compared with the share of cases that exceed them.
 pub fn fit_demand(
     cases: &Cases,
     im4: Option<f64>,
-    confidence: f64,
+    limit_states: &[f64],
     asked: &[Predictors],
     all: bool,
 ) -> Vec<DemandFit> {
-    let found = transition(&scan_transition(cases), confidence);
-    let im4 = im4.or(found.map(|found| found.value)).unwrap_or(TRANSITION);
-    let mut fits = fit_planes(cases, im4).to_vec();
-    for fit in &mut fits {
-        fit.transition_found = found.map(|found| found.value);
-        fit.transition_low = found.map(|found| found.low);
-        fit.transition_high = found.map(|found| found.high);
-    }
+    let transition_found = transition(&scan_transition(cases));
+    let mut fits = fit_planes(cases, im4.or(transition_found).unwrap_or(TRANSITION)).to_vec();
+    fits.iter_mut().for_each(|fit| fit.transition_found = transition_found);
     let usual = Measure::SCALAR.map(Predictors::one).into_iter().chain([Predictors::two(PLANE)]);
     let predictors = Predictors::without_repeats(usual.filter(|_| all).collect(), asked);
     fits.par_extend(predictors.into_par_iter().map(|predictors| fit_law(cases, predictors)));
+    fits.iter_mut().for_each(|fit| fit.compare(cases, limit_states));
     fits
 }
 
@@ -205,22 +181,20 @@ pub struct DemandFit {
     pub r2: Option<f64>,
     /// R2 of both planes, each about the mean on its own side, as in the paper.
     pub r2_pooled: Option<f64>,
-    /// R2 of both planes about the mean of all cases.
-    pub r2_overall: Option<f64>,
     /// Mean log-likelihood of the cases of a cluster by a fit to the others; of two planes, over both.
     pub held_out_log_score: Option<f64>,
+    /// Slope of ln EDP on its mean by a fit to the others: 1 is best, below it the regression is too steep.
+    pub calibration_slope: Option<f64>,
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
-    pub transition_low: Option<f64>,
-    pub transition_high: Option<f64>,
     pub n: i64,
     /// Least and largest value of each measure among the cases.
     pub im_x_low: Option<f64>,
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    /// p-value of the misfit: squares and products of ln IM as further regressors.
-    pub misfit_p: Option<f64>,
+    /// Largest difference of P_ex at the limit states from the share of events in bins, beyond chance.
+    pub largest_difference: Option<f64>,
     pub status: FitStatus,
 }
 
@@ -236,8 +210,12 @@ impl DemandFit {
     /// `range` is that of IM4.
     fn new(cases: &Cases, model: DemandModel, measures: &[Measure], range: Range<f64>) -> DemandFit {
         let sample = demands(cases, measures, &range);
-        let linear = tested_least_squares(&sample.x(), &sample.y, &sample.clusters);
+        let linear = clustered_least_squares(&sample.x(), &sample.y, &sample.clusters);
         let fitted = linear.as_ref().ok();
+        let without = |x: &[Vec<f64>], ln_edp: &[f64]| {
+            least_squares(x, ln_edp).ok().map(|law| (law.fit.clone(), law.residual_sd()))
+        };
+        let held_out = fitted.and_then(|_| held_out(&sample.x(), &sample.y, &sample.clusters, without));
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
             suite: cases.suite.clone(),
@@ -258,28 +236,46 @@ impl DemandFit {
             beta: fitted.map(LinearFit::residual_sd),
             r2: fitted.map(LinearFit::r2),
             r2_pooled: None,
-            r2_overall: None,
-            held_out_log_score: fitted.and_then(|_| {
-                held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, ln_edp| {
-                    let law = least_squares(x, ln_edp).ok()?;
-                    let sd = law.residual_sd();
-                    Some((law.fit, move |mean, ln_edp| normal::ln_density((ln_edp - mean) / sd) - sd.ln()))
-                })
+            held_out_log_score: held_out.as_ref().map(|cases| {
+                let score = |(&(mean, sd), ln_edp): (&(f64, f64), &f64)| {
+                    normal::ln_density((ln_edp - mean) / sd) - sd.ln()
+                };
+                cases.iter().zip(&sample.y).map(score).sum::<f64>() / cases.len() as f64
+            }),
+            calibration_slope: held_out.and_then(|cases| {
+                let means: Vec<f64> = cases.iter().map(|(mean, _)| *mean).collect();
+                Some(least_squares(&[means], &sample.y).ok()?.fit.coefficients[1])
             }),
             transition_found: None,
-            transition_low: None,
-            transition_high: None,
             n: sample.y.len() as i64,
             im_x_low: sample.range(0).map(|range| range.low),
             im_x_high: sample.range(0).map(|range| range.high),
             im_y_low: sample.range(1).map(|range| range.low),
             im_y_high: sample.range(1).map(|range| range.high),
-            misfit_p: fitted.and_then(|linear| linear.fit.misfit_p),
+            largest_difference: None,
             status: match &linear {
-                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => FitStatus::WrongSign,
-                Ok(linear) => linear.fit.status,
+                Ok(linear) if linear.fit.coefficients[1] <= 0.0 => measures[0].falling(measures.get(1)),
+                Ok(_) => FitStatus::Ok,
                 Err(status) => *status,
             },
+        }
+    }
+
+    /// Compares P_ex at limit states with the share of the cases that exceed them.
+    fn compare(&mut self, cases: &Cases, limit_states: &[f64]) {
+        let Some(beta) = self.beta else { return };
+        let differences = limit_states.iter().filter_map(|&limit_state| {
+            let pairs = cases.all.iter().filter(|case| self.holds_at(case.measures.im4)).filter_map(|case| {
+                let ims = values(&self.im_x, self.im_y.as_ref(), &case.measures)?;
+                let p = p_exceeding(ln_median_demand(&self.coefficients, &ims), limit_state, beta);
+                Some((p, Event::Exceeding.happened(case.outcome, limit_state)?))
+            });
+            let (probabilities, events): (Vec<f64>, Vec<bool>) = pairs.unzip();
+            largest_difference(&probabilities, &events)
+        });
+        self.largest_difference = differences.reduce(f64::max);
+        if self.status == FitStatus::Ok {
+            self.status = FitStatus::by_difference(self.largest_difference);
         }
     }
 
@@ -327,7 +323,7 @@ impl DemandFit {
         (self.n - self.coefficients.len() as i64) as f64
     }
 
-    /// ln a, b1, b2, beta and zeta = beta / b1; none without a fit.
+    /// ln a, b1, b2, beta and zeta = beta / |b1|; none without a fit.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         let Some(beta) = self.beta else { return Vec::new() };
         let b = &self.coefficients;
@@ -337,7 +333,7 @@ impl DemandFit {
         let names = [Parameter::LnA, Parameter::B1, Parameter::B2];
         let coefficients = names.into_iter().zip(b.iter().copied().zip(errors));
         let dispersions =
-            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1], error_of_zeta))];
+            [(Parameter::Beta, (beta, error_of_beta)), (Parameter::Zeta, (beta / b[1].abs(), error_of_zeta))];
         let quantile = quantile(confidence, self.degrees);
         let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
             suite: self.suite.clone(),
@@ -349,9 +345,10 @@ impl DemandFit {
             parameter,
             value,
             standard_error,
-            low: value - quantile * standard_error,
-            high: value + quantile * standard_error,
+            low: parameter.around(value, quantile * standard_error).low,
+            high: parameter.around(value, quantile * standard_error).high,
             confidence,
+            status: self.status,
         });
         rows.collect()
     }

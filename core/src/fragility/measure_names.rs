@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::IntensityMeasures;
+use crate::statistics::FitStatus;
 
 /// A dimensionless intensity measure.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,6 +46,14 @@ impl Measure {
             Measure::Im6 => "im6",
             Measure::Im3Inverse => "im3_inv",
             Measure::Column(name) => name,
+        }
+    }
+
+    /// The status of a fit that falls with a measure, or with two.
+    pub(super) fn falling(&self, other: Option<&Measure>) -> FitStatus {
+        match (self, other) {
+            (Measure::Im1 | Measure::Im2 | Measure::Im3, None) => FitStatus::Inverse,
+            _ => FitStatus::WrongSign,
         }
     }
 

@@ -9,8 +9,8 @@ use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Bounds, FitStatus, Interval, held_out_log_score, independent_errors, normal};
-use crate::statistics::{delta_variance, predict, probit, tested_probit};
+use crate::statistics::{Bounds, FitStatus, Interval, held_out, independent_errors, normal};
+use crate::statistics::{clustered_probit, delta_variance, predict, probit};
 
 /// P_ro at the intensity `im`: Phi((ln IM - mu) / beta) (Eq. 20; Eq. 24 with the hybrid measure).
 pub fn p_overturning(im: f64, mu: f64, beta: f64) -> f64 {
@@ -37,12 +37,16 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     assert!(matches!(event, Event::Overturning | Event::Rocking), "{event} needs a limit state");
     let measures: Vec<Measure> = std::iter::once(&im_x).chain(&im_y).cloned().collect();
     let sample = cases.sample(&measures, |case| event.happened(case.outcome, f64::INFINITY));
-    let tested = tested_probit(&sample.x(), &sample.y, &sample.clusters);
-    let fitted = tested.as_ref().ok();
+    let tried = clustered_probit(&sample.x(), &sample.y, &sample.clusters);
+    let fitted = tried.as_ref().ok();
     let limiting = fitted.map(|probit| probit.fit.limiting_covariance());
     let coefficients = fitted.map_or(Vec::new(), |probit| probit.fit.coefficients.as_slice().to_vec());
     let z = fitted.map_or(Vec::new(), |_| predict(&coefficients, &sample.x()));
     let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
+    let without = |x: &[Vec<f64>], events: &[bool]| Some((probit(x, events).ok()?.fit, ()));
+    let held_out = fitted.and_then(|_| held_out(&sample.x(), &sample.y, &sample.clusters, without));
+    let held_out: Option<Vec<f64>> = held_out.map(|cases| cases.into_iter().map(|(z, ())| z).collect());
+    let falling = im_x.falling(im_y.as_ref());
     CurveFit {
         suite: cases.suite.clone(),
         structure: cases.structure.name.clone(),
@@ -59,24 +63,22 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
         n: sample.y.len() as i64,
         n_events: sample.y.iter().filter(|happened| **happened).count() as i64,
         log_likelihood: fitted.map(|probit| probit.log_likelihood),
-        aic: fitted.map(|probit| probit.aic()),
-        bic: fitted.map(|probit| probit.bic()),
         auc: fitted.map(|_| auc(&probabilities, &sample.y)),
         brier: fitted.map(|_| brier_score(&probabilities, &sample.y)),
-        held_out_log_score: fitted.and_then(|_| {
-            held_out_log_score(&sample.x(), &sample.y, &sample.clusters, |x, events| {
-                let fit = probit(x, events).ok()?.fit;
-                Some((fit, |z: f64, event| normal::ln_cdf(if event { z } else { -z })))
-            })
+        held_out_log_score: held_out.as_ref().map(|z| {
+            let scores =
+                z.iter().zip(&sample.y).map(|(&z, &event)| normal::ln_cdf(if event { z } else { -z }));
+            scores.sum::<f64>() / z.len() as f64
         }),
+        calibration_slope: held_out.and_then(|z| Some(probit(&[z], &sample.y).ok()?.fit.coefficients[1])),
         im_x_low: sample.range(0).map(|range| range.low),
         im_x_high: sample.range(0).map(|range| range.high),
         im_y_low: sample.range(1).map(|range| range.low),
         im_y_high: sample.range(1).map(|range| range.high),
-        misfit_p: fitted.and_then(|probit| probit.fit.misfit_p),
-        status: match &tested {
-            Ok(_) if slope(&coefficients) <= 0.0 => FitStatus::WrongSign,
-            Ok(probit) => probit.fit.status,
+        largest_difference: fitted.and_then(|probit| probit.largest_difference),
+        status: match &tried {
+            Ok(_) if slope(&coefficients) <= 0.0 => falling,
+            Ok(probit) => probit.status,
             Err(status) => *status,
         },
         coefficients,
@@ -144,17 +146,19 @@ pub struct CurveFit {
     pub n: i64,
     pub n_events: i64,
     pub log_likelihood: Option<f64>,
-    pub aic: Option<f64>,
-    pub bic: Option<f64>,
     /// Area under the receiver operating characteristic, on the fitted cases like the Brier score.
     pub auc: Option<f64>,
     pub brier: Option<f64>,
     pub held_out_log_score: Option<f64>,
+    /// Slope of the probit of the events on z by a fit to the others: 1 is best, below it the curve is too
+    /// steep (Cox 1958, Biometrika 45, 562-565).
+    pub calibration_slope: Option<f64>,
     pub im_x_low: Option<f64>,
     pub im_x_high: Option<f64>,
     pub im_y_low: Option<f64>,
     pub im_y_high: Option<f64>,
-    pub misfit_p: Option<f64>,
+    /// Largest difference of the probability from the share of events in bins of cases, beyond chance.
+    pub largest_difference: Option<f64>,
     pub status: FitStatus,
 }
 
@@ -203,7 +207,8 @@ impl CurveFit {
         })
     }
 
-    /// lambda (of a hybrid), mu, beta and theta, with errors by the delta method; none without a fit.
+    /// lambda (of a hybrid), mu, beta and theta, with errors by the delta method; none without a fit. beta of
+    /// a falling curve is that over the inverse.
     pub fn parameters(&self, confidence: f64) -> Vec<ParameterRow> {
         if self.coefficients.is_empty() {
             return Vec::new();
@@ -212,6 +217,7 @@ impl CurveFit {
         let hybrid = self.im_y.as_ref().map(|_| (Parameter::Lambda, lambda(b)));
         let estimates = hybrid.into_iter().chain([(Parameter::Mu, mu(b)), (Parameter::Beta, beta(b))]);
         let rows = estimates.map(|(parameter, DeltaEstimate { value, gradient })| {
+            let value = if parameter == Parameter::Beta { value.abs() } else { value };
             let standard_error = delta_variance(&self.covariance, &gradient).sqrt();
             let half_width = quantile(confidence, self.degrees) * standard_error;
             ParameterRow {
@@ -224,9 +230,10 @@ impl CurveFit {
                 parameter,
                 value,
                 standard_error,
-                low: value - half_width,
-                high: value + half_width,
+                low: parameter.around(value, half_width).low,
+                high: parameter.around(value, half_width).high,
                 confidence,
+                status: self.status,
             }
         });
         let mut rows: Vec<ParameterRow> = rows.collect();

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::measure_names::Measure;
 use crate::spelling::unknown_word;
-use crate::statistics::Interval;
 use crate::statistics::distributions::t_quantile;
+use crate::statistics::{FitStatus, Interval};
 
 /// Standard errors between a value and its limits; of the normal distribution without degrees of freedom.
 pub(super) fn quantile(confidence: f64, degrees: Option<f64>) -> f64 {
@@ -25,7 +25,7 @@ pub enum Parameter {
     B2,
     /// Dispersion: the residual standard deviation of ln EDP, or 1/slope of P_ro.
     Beta,
-    /// Dispersion of the demand over its slope, beta / b1.
+    /// Dispersion of the demand over its slope, beta / |b1|.
     Zeta,
     /// Exponent of the first measure of a hybrid (Eq. 23).
     Lambda,
@@ -52,6 +52,20 @@ pub struct ParameterRow {
     pub low: f64,
     pub high: f64,
     pub confidence: f64,
+    /// That of the fit.
+    pub status: FitStatus,
+}
+
+impl Parameter {
+    /// A value with its limits; those of a dispersion are on the scale of its logarithm.
+    pub(super) fn around(self, value: f64, half_width: f64) -> Interval {
+        match self {
+            Parameter::Beta | Parameter::Zeta => {
+                Interval::around(value.ln(), half_width / value).map(f64::exp)
+            }
+            _ => Interval::around(value, half_width),
+        }
+    }
 }
 
 impl ParameterRow {

@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::clusters::sandwich;
-use super::design::{DesignMatrix, with_squares};
-use super::distributions::chi_squared_upper_tail;
+use super::design::DesignMatrix;
 use super::fit::{Fit, FitStatus, predict};
 use super::newton::{Maximum, Objective, maximise};
 use super::normal;
+use super::scores::largest_difference;
 
 /// A fit needs this many events, and this many cases without an event.
 const LEAST_EVENTS: usize = 5;
@@ -22,16 +22,10 @@ pub struct ProbitFit {
     pub fit: Fit,
     /// Logarithm of the likelihood at the maximum (Eq. 21).
     pub log_likelihood: f64,
-}
-
-impl ProbitFit {
-    pub fn aic(&self) -> f64 {
-        2.0 * self.fit.coefficients.len() as f64 - 2.0 * self.log_likelihood
-    }
-
-    pub fn bic(&self) -> f64 {
-        self.fit.coefficients.len() as f64 * (self.fit.n as f64).ln() - 2.0 * self.log_likelihood
-    }
+    /// Of the probability from the share of events; none if not compared, or of too few cases.
+    pub largest_difference: Option<f64>,
+    /// A usable one.
+    pub status: FitStatus,
 }
 
 /// Computes the log-likelihood (Eq. 21): the sum of ln Phi(z) over events (overturning) and ln(1 - Phi(z))
@@ -84,8 +78,9 @@ pub fn probit(x: &[impl AsRef<[f64]>], events: &[bool]) -> Result<ProbitFit, Fit
     if !converged {
         return Err(FitStatus::NotConverged);
     }
-    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY, events.len());
-    Ok(ProbitFit { fit, log_likelihood: log_likelihood(&design.x, events, &at) })
+    let fit = Fit::new(design.to_given(&at, &inverse), f64::INFINITY);
+    let log_likelihood = log_likelihood(&design.x, events, &at);
+    Ok(ProbitFit { fit, log_likelihood, largest_difference: None, status: FitStatus::Ok })
 }
 
 /// Whether events and other cases do not overlap in z, or the standard error of some z is so large that the
@@ -105,27 +100,21 @@ fn is_separated(x: &DMatrix<f64>, events: &[bool], b: &DVector<f64>, covariance:
     do_not_overlap || largest_variance > SEPARATION_SE * SEPARATION_SE
 }
 
-/// Fits as [`probit`], adds the clustered covariance, and tests the form: likelihood-ratio test of the
-/// squares and products of the predictors. `clusters` has the cluster of each case.
-pub fn tested_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
+/// Fits as [`probit`], adds the clustered covariance, and compares the probability with the share of events.
+/// `clusters` has the cluster of each case.
+pub fn clustered_probit(x: &[&[f64]], events: &[bool], clusters: &[u32]) -> Result<ProbitFit, FitStatus> {
     let mut probit = probit(x, events)?;
     let z = predict(probit.fit.coefficients.as_slice(), x);
     let signs = events.iter().map(|&event| if event { 1.0 } else { -1.0 });
     let scores: Vec<f64> =
         z.iter().zip(signs).map(|(&z, sign)| sign * normal::ln_cdf_and_slope(sign * z).1).collect();
-    probit.fit.note_misfit(misfit(&probit, x, events));
+    let probabilities: Vec<f64> = z.into_iter().map(normal::cdf).collect();
+    probit.largest_difference = largest_difference(&probabilities, events);
     let count = events.iter().filter(|event| **event).count();
-    if count.min(events.len() - count) < FEW_EVENTS {
-        probit.fit.status = FitStatus::FewEvents;
-    }
+    probit.status = match count.min(events.len() - count) {
+        0..FEW_EVENTS => FitStatus::FewEvents,
+        _ => FitStatus::by_difference(probit.largest_difference),
+    };
     probit.fit.note_clusters(sandwich(x, &scores, &probit.fit.covariance, clusters));
     Ok(probit)
-}
-
-fn misfit(probit: &ProbitFit, x: &[&[f64]], events: &[bool]) -> Option<f64> {
-    let columns = with_squares(x)?;
-    let wider = DesignMatrix::new(&columns).ok()?;
-    // If the wider curve separates the outcomes, its likelihood is larger still.
-    let gained = maximum(&wider.x, events).objective.value - probit.log_likelihood;
-    Some(chi_squared_upper_tail(2.0 * gained.max(0.0), (columns.len() - x.len()) as f64))
 }

@@ -95,25 +95,24 @@ impl Folds {
     }
 }
 
-/// Computes the mean log score of cases by fits without their fold: a proper score, which does not depend on
-/// the units of `x` (Gneiting & Raftery 2007, J. American Statistical Association 102, 359-378). `fit` takes
-/// the columns and `y` of some cases, and gives the log-likelihood of a case by its z. None for one cluster,
-/// or if a fold has no fit.
-pub fn held_out_log_score<Y: Copy + Sync, Score: Fn(f64, Y) -> f64>(
+/// Predicts the z of each case by a fit without its fold. `fit` takes the columns and `y` of some cases, and
+/// gives what else predicts: z comes with it. None for one cluster, or if a fold has no fit.
+pub fn held_out<Y: Copy + Sync, With: Copy + Send>(
     x: &[&[f64]],
     y: &[Y],
     clusters: &[u32],
-    fit: impl Fn(&[Vec<f64>], &[Y]) -> Option<(Fit, Score)> + Sync,
-) -> Option<f64> {
+    fit: impl Fn(&[Vec<f64>], &[Y]) -> Option<(Fit, With)> + Sync,
+) -> Option<Vec<(f64, With)>> {
     let folds = Folds::new(clusters, FOLDS)?;
-    let scores = (0..folds.count).into_par_iter().map(|fold| {
+    let predicted = (0..folds.count).into_par_iter().map(|fold| {
         let (kept, left_out) = folds.split(fold);
         let columns: Vec<Vec<f64>> = x.iter().map(|x| kept.iter().map(|&case| x[case]).collect()).collect();
-        let (Fit { coefficients: b, .. }, score) =
+        let (Fit { coefficients: b, .. }, with) =
             fit(&columns, &kept.iter().map(|&case| y[case]).collect::<Vec<Y>>())?;
         let z = |case: usize| b[0] + b.iter().skip(1).zip(x).map(|(b, x)| b * x[case]).sum::<f64>();
-        Some(left_out.into_iter().map(|case| score(z(case), y[case])).sum())
+        Some(left_out.into_iter().map(|case| (case, (z(case), with))).collect())
     });
-    let sums = scores.collect::<Option<Vec<f64>>>()?;
-    Some(sums.iter().sum::<f64>() / y.len() as f64)
+    let mut predicted = predicted.collect::<Option<Vec<Vec<_>>>>()?.concat();
+    predicted.sort_unstable_by_key(|(case, _)| *case);
+    Some(predicted.into_iter().map(|(_, predicted)| predicted).collect())
 }

@@ -49,16 +49,3 @@ impl DesignMatrix {
         (&self.to_given * b, &self.to_given * covariance * self.to_given.transpose())
     }
 }
-
-/// Returns the standardised predictors, followed by their squares and products.
-pub fn with_squares(x: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
-    let design = DesignMatrix::new(x).ok()?.x;
-    let mut columns: Vec<Vec<f64>> =
-        design.column_iter().skip(1).map(|x| x.iter().copied().collect()).collect();
-    for i in 0..x.len() {
-        for j in i..x.len() {
-            columns.push(columns[i].iter().zip(&columns[j]).map(|(a, b)| a * b).collect());
-        }
-    }
-    Some(columns)
-}

@@ -16,10 +16,6 @@ pub fn f_upper_tail(x: f64, numerator: f64, denominator: f64) -> f64 {
     FisherSnedecor::new(numerator, denominator).map_or(f64::NAN, |f| f.sf(x))
 }
 
-pub fn chi_squared_upper_tail(x: f64, degrees_of_freedom: f64) -> f64 {
-    ChiSquared::new(degrees_of_freedom).map_or(f64::NAN, |chi_squared| chi_squared.sf(x))
-}
-
 pub fn chi_squared_quantile(p: f64, degrees_of_freedom: f64) -> f64 {
     ChiSquared::new(degrees_of_freedom).map_or(f64::NAN, |chi_squared| chi_squared.inverse_cdf(p))
 }

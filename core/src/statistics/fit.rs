@@ -11,11 +11,13 @@ use crate::spelling::unknown_word;
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<FitStatus>)]
 pub enum FitStatus {
     Ok,
-    /// Squares and products of the predictors improve the fit (p < 0.01).
+    /// The probability differs from the share of events by more than 0.15 (`scores::largest_difference`).
     PoorFit,
     /// Fewer than ten events or other cases: the limits are too narrow.
     FewEvents,
-    /// Demand or probability decreases with the measure.
+    /// Demand or probability decreases with the measure, a frequency or the like: it grows with the inverse.
+    Inverse,
+    /// Demand or probability decreases with a measure of strength.
     WrongSign,
     /// The predictors separate events from the other cases: the likelihood has no maximum.
     Separated,
@@ -31,9 +33,14 @@ impl FitStatus {
     pub fn is_usable(self) -> bool {
         matches!(self, FitStatus::Ok | FitStatus::PoorFit | FitStatus::FewEvents)
     }
+
+    /// By the largest difference of a probability from the share of events.
+    pub fn by_difference(largest: Option<f64>) -> FitStatus {
+        if largest.is_some_and(|largest| largest > POOR_FIT) { FitStatus::PoorFit } else { FitStatus::Ok }
+    }
 }
 
-const POOR_FIT: f64 = 0.01;
+const POOR_FIT: f64 = 0.15;
 
 /// A linear predictor z = b0 + b1 x1 + ..., by least squares or maximum likelihood.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,21 +55,14 @@ pub struct Fit {
     pub clusters: usize,
     /// Degrees of freedom of the limits without clusters: n - k of least squares, infinite of a likelihood.
     pub degrees_of_freedom: f64,
-    pub n: usize,
-    /// p-value of the squares and products of the predictors; none if not tested, or degenerate.
-    pub misfit_p: Option<f64>,
-    /// A usable one.
-    pub status: FitStatus,
 }
 
 impl Fit {
     pub(super) fn new(
         (coefficients, covariance): (DVector<f64>, DMatrix<f64>),
         degrees_of_freedom: f64,
-        n: usize,
     ) -> Fit {
-        let (clustered, clusters, misfit_p, status) = (None, 0, None, FitStatus::Ok);
-        Fit { coefficients, covariance, clustered, clusters, degrees_of_freedom, n, misfit_p, status }
+        Fit { coefficients, covariance, clustered: None, clusters: 0, degrees_of_freedom }
     }
 
     /// Takes the clustered covariance of many clusters; that of two and more only widens the model's.
@@ -75,13 +75,6 @@ impl Fit {
             let ratio = quantile(clusters as f64 - 1.0) / quantile(self.degrees_of_freedom);
             let wider = widened(&self.covariance, clustered * (ratio * ratio));
             self.covariance = wider.unwrap_or_else(|| self.covariance.clone());
-        }
-    }
-
-    pub(super) fn note_misfit(&mut self, p: Option<f64>) {
-        self.misfit_p = p;
-        if p.is_some_and(|p| p < POOR_FIT) {
-            self.status = FitStatus::PoorFit;
         }
     }
 

@@ -1,8 +1,7 @@
 use nalgebra::DVector;
 
 use super::clusters::sandwich;
-use super::design::{DesignMatrix, mean_and_sd, with_squares};
-use super::distributions::f_upper_tail;
+use super::design::{DesignMatrix, mean_and_sd};
 use super::fit::{Fit, FitStatus, predict};
 
 /// A linear regression y = b0 + b1 x1 + ... with normal errors.
@@ -39,28 +38,16 @@ pub fn least_squares(x: &[impl AsRef<[f64]>], y: &[f64]) -> Result<LinearFit, Fi
     b += &inverse * design.x.tr_mul(&(&y - &design.x * &b));
     let rss = (&y - &design.x * &b).norm_squared();
     let degrees_of_freedom = (y.len() - b.len()) as f64;
-    let fit =
-        Fit::new(design.to_given(&b, &(inverse * (rss / degrees_of_freedom))), degrees_of_freedom, y.len());
+    let fit = Fit::new(design.to_given(&b, &(inverse * (rss / degrees_of_freedom))), degrees_of_freedom);
     Ok(LinearFit { fit, rss, tss: y.add_scalar(-mean).norm_squared() })
 }
 
-/// Fits as [`least_squares`], adds the clustered covariance, and tests the form: F test of the squares and
-/// products of the predictors. `clusters` has the cluster of each case.
-pub fn tested_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result<LinearFit, FitStatus> {
+/// Fits as [`least_squares`] and adds the clustered covariance. `clusters` has the cluster of each case.
+pub fn clustered_least_squares(x: &[&[f64]], y: &[f64], clusters: &[u32]) -> Result<LinearFit, FitStatus> {
     let mut linear = least_squares(x, y)?;
     let fitted = predict(linear.fit.coefficients.as_slice(), x);
     let residuals: Vec<f64> = y.iter().zip(fitted).map(|(y, fitted)| y - fitted).collect();
     let bread = &linear.fit.covariance * (linear.fit.degrees_of_freedom / linear.rss);
     linear.fit.note_clusters(sandwich(x, &residuals, &bread, clusters));
-    linear.fit.note_misfit(misfit(&linear, x, y));
     Ok(linear)
-}
-
-/// Computes the p-value of the squares and products of the predictors; none where these are degenerate.
-fn misfit(linear: &LinearFit, x: &[&[f64]], y: &[f64]) -> Option<f64> {
-    let columns = with_squares(x)?;
-    let wider = least_squares(&columns, y).ok()?;
-    let added = linear.fit.degrees_of_freedom - wider.fit.degrees_of_freedom;
-    let f = (linear.rss - wider.rss) / added / (wider.rss / wider.fit.degrees_of_freedom);
-    Some(f_upper_tail(f, added, wider.fit.degrees_of_freedom))
 }

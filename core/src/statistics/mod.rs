@@ -31,9 +31,9 @@ pub mod numerics;
 mod range;
 pub mod scores;
 
-pub use binary::{FEW_EVENTS, ProbitFit, log_likelihood, probit, tested_probit};
-pub use clusters::{Folds, held_out_log_score};
+pub use binary::{FEW_EVENTS, ProbitFit, clustered_probit, log_likelihood, probit};
+pub use clusters::{Folds, held_out};
 pub use fit::{Fit, FitStatus, delta_variance, independent_errors, predict};
 pub use interval::Interval;
-pub use linear::{LinearFit, least_squares, tested_least_squares};
+pub use linear::{LinearFit, clustered_least_squares, least_squares};
 pub use range::{Bounds, Range};

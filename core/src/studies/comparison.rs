@@ -1,14 +1,18 @@
-//! Each number that the paper publishes, beside ours.
+//! Each number that the paper publishes, beside ours over seeds and beside that of a run.
 
-use std::f64::consts::SQRT_2;
+use std::collections::BTreeMap;
 
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Group, Measure};
 use crate::fragility::{beta, hybrid_measure, lambda, mu, p_overturning};
-use crate::paper::{EXAMPLE_LAMBDA, Published, SeedValue, example, published, seed_values};
+use crate::paper::{Published, READINGS, SeedValue, example, published, seed_values};
 use crate::rocking::Structure;
-use crate::statistics::normal;
+use crate::statistics::distributions::f_upper_tail;
+
+/// A published plane or number with a smaller p differs from ours.
+const LEVEL: f64 = 0.05;
 
 /// A published number beside ours: a row of paper.parquet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -17,54 +21,99 @@ pub struct Comparison {
     pub place: String,
     pub suite: String,
     pub structure: String,
-    pub published: Option<f64>,
-    pub ours: Option<f64>,
-    /// Mean, standard deviation and number of our values over seeds, in the set-up of the paper.
-    pub mean: Option<f64>,
-    pub sd: Option<f64>,
+    /// Of a number of a plane, its side of the transition: below or above.
+    pub plane: Option<String>,
+    pub published: f64,
+    /// Mean and number of our values over seeds, in the set-up of the paper.
+    pub mean: f64,
     pub seeds: i64,
-    /// (published - ours) / sd; none where ours is within the rounding of the print, wider than two sds.
+    /// (published - mean) / standard deviation of this difference.
     pub z: Option<f64>,
-    pub t2: Option<f64>,
-    pub t2_p: Option<f64>,
+    /// Of the number, or of all four of its plane, which depend on each other.
+    pub test: Distance,
+    /// The number of a run, with its z.
+    pub ours: Option<f64>,
+    pub ours_z: Option<f64>,
 }
 
-/// Compares fits of the paper's structures with all that the paper publishes.
+/// How far numbers are from a sample of them, and the probability of as much by chance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Distance {
+    pub t2: f64,
+    pub p: f64,
+}
+
+/// Compares all that the paper publishes with our seeds, and with fits of the paper's structures.
 ///
 /// ```
 /// use rockfrag_core::studies::comparison::{Comparison, compare};
-/// // Without fits of ours, what is published stands alone.
+/// // Without fits, what is published stands beside our seeds.
 /// let compared: Vec<Comparison> = compare(&[], &[]);
-/// assert!(compared.iter().any(|row| row.quantity == "low_b1" && row.ours.is_none()));
+/// assert!(compared.iter().any(|row| row.quantity == "below_b1" && row.ours.is_none() && row.test.p > 0.3));
 /// ```
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
-    let seeds = seed_values();
-    let compared = published().into_iter().map(|number| {
+    let (numbers, seeds) = (published(), seed_values());
+    let compared = numbers.iter().map(|number| {
         let group = Group { suite: Some(&number.suite), structure: &number.structure };
         let ours = GroupFits { group, demand, curves }.value(&number.quantity);
-        comparison(number, ours, &seeds)
+        let tested = numbers.iter().filter(|other| number.is_tested_with(other)).collect::<Vec<_>>();
+        let (alone, together) = (of_seeds(&[number], &seeds), of_seeds(&tested, &seeds));
+        let printed: Vec<f64> = tested.iter().map(|other| other.published).collect();
+        let roundings: Vec<f64> = tested.iter().map(|other| other.rounding()).collect();
+        let test = hotelling(&together, &printed, &roundings).expect("more seeds than numbers");
+        let mean = alone.iter().map(|sample| sample[0]).sum::<f64>() / alone.len() as f64;
+        let z = |value: f64| {
+            let distance = hotelling(&alone, &[value], &[number.rounding()])?;
+            Some(distance.t2.sqrt().copysign(value - mean))
+        };
+        let Published { quantity, place, suite, structure, plane, published, .. } = number.clone();
+        let (seeds, z, ours_z) = (alone.len() as i64, z(published), ours.and_then(z));
+        Comparison { quantity, place, suite, structure, plane, published, mean, seeds, z, test, ours, ours_z }
     });
     compared.collect()
 }
 
-fn comparison(number: Published, ours: Option<f64>, seeds: &[SeedValue]) -> Comparison {
-    let of_number = seeds.iter().filter(|seed| {
-        (&seed.quantity, &seed.suite, &seed.structure) == (&number.quantity, &number.suite, &number.structure)
-    });
-    let values: Vec<f64> = of_number.map(|seed| seed.value).collect();
-    let n = values.len() as f64;
-    let mean = Some(values.iter().sum::<f64>() / n).filter(|_| n > 1.0);
-    let sd = mean.map(|mean| (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
-    let z = z(&number, ours, sd);
-    let Published { quantity, place, suite, structure, published, t2, t2_p, .. } = number;
-    let seeds = values.len() as i64;
-    Comparison { quantity, place, suite, structure, published, ours, mean, sd, seeds, z, t2, t2_p }
+/// How many of the paper's planes and of its other numbers could be those of one more of our seeds.
+pub fn verdict(compared: &[Comparison]) -> String {
+    let agree = |is_one: fn(&&Comparison) -> bool| {
+        let its = compared.iter().filter(is_one);
+        [its.clone().filter(|row| row.test.p >= LEVEL).count(), its.count()]
+    };
+    let [planes, all_planes] = agree(|row| row.quantity.ends_with("_b1"));
+    let [others, all_others] = agree(|row| row.plane.is_none());
+    let chosen = if READINGS > 1 { format!(" (reading chosen among {READINGS})") } else { String::new() };
+    format!(
+        "{planes} of the paper's {all_planes} planes and {others} of its {all_others} other numbers agree \
+         with twenty seeds of rockfrag (p > {LEVEL}){chosen}."
+    )
 }
 
-fn z(number: &Published, ours: Option<f64>, sd: Option<f64>) -> Option<f64> {
-    let (ours, sd, low, high) = (ours?, sd?, number.print_low?, number.print_high?);
-    let is_open = (low..=high).contains(&ours) && high - low > 2.0 * sd;
-    (sd > 0.0 && !is_open).then_some((number.published? - ours) / sd)
+/// Our values of k numbers, of each seed that has all.
+fn of_seeds(numbers: &[&Published], seeds: &[SeedValue]) -> Vec<Vec<f64>> {
+    let mut by_seed: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    for Published { quantity, suite, structure, .. } in numbers.iter().copied() {
+        let its = seeds
+            .iter()
+            .filter(|one| (&one.quantity, &one.suite, &one.structure) == (quantity, suite, structure));
+        its.for_each(|one| by_seed.entry(one.seed).or_default().push(one.value));
+    }
+    by_seed.into_values().filter(|values| values.len() == numbers.len()).collect()
+}
+
+/// Hotelling's T2 of one more of k numbers, whose errors have further `variances`, about the mean of a sample
+/// of n: their covariance is that of the sample, times 1 + 1/n for the error of the mean. T2 (n - k) / (k
+/// (n - 1)) is F with k and n - k degrees of freedom (Hotelling 1931, Annals of Mathematical Statistics 2,
+/// 360-378). None if n <= k.
+pub fn hotelling(sample: &[Vec<f64>], one_more: &[f64], variances: &[f64]) -> Option<Distance> {
+    let (n, k) = (sample.len() as f64, one_more.len() as f64);
+    let of = DVector::from_column_slice;
+    let mean = sample.iter().fold(of(&vec![0.0; one_more.len()]), |sum, one| sum + of(one)) / n;
+    let squares = sample.iter().map(|one| of(one) - &mean).map(|away| &away * away.transpose());
+    let added = DMatrix::from_diagonal(&of(variances));
+    let covariance = squares.fold(added, |sum, square| sum + square * ((1.0 + 1.0 / n) / (n - 1.0)));
+    let away = of(one_more) - mean;
+    let t2 = away.dot(&covariance.cholesky().filter(|_| n > k)?.solve(&away));
+    Some(Distance { t2, p: f_upper_tail(t2 * (n - k) / (k * (n - 1.0)), k, n - k) })
 }
 
 /// All fits, and the suite and structure whose fits are looked up.
@@ -80,8 +129,8 @@ impl GroupFits<'_> {
         // The example takes the curve of the equipment for both structures.
         let equipment = || self.hybrid("electrical-equipment").map(|curve| &curve.coefficients);
         match quantity {
-            "transition" => self.plane("high")?.transition_found,
-            "r2_pooled" => self.plane("high")?.r2_pooled,
+            "transition" => self.plane("above")?.transition_found,
+            "r2_pooled" => self.plane("above")?.r2_pooled,
             "hybrid_lambda" => Some(lambda(&self.hybrid(self.group.structure)?.coefficients).value),
             "im5_theta" => Some(mu(&self.im5()?.coefficients).value.exp()),
             "im5_beta" => Some(beta(&self.im5()?.coefficients).value),
@@ -90,8 +139,6 @@ impl GroupFits<'_> {
                 let b = equipment()?;
                 Some(p_overturning(self.example_hybrid(lambda(b).value)?, mu(b).value, beta(b).value))
             }
-            // 1/2 (1 + erf(ln IM)): Eq. 24 with mu and beta sqrt 2 left out gives what is printed.
-            "example_half_erf" => Some(normal::cdf(SQRT_2 * self.example_hybrid(EXAMPLE_LAMBDA)?.ln())),
             coefficient_name => {
                 let (side, coefficient) = coefficient_name.split_once('_')?;
                 let fit = self.plane(side)?;
@@ -105,7 +152,7 @@ impl GroupFits<'_> {
 
     fn plane(&self, side: &str) -> Option<&DemandFit> {
         let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
-        let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "low"));
+        let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "below"));
         on_side.find(|fit| fit.group() == self.group)
     }
 

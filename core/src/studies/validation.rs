@@ -6,7 +6,7 @@ use crate::fragility::Event;
 use crate::statistics::clusters::clustered_mean;
 use crate::statistics::normal::Z_95;
 use crate::statistics::scores::{auc, brier_score, log_score};
-use crate::statistics::{Interval, normal, tested_probit};
+use crate::statistics::{Interval, clustered_probit, normal};
 
 const BINS: usize = 10;
 /// A probability is taken no nearer to 0 or 1 than this where its quantile is needed.
@@ -78,7 +78,8 @@ impl Forecasts<'_> {
         let excess: Vec<f64> = happened.iter().zip(probabilities).map(|(y, p)| f64::from(*y) - p).collect();
         let z: Vec<f64> =
             probabilities.iter().map(|p| normal::quantile(p.clamp(LEAST, 1.0 - LEAST))).collect();
-        let calibration = tested_probit(&[&z], happened, clusters).ok().map(|probit| probit.fit.coefficients);
+        let calibration =
+            clustered_probit(&[&z], happened, clusters).ok().map(|probit| probit.fit.coefficients);
         Some(Validation {
             suite: self.suite.map(str::to_string),
             structure: self.structure.to_string(),

@@ -43,8 +43,6 @@ fn curves_equal_statsmodels_and_pyfragility() {
                 }
             }
             close(fit.log_likelihood.unwrap(), of("llf".to_string()), 1e-10);
-            close(fit.aic.unwrap(), of("aic".to_string()), 1e-9);
-            close(fit.bic.unwrap(), of("bic".to_string()), 1e-9);
         }
     }
 }
@@ -113,11 +111,11 @@ fn curves_that_cannot_be_made_have_a_status_and_no_numbers() {
         (Event::Rocking, Measure::Im4, None, FitStatus::TooFewEvents),
         (Event::Overturning, Measure::Im1, None, FitStatus::TooFewEvents),
         (Event::Overturning, Measure::Im3, Some(Measure::Im3Inverse), FitStatus::Degenerate),
-        (Event::Overturning, Measure::Im3, None, FitStatus::WrongSign),
+        (Event::Overturning, Measure::Im3, None, FitStatus::Inverse),
     ] {
         let fit = fit_curve(&cases, event, im_x, im_y);
         assert_eq!(fit.status, status);
-        assert!(status == FitStatus::WrongSign || fit.coefficients.is_empty());
+        assert!(status == FitStatus::Inverse || fit.coefficients.is_empty());
     }
 }
 

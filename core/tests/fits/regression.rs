@@ -5,13 +5,11 @@ use proptest::prelude::*;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rockfrag_core::statistics::clusters::clustered_mean;
-use rockfrag_core::statistics::distributions::{
-    chi_squared_quantile, chi_squared_upper_tail, f_upper_tail, t_quantile,
-};
+use rockfrag_core::statistics::distributions::{chi_squared_quantile, f_upper_tail, t_quantile};
 use rockfrag_core::statistics::normal::{cdf, ln_cdf, ln_cdf_and_slope, quantile};
-use rockfrag_core::statistics::scores::{auc, brier_score, log_score};
+use rockfrag_core::statistics::scores::{auc, brier_score, largest_difference, log_score};
 use rockfrag_core::statistics::{
-    FitStatus, Folds, least_squares, probit, tested_least_squares, tested_probit,
+    FitStatus, Folds, clustered_least_squares, clustered_probit, least_squares, probit,
 };
 
 use crate::common::{Row, answers, close, data, random, read};
@@ -31,16 +29,14 @@ fn probit_equals_statsmodels_where_classes_barely_overlap() {
 }
 
 #[test]
-fn tests_of_the_form_and_errors_of_lone_cases_equal_statsmodels() {
+fn errors_of_lone_cases_equal_statsmodels() {
     let (data, expected) = (data(), answers("uncertainty_answers.csv"));
     let alone: Vec<u32> = (0..data.x.len() as u32).collect();
     for name in ["x", "xy"] {
         let x = data.predictors(name);
-        let curve = tested_probit(&x, &data.event, &alone).unwrap().fit;
-        let plane = tested_least_squares(&x, &data.demand, &alone).unwrap().fit;
-        close(curve.misfit_p.unwrap(), expected[&format!("probit_{name}_misfit_p")], 1e-6);
-        close(plane.misfit_p.unwrap(), expected[&format!("ols_{name}_misfit_p")], 1e-7);
-        assert_eq!((curve.clusters, curve.status, plane.status), (400, FitStatus::Ok, FitStatus::Ok));
+        let curve = clustered_probit(&x, &data.event, &alone).unwrap();
+        let plane = clustered_least_squares(&x, &data.demand, &alone).unwrap().fit;
+        assert_eq!((curve.fit.clusters, curve.status), (400, FitStatus::Ok));
         close(plane.clustered.unwrap()[(1, 1)].sqrt(), expected[&format!("ols_{name}_hc1_1")], 1e-9);
     }
 }
@@ -48,20 +44,28 @@ fn tests_of_the_form_and_errors_of_lone_cases_equal_statsmodels() {
 #[test]
 fn a_line_where_there_is_a_parabola_is_a_poor_fit() {
     let data = data();
-    let parabola: Vec<f64> = data.x.iter().zip(&data.demand).map(|(x, noise)| x * x + 0.1 * noise).collect();
-    let plane = tested_least_squares(&[&data.x], &parabola, &data.cells).unwrap().fit;
     let events: Vec<bool> =
         data.x.iter().zip(&data.y).map(|(x, y)| (x - 0.4).abs() + 0.3 * y > 0.3).collect();
-    let curve = tested_probit(&[&data.x], &events, &data.cells).unwrap().fit;
-    assert_eq!((plane.status, curve.status), (FitStatus::PoorFit, FitStatus::PoorFit));
-    assert!(curve.misfit_p.unwrap() < 1e-6, "{:?}", curve.misfit_p);
+    let curve = clustered_probit(&[&data.x], &events, &data.cells).unwrap();
+    assert!(curve.status == FitStatus::PoorFit && curve.largest_difference > Some(0.15), "{curve:?}");
+}
+
+#[test]
+fn the_largest_difference_is_that_of_a_bin_which_chance_does_not_explain() {
+    // 125 cases at 0.2, of which every fifth happens, and 80 at 0.5: two bins each, of equal variance.
+    let difference = |happens: fn(usize) -> bool| {
+        let probabilities = [[0.2; 125].as_slice(), &[0.5; 80]].concat();
+        let events: Vec<bool> = (0..205).map(|k| if k < 125 { k % 5 == 0 } else { happens(k) }).collect();
+        largest_difference(&probabilities, &events)
+    };
+    close(difference(|k| k % 4 > 0).unwrap(), 0.25, 1e-12);
+    assert_eq!(difference(|k| k % 5 < 3), Some(0.0), "0.6 of 40 is by chance");
+    assert_eq!(largest_difference(&[0.5; 40], &[true; 40]), None, "one bin tells nothing");
 }
 
 #[test]
 fn distributions_equal_scipys() {
     let expected = answers("uncertainty_answers.csv");
-    close(chi_squared_upper_tail(7.3, 5.0), expected["chi_squared"], 1e-13);
-    close(chi_squared_upper_tail(21.4, 8.0), expected["chi_squared_even"], 1e-13);
     close(f_upper_tail(4.2, 2.0, 37.0), expected["f"], 1e-12);
     for (degrees, expected) in [
         (1.0, 12.706_204_736_174_698),
@@ -73,8 +77,12 @@ fn distributions_equal_scipys() {
         close(t_quantile(0.975, degrees), expected, 1e-10);
         close(t_quantile(0.025, degrees), -expected, 1e-10);
     }
-    for (share, degrees) in [(0.025, 12.0), (0.975, 0.7), (0.5, 40.5)] {
-        close(chi_squared_upper_tail(chi_squared_quantile(share, degrees), degrees), 1.0 - share, 1e-10);
+    for (share, degrees, expected) in [
+        (0.025, 12.0, 4.403_788_506_981_701),
+        (0.975, 0.7, 4.136_665_825_733_002),
+        (0.5, 40.5, 39.835_319_570_076_19),
+    ] {
+        close(chi_squared_quantile(share, degrees), expected, 1e-10);
     }
 }
 
@@ -175,9 +183,9 @@ fn want_of_cases_of_variation_and_of_events_are_statuses() {
     assert_eq!(probit(&[&x, &twice], &mixed).unwrap_err(), FitStatus::Degenerate);
     assert_eq!(probit(&[&[2.0; 50]], &mixed).unwrap_err(), FitStatus::Degenerate);
     assert_eq!(probit(&[&x], &events(|k| k > 25)).unwrap_err(), FitStatus::Separated);
-    assert_eq!(probit(&[&x], &mixed).unwrap().fit.status, FitStatus::Ok);
-    let of_nine = tested_probit(&[&x], &events(|k| k % 6 == 0), &[0; 50]).unwrap();
-    assert_eq!(of_nine.fit.status, FitStatus::FewEvents);
+    assert_eq!(probit(&[&x], &mixed).unwrap().status, FitStatus::Ok);
+    let of_nine = clustered_probit(&[&x], &events(|k| k % 6 == 0), &[0; 50]).unwrap();
+    assert_eq!(of_nine.status, FitStatus::FewEvents);
 }
 
 #[test]
@@ -188,7 +196,7 @@ fn threads_do_not_change_a_bit() {
     let events: Vec<bool> = x.iter().map(|x| *x + random.random_range(-2.0..2.0) > 0.5).collect();
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| tested_probit(&[&x], &events, &[0; 30_000]).unwrap())
+        pool.install(|| clustered_probit(&[&x], &events, &[0; 30_000]).unwrap())
     };
     assert_eq!(on(1), on(3));
 }

@@ -83,31 +83,43 @@ fn limits_of_a_share_equal_those_of_scipy() {
     }
 }
 
-/// The scores of the regressions of the demand and of the curves of overturning on these measures.
-fn scores(safe: &Cases, overturning: &Cases, measures: &[&str]) -> [Vec<Option<f64>>; 2] {
+/// The log scores and calibration slopes of the regressions of the demand and of the curves of overturning on
+/// these measures.
+fn scores(safe: &Cases, overturning: &Cases, measures: &[&str]) -> [Vec<[Option<f64>; 2]>; 2] {
     let asked: Vec<Predictors> = measures.iter().map(|one| one.parse().unwrap()).collect();
-    let demand = fit_demand(safe, Some(1.3), 0.95, &asked, false);
+    let demand = fit_demand(safe, Some(1.3), &[0.1], &asked, false);
     let curves = fit_curves(overturning, Event::Overturning, &asked, false);
     let of_demand = |one: &Predictors| demand.iter().skip(2).find(|fit| fit.predictors() == *one);
     let of_curves = |one: &Predictors| curves.iter().find(|fit| fit.predictors() == *one);
     [
-        asked.iter().map(|one| of_demand(one).unwrap().held_out_log_score).collect(),
-        asked.iter().map(|one| of_curves(one).unwrap().held_out_log_score).collect(),
+        asked
+            .iter()
+            .map(|one| of_demand(one).unwrap())
+            .map(|fit| [fit.held_out_log_score, fit.calibration_slope])
+            .collect(),
+        asked
+            .iter()
+            .map(|one| of_curves(one).unwrap())
+            .map(|fit| [fit.held_out_log_score, fit.calibration_slope])
+            .collect(),
     ]
 }
 
 #[test]
 fn each_score_equals_that_of_statsmodels_and_scipy() {
     let (data, expected) = (data(), answers("score_answers.csv"));
-    let expected = |name: &str| expected[&format!("{name}_log_score")];
+    let of = |name: &str, what: &str| expected[&format!("{name}_{what}")];
     let (safe, overturning) = (data.safe(), data.overturning());
     let [demand, curves] = scores(&safe, &overturning, &["im4", "im4:im3"]);
     for (place, name) in ["im4", "im4:im3"].into_iter().enumerate() {
-        close(demand[place].unwrap(), expected(&format!("p_ex_{name}_single")), 1e-7);
-        close(curves[place].unwrap(), expected(&format!("p_ro_{name}_single")), 1e-7);
+        for (event, found) in [("p_ex", &demand), ("p_ro", &curves)] {
+            for (number, what) in found[place].into_iter().zip(["log_score", "slope"]) {
+                close(number.unwrap(), of(&format!("{event}_{name}_single"), what), 1e-7);
+            }
+        }
     }
-    for plane in &fit_demand(&safe, Some(1.3), 0.95, &[], false) {
-        close(plane.held_out_log_score.unwrap(), expected("p_ex_im4:im3_broken"), 1e-7);
+    for plane in &fit_demand(&safe, Some(1.3), &[0.1], &[], false) {
+        close(plane.held_out_log_score.unwrap(), of("p_ex_im4:im3_broken", "log_score"), 1e-7);
     }
 }
 
@@ -122,7 +134,7 @@ fn the_same_model_in_other_measures_or_units_has_the_same_score() {
     });
     // IM4 = IM3 IM5: one model.
     for scores in scores(&safe, &overturning, &["im4:im3", "im3:im5", "im4:im3_inv", "im4:scaled"]) {
-        scores.iter().for_each(|score| close(score.unwrap(), scores[0].unwrap(), 1e-9));
+        scores.iter().for_each(|score| close(score[0].unwrap(), scores[0][0].unwrap(), 1e-9));
     }
 }
 
@@ -133,7 +145,7 @@ fn one_cluster_and_no_fit_have_no_score() {
         cases.all.iter_mut().for_each(|case| case.cluster = 0);
         cases
     };
-    assert_eq!(scores(&one(data.safe()), &one(data.overturning()), &["im4"]), [[None], [None]]);
-    assert_eq!(scores(&data.safe(), &data.overturning(), &["im1", "missing"]), [[None; 2], [None; 2]]);
+    assert_eq!(scores(&one(data.safe()), &one(data.overturning()), &["im4"]), [[[None; 2]], [[None; 2]]]);
+    assert_eq!(scores(&data.safe(), &data.overturning(), &["im1", "missing"]), [[[None; 2]; 2]; 2]);
     assert_eq!("missing".parse(), Ok(Predictors::one(Measure::Column("missing".to_string()))));
 }

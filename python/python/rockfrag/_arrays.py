@@ -88,7 +88,7 @@ def simulate_motion(
 class FragilityCurve(_plots.Shown):
     """A lognormal fragility curve P = Phi(ln(im / theta) / beta) (Eq. 20); without a fit numbers are NaN."""
 
-    #: ok, poor_fit, few_events, wrong_sign, separated, too_few_events, degenerate or not_converged.
+    #: ok, poor_fit (off by more than 0.15), few_events, wrong_sign, separated, too_few_events, degenerate or not_converged.
     status: str
     #: Cases, and those with the event.
     n: int
@@ -100,6 +100,8 @@ class FragilityCurve(_plots.Shown):
     beta: float = np.nan
     beta_low: float = np.nan
     beta_high: float = np.nan
+    #: Of the curve from the share of events, in bins of intensity, beyond chance; NaN of too few cases.
+    largest_difference: float = np.nan
     #: z = b0 + b1 ln im, and its covariance, row by row.
     coefficients: Sequence[float] = (np.nan, np.nan)
     covariance: Sequence[float] = (np.nan,) * 4

@@ -1,6 +1,6 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
-use rockfrag_core::fragility::{Cases, DemandModel, Measure, Parameter};
+use rockfrag_core::fragility::{Cases, DemandModel, Measure};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -18,6 +18,7 @@ use crate::figures::common::{by, called, name, rocked, scaled_label, short_label
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
+use crate::stages::shared::fits::CurveLine;
 use crate::table::responses::CapacityFitRow;
 
 /// Structures in the first sentence; the table has all.
@@ -134,9 +135,11 @@ fn head(tables: &Tables) -> Document {
         Some(document) => document,
         None if !answers.is_empty() => Document::of_answers(&AnswerTable::joined(answers)),
         None if !compared.is_empty() => Document {
-            title: "The paper's fragility curves, reproduced".to_string(),
+            title: "The paper's fragility curves beside those of this run".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
-            lead: vec![literal(tables.answer_of("compare-paper").unwrap_or_default())],
+            lead: tables
+                .made_by("compare-paper")
+                .map_or(Vec::new(), |made| made.summary.lines().take(2).map(literal).collect()),
             tables: vec![published_planes(compared)],
             ..Document::default()
         },
@@ -168,6 +171,10 @@ fn cell(row: &Value, field: &str) -> String {
             (Some(count), _) => number::count(count as usize),
             (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
         },
+        Value::Object(_) => {
+            let value: Option<Interval<Option<f64>>> = serde_json::from_value(row[field].clone()).ok();
+            value.map_or(String::new(), |value| TWO_DIGITS.both(value, ""))
+        }
         Value::String(name) if field == "structure" => literal(name),
         Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
         Value::String(text) => text.replace('_', " "),
@@ -175,15 +182,16 @@ fn cell(row: &Value, field: &str) -> String {
     }
 }
 
-/// Table II: published over ours.
+/// Table II: published, mean of the seeds, this run.
 fn published_planes(compared: &[Comparison]) -> Table {
-    let rows = table_two(compared).map(|[suite, structure, side, numbers @ ..]| {
-        [vec![literal(&structure), literal(&suite), side], numbers.map(minus).into()].concat()
+    let rows = table_two(compared).into_iter().map(|[suite, structure, plane, numbers @ ..]| {
+        [vec![literal(&structure), literal(&suite), plane], numbers.map(minus).into()].concat()
     });
-    let heads = ["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}"];
+    let heads =
+        ["structure", "motions", "plane", "ln *a*", "*b*_{1}", "*b*_{2}", "*R*^{2}", "*T*^{2}", "*p*"];
     Table::new(&heads, rows.collect()).explained(
-        "Table II, the planes of the demand below and above the transition: published / this run (*z*). *z* \
-         is their difference over the standard deviation between seeds.",
+        "Table II, the planes of the demand below and above the transition: published / mean of seeds / this \
+         run (its *z* if 3 or more). *T*^{2} and *p*: the published plane as one more of the seeds.",
     )
 }
 
@@ -233,19 +241,14 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
 fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, Interval<Option<f64>>) {
-    let curve = tables.fits.curve(cases, &Measure::Im5, None);
-    let parameters = curve.map_or(Vec::new(), |fit| fit.parameters(0.95));
-    let [theta, beta] = [Parameter::Theta, Parameter::Beta].map(|which| {
-        let row = parameters.iter().find(|row| row.parameter == which);
-        row.map_or(Interval::default(), |row| Interval::<Option<f64>>::from(row.estimate()))
-    });
+    let Some(fit) = tables.fits.curve(cases, &Measure::Im5, None) else { return Default::default() };
+    let CurveLine { theta, beta, .. } = CurveLine::new(fit, 0.95);
     let pgv_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
     (theta.map(|im5| im5 * pgv_m_s), beta)
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let is_of_plane = |quantity: &str| quantity.starts_with("low_") || quantity.starts_with("high_");
-    let published = tables.compared.iter().filter(|number| !is_of_plane(&number.quantity));
+    let published = tables.compared.iter().filter(|number| number.plane.is_none());
     let planes = tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
     let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
     let mut all = vec![outcomes(tables)?];
@@ -253,17 +256,20 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     if tables.answers.is_empty() {
         all.extend([
             table(
-                "Further numbers of the paper beside those of this run; *z* is (published \u{2212} ours) / sd \
-                 over seeds",
+                "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
                 published,
-                "quantity structure suite published ours mean sd z",
+                "quantity structure suite published mean z ours ours_z",
             ),
             table(
-                "Lognormal curves of overturning",
-                &tables.fits.curves,
-                "structure suite im_x im_y auc n n_events status",
+                "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
+                tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
+                "structure suite im_x im_y theta beta lambda n_events largest_difference status",
             ),
-            table("Planes of the demand", planes, "structure suite range_low range_high r2 beta n status"),
+            table(
+                "Planes of the demand",
+                planes,
+                "structure suite range_low range_high r2 beta n largest_difference status",
+            ),
         ]);
     }
     all.push(table(

@@ -57,7 +57,7 @@ pub enum Kind {
     Probabilities,
     #[strum(props(by = "fit-pex fit-pro", columns = "ln_s tau n_clusters", silent = true))]
     Calibrations,
-    #[strum(serialize = "curves of overturning", props(by = "fit-pro", columns = "event coefficients aic"))]
+    #[strum(serialize = "curves of overturning", props(by = "fit-pro", columns = "event coefficients auc"))]
     Curves,
     #[strum(serialize = "regressions of the demand")]
     #[strum(props(by = "fit-pex", columns = "model coefficients range_low"))]

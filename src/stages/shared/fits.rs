@@ -3,8 +3,10 @@
 use std::cmp::Ordering;
 use std::path::Path;
 
-use rockfrag_core::fragility::Calibration;
+use rockfrag_core::fragility::{Calibration, CurveFit, Measure, Parameter};
+use rockfrag_core::statistics::{FitStatus, Interval};
 use rockfrag_core::warning::Warnings;
+use serde::{Deserialize, Serialize};
 
 use crate::pipeline::options::first_lines;
 use crate::table::frame;
@@ -18,6 +20,42 @@ pub fn text<'a, R: Row>(
 ) -> anyhow::Result<String> {
     let frame = frame::from_batch(&rows::batch(rows)?)?;
     Ok(first_lines(&frame::text(&frame.select(columns.split(' '))?), 1, out))
+}
+
+/// What is shown of a curve of overturning (Eqs. 20 and 24).
+#[derive(Debug, Serialize, Deserialize)]
+pub struct CurveLine {
+    suite: Option<String>,
+    structure: String,
+    im_x: Measure,
+    im_y: Option<Measure>,
+    pub theta: Interval<Option<f64>>,
+    pub beta: Interval<Option<f64>>,
+    lambda: Option<f64>,
+    n_events: i64,
+    largest_difference: Option<f64>,
+    status: FitStatus,
+}
+
+impl CurveLine {
+    pub fn new(fit: &CurveFit, confidence: f64) -> CurveLine {
+        let parameters = fit.parameters(confidence);
+        let of = |parameter: Parameter| -> Interval<Option<f64>> {
+            parameters.iter().find(|row| row.parameter == parameter).map(|row| row.estimate()).into()
+        };
+        CurveLine {
+            suite: fit.suite.clone(),
+            structure: fit.structure.clone(),
+            im_x: fit.im_x.clone(),
+            im_y: fit.im_y.clone(),
+            theta: of(Parameter::Theta),
+            beta: of(Parameter::Beta),
+            lambda: of(Parameter::Lambda).value,
+            n_events: fit.n_events,
+            largest_difference: fit.largest_difference,
+            status: fit.status,
+        }
+    }
 }
 
 /// Log scores of held-out cases, the best first, and those without one last.
