@@ -2,7 +2,8 @@
 
 Takes a picture (into FOLDER, else beside the page) at 1280 and 400 pixels, light and dark, and one as printed on A4
 (PDF). Fails on messages of the console, on any request beside the page's own, where an element is wider than its
-column, where a figure is missing, and where a text stands outside its picture or two texts cover each other.
+column, where a figure is missing, and where a text stands outside its picture or two texts cover each other, on the page
+and in the SVG files of its folder.
 """
 
 import argparse
@@ -30,20 +31,21 @@ for (const figure of document.querySelectorAll("figure")) {
     const pictures = [...figure.querySelectorAll("svg[role]")].filter(shown);
     if (pictures.length !== 1 || pictures[0].getBoundingClientRect().height < 40) faults.push("a figure is missing");
 }
-for (const picture of document.querySelectorAll("svg[role]")) {
+for (const picture of document.querySelectorAll("svg[role], svg:root")) {
     if (!shown(picture)) continue;
+    const name = picture.getAttribute("aria-label") ?? "its file";
     const frame = picture.getBoundingClientRect(), texts = [...picture.querySelectorAll("text")];
     const boxes = texts.map((text) => [text.textContent, text.getBoundingClientRect()]);
     for (const [words, box] of boxes)
         if (box.left < frame.left - 2 || box.right > frame.right + 2 || box.top < frame.top - 2 || box.bottom > frame.bottom + 2)
-            faults.push(`'${words}' stands outside ${picture.getAttribute("aria-label")}`);
+            faults.push(`'${words}' stands outside ${name}`);
     boxes.forEach(([words, box], at) => boxes.slice(at + 1).forEach(([other, its]) => {
         const across = Math.min(box.right, its.right) - Math.max(box.left, its.left);
         const down = Math.min(box.bottom, its.bottom) - Math.max(box.top, its.top);
-        if (across > 3 && down > 4) faults.push(`'${words}' covers '${other}' in ${picture.getAttribute("aria-label")}`);
+        if (across > 3 && down > 4) faults.push(`'${words}' covers '${other}' in ${name}`);
     }));
 }
-if (document.querySelectorAll("figure, svg[role]").length === 0) faults.push("no figure at all");
+if (document.querySelectorAll("figure, svg[role], svg:root").length === 0) faults.push("no figure at all");
 return faults;
 """
 
@@ -85,5 +87,10 @@ for page in (page.resolve() for page in arguments.pages):
             arguments.head.write_bytes(base64.b64decode(picture))
     printed = browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})["data"]
     (folder / f"{page.stem}-print.pdf").write_bytes(base64.b64decode(printed))
+    metrics = {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+    for file in sorted(page.with_suffix("").glob("*.svg")):
+        browser.get(file.as_uri())
+        faults += [f"{file.name}: {fault}" for fault in browser.execute_script(FAULTS)]
 browser.quit()
 sys.exit("\n".join(faults) or None)

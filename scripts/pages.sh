@@ -2,7 +2,8 @@
 # Makes a page of each kind with the shipped data: pages.sh PROGRAM FOLDER. The paper's is made by `rockfrag run`.
 set -euo pipefail
 program=$(realpath "$1")
-data=$(realpath "$(dirname "$0")/../data")
+scripts=$(realpath "$(dirname "$0")")
+data=$scripts/../data
 mkdir -p "$2" && cd "$2"
 hazard=$data/hazard.csv,$data/hazard_sa.csv
 evaluate() { "$program" evaluate --quiet --force --hazard "$hazard" "$@" > /dev/null; }
@@ -40,3 +41,15 @@ evaluate --structures objects.csv --out list.xlsx
 "$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace 1 --out response.parquet > /dev/null
 "$program" report --quiet --force --in response.trace.parquet --out response.html > /dev/null
 test "$(wc -c < response.html)" -le 200000
+
+# The records of README.
+mkdir -p tour && cd tour
+python3 "$scripts/example_records.py" records
+{
+    "$program" import-motions records --quiet --force --out motions.parquet
+    "$program" simulate --quiet --force --in motions.parquet --width 0.4 --height 1.6 --out responses.parquet
+    "$program" fit-pro --quiet --force --in responses.parquet --out pro.parquet
+    "$program" fit-pex --quiet --force --in responses.parquet --out pex.parquet
+    "$program" ida --quiet --force --in motions.parquet --width 0.4 --height 1.6 --measure im5 --out ida.parquet
+    "$program" report --quiet --force --in . --out ../tour.html
+} > /dev/null

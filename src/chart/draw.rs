@@ -1,12 +1,12 @@
 //! Drawing of figures: as SVG files in points of 1/72 inch and as PNG of them; as SVG in a page.
 
 use std::collections::HashSet;
-use std::{iter, slice};
+use std::slice;
 
 use anyhow::Context;
 
 use super::axis::{Ruler, Tick};
-use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale};
+use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Symbol};
 use super::picture::{LETTER_WIDTH, LETTERS, Picture, Point, SMALL, course, round, width};
 use super::text::{escape, html, literal, words};
 use crate::number;
@@ -35,8 +35,10 @@ const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BEFORE: f64 = 4.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points below which they are drawn larger and darker, and above which a line is thin.
+/// Number of points above which a line is thin.
 const FEW_POINTS: usize = 400;
+/// Room that several values of a row of names take, rows.
+const SPREAD: f64 = 0.64;
 
 /// The fonts of a file: the first that its reader has.
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
@@ -47,13 +49,18 @@ pub const DPI: f32 = 300.0;
 pub fn svg(figure: &Figure) -> String {
     let mut picture = Picture::new(FILE_WIDTH, Ink::in_file);
     picture.legend(&figure.panels);
-    let columns = figure.columns.max(1);
-    let rows = figure.panels.chunks(columns);
+    let (columns, mut panels) = (figure.columns.max(1), figure.panels.clone());
+    let mut captions = vec![figure.caption.clone()];
+    let has_letters = panels.len() > 1;
+    for (panel, letter) in panels.iter_mut().zip('a'..='z') {
+        let letter = if has_letters { format!("({letter}) ") } else { String::new() };
+        captions.extend((!panel.caption.is_empty()).then(|| format!("{letter}{}", panel.caption)));
+        panel.title.insert_str(0, &letter);
+    }
+    let rows = panels.chunks(columns);
     rows.for_each(|row| picture.row(row, figure.height, FILE_WIDTH / columns as f64));
     picture.height = round(picture.height.max(1.0));
-    let captions = iter::once(&figure.caption).chain(figure.panels.iter().map(|panel| &panel.caption));
-    let captions: Vec<&str> = captions.map(String::as_str).filter(|text| !text.is_empty()).collect();
-    let [title, caption] = [&figure.title, &captions.join(" ")].map(|text| escape(&words(text)));
+    let [title, caption] = [&figure.title, captions.join(" ").trim()].map(|text| escape(&words(text)));
     let attributes = format!(
         "xmlns=\"http://www.w3.org/2000/svg\" width=\"{FILE_WIDTH}pt\" height=\"{}pt\" \
          font-family=\"{FONTS}\"",
@@ -155,20 +162,18 @@ impl Picture {
     /// Draws the legend of panels in lines.
     fn legend(&mut self, panels: &[Panel]) {
         let (mut x, mut y) = (BEFORE, self.height + 11.0);
-        for layer in listed(panels) {
-            let long = MARK + 3.0 + width(&layer.name, LETTERS);
+        for Layer { name, ink, style, .. } in listed(panels) {
+            let long = MARK + 3.0 + width(name, LETTERS);
             if x > BEFORE && x + long > self.width {
                 (x, y) = (BEFORE, y + LEGEND);
             }
             let along = |part: f64| Point::new(x + part * MARK, y - 2.6);
-            match layer.style {
-                MarkStyle::Points => self.dots(&[along(0.5)], 2.0, layer.ink, 1.0),
-                MarkStyle::Line(dash) => self.path(&[along(0.0), along(1.0)], layer.ink, 1.3, dash),
-                MarkStyle::Estimates => {
-                    self.estimate(along(0.5), [along(0.07), along(0.93)], 2.2, layer.ink);
-                }
+            match *style {
+                MarkStyle::Points(symbol) => self.symbols(&[along(0.5)], symbol, 2.0, *ink, 1.0),
+                MarkStyle::Line(dash) => self.path(&[along(0.0), along(1.0)], *ink, 1.3, dash),
+                MarkStyle::Estimates => self.estimate(along(0.5), [along(0.07), along(0.93)], *ink),
             }
-            self.write([x + MARK + 3.0, y], LabelPosition::Legend, Ink::Text, &layer.name);
+            self.write([x + MARK + 3.0, y], LabelPosition::Legend, Ink::Text, name);
             x += long + BETWEEN;
             self.height = y + 5.0;
         }
@@ -200,7 +205,16 @@ impl Picture {
         self.shapes += &format!(
             "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{area}\">\n"
         );
-        panel.drawn().for_each(|layer| self.marks(layer, x, y));
+        // Where rows have several values, these stand below each other, in the order of their layers.
+        let estimates = || panel.drawn().filter(|layer| layer.style == MarkStyle::Estimates);
+        let (rows, layers) = (panel.names().len(), estimates().count());
+        let is_crowded = rows > 0 && estimates().map(|layer| layer.marks.len()).sum::<usize>() > rows;
+        let apart = if is_crowded { SPREAD / layers as f64 } else { 0.0 };
+        let mut down = 0.5 * apart * (1.0 - layers as f64);
+        for layer in panel.drawn() {
+            self.marks(layer, down, [x, y]);
+            down += apart * f64::from(layer.style == MarkStyle::Estimates);
+        }
         self.shapes += "</svg>\n";
         for words in &panel.words {
             let across = if words.position == LabelPosition::Margin { x.to } else { x.at(words.x) };
@@ -237,22 +251,25 @@ impl Picture {
         self.write([middle, bottom + 10.5], LabelPosition::Below, Ink::Muted, &panel.x.label);
     }
 
-    /// Draws the marks of a layer, each value at its place.
-    fn marks(&mut self, layer: &Layer, x: &Ruler, y: &Ruler) {
+    /// Draws the marks of a layer, each value at its place or so much further down.
+    fn marks(&mut self, layer: &Layer, down: f64, [x, y]: [&Ruler; 2]) {
         let (ink, marks) = (layer.ink, &layer.marks);
-        let places: Vec<Point> = marks.iter().map(|mark| Point::new(x.at(mark.x), y.at(mark.y))).collect();
+        let places: Vec<Point> =
+            marks.iter().map(|mark| Point::new(x.at(mark.x), y.at(mark.y + down))).collect();
         let limits = |mark: &Mark| match y.scale {
-            Scale::Names(_) => [mark.low, mark.high].map(|limit| Point::new(x.at(limit), y.at(mark.y))),
+            Scale::Names(_) => {
+                [mark.low, mark.high].map(|limit| Point::new(x.at(limit), y.at(mark.y + down)))
+            }
             _ => [mark.low, mark.high].map(|limit| Point::new(x.at(mark.x), y.at(limit))),
         };
         match layer.style {
-            MarkStyle::Points => {
-                let (radius, opacity) = match marks.len() {
-                    ..6 => (2.2, 1.0),
-                    6..FEW_POINTS => (1.3, 0.85),
-                    _ => (0.8, 0.5),
+            MarkStyle::Points(symbol) => {
+                let (radius, opacity) = match symbol {
+                    Symbol::Disc => (1.5, 0.9),
+                    Symbol::Dot => (0.9, 0.55),
+                    Symbol::Circle | Symbol::Cross => (1.1, 0.7),
                 };
-                self.dots(&places, radius, ink, opacity);
+                self.symbols(&places, symbol, radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {
                 let has_band = |mark: &Mark| mark.is_finite() && mark.low.is_finite();
@@ -269,11 +286,7 @@ impl Picture {
                 self.path(&places, ink, width, dash);
             }
             MarkStyle::Estimates => {
-                let most = marks.iter().map(|mark| mark.n).fold(1.0, f64::max);
-                for (mark, at) in marks.iter().zip(places) {
-                    let radius = if mark.n.is_nan() { 2.3 } else { 0.9 + 2.3 * (mark.n / most).sqrt() };
-                    self.estimate(at, limits(mark), radius, ink);
-                }
+                marks.iter().zip(places).for_each(|(mark, at)| self.estimate(at, limits(mark), ink));
             }
         }
     }

@@ -65,6 +65,8 @@ pub enum Scale {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     pub name: String,
+    /// Of several groups in a panel, the one that it shows.
+    pub series: String,
     /// Whether the legend has it; of one name it has the first layer.
     pub is_listed: bool,
     pub ink: Ink,
@@ -76,11 +78,22 @@ pub struct Layer {
 #[derive(Debug, Clone, Copy, PartialEq, strum::IntoStaticStr)]
 #[strum(serialize_all = "snake_case")]
 pub enum MarkStyle {
-    Points,
+    Points(Symbol),
     /// A line, and between the limits of y a band.
     Line(Dash),
-    /// Values with limits of y, or of x where y is an axis of names.
+    /// Values with limits of y, or of x where y is an axis of names; there those of one row stand below each
+    /// other.
     Estimates,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+pub enum Symbol {
+    /// Of few points, that have each a meaning.
+    Disc,
+    Dot,
+    Circle,
+    Cross,
 }
 
 /// A place over the axes; with limits if it is an estimate. What is NaN is not drawn: a line has a gap there.
@@ -90,7 +103,7 @@ pub struct Mark {
     pub y: f64,
     pub low: f64,
     pub high: f64,
-    /// Number of observations behind it, which its dot shows.
+    /// Number of observations behind it.
     pub n: f64,
 }
 
@@ -146,8 +159,8 @@ pub enum Dash {
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
 /// Columns of the table of a figure.
-const COLUMNS: &str = "panel,layer,x_is,x,y_is,y,low,high,n,\
-                       panel_number,layer_number,x_scale,y_scale,row,style,dash,colour";
+const COLUMNS: &str = "panel,series,layer,x_is,x,y_is,y,row,low,high,n,\
+                       panel_number,layer_number,x_scale,y_scale,style,form,colour";
 
 impl Mark {
     pub fn new(x: f64, y: f64) -> Mark {
@@ -162,15 +175,15 @@ impl Mark {
 impl Layer {
     /// Without a name, it is not in the legend.
     pub fn new(name: &str, ink: Ink, style: MarkStyle, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        let (name, is_listed) = (name.to_string(), !name.is_empty());
-        Layer { name, is_listed, ink, style, marks: marks.into_iter().collect() }
+        let (name, is_listed, series) = (name.to_string(), !name.is_empty(), String::new());
+        Layer { name, series, is_listed, ink, style, marks: marks.into_iter().collect() }
     }
 
     /// Draws points; of too many, some that are spread over all.
-    pub fn points(name: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
+    pub fn points(name: &str, ink: Ink, symbol: Symbol, marks: impl IntoIterator<Item = Mark>) -> Layer {
         let marks: Vec<Mark> = marks.into_iter().filter(Mark::is_finite).collect();
         let step = marks.len().div_ceil(MOST_POINTS).max(1);
-        Layer::new(name, ink, MarkStyle::Points, marks.into_iter().step_by(step))
+        Layer::new(name, ink, MarkStyle::Points(symbol), marks.into_iter().step_by(step))
     }
 
     pub fn line(name: &str, ink: Ink, marks: impl IntoIterator<Item = Mark>) -> Layer {
@@ -207,22 +220,28 @@ impl Figure {
             let [title, x_is, y_is] = [&panel.title, &panel.x.label, &panel.y.label].map(|text| words(text));
             let [x_scale, y_scale] = [&panel.x.scale, &panel.y.scale].map(<&str>::from);
             let number = number.to_string();
-            let mut write = |name: &str, mark: Mark, [layer, style, dash]: [&str; 3], ink: Ink| {
-                let name = if name.is_empty() { &title } else { &words(name) };
+            let mut write = |[series, name]: [&str; 2], mark: Mark, kind: [&str; 3], ink: Ink| {
+                let [series, name] = [series, if name.is_empty() { &panel.title } else { name }].map(words);
                 let [x, y, low, high, n] = &[mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
-                let row = panel.names().get(mark.y.round() as usize).map_or(String::new(), |row| words(row));
-                let (place, ink) = ([&title, name, &x_is, x, &y_is, y, low, high, n], ink.in_file());
-                let kind = [&number, layer, x_scale, y_scale, &row, style, dash, &ink];
+                let row = panel.names().get(mark.y as usize).map_or(String::new(), |row| words(row));
+                let ([layer, style, form], ink) = (kind, ink.in_file());
+                let place = [&title, &series, &name, &x_is, x, &y_is, y, &row, low, high, n];
+                let kind = [&number, layer, x_scale, y_scale, style, form, &ink];
                 writer.write_record(place.map(String::as_str).into_iter().chain(kind))
             };
             for (layer, number) in panel.drawn().zip(1_i32..) {
                 let number = number.to_string();
-                let dash = if let MarkStyle::Line(dash) = layer.style { dash.into() } else { "" };
-                let kind = [number.as_str(), layer.style.into(), dash];
-                layer.marks.iter().try_for_each(|mark| write(&layer.name, *mark, kind, layer.ink))?;
+                let form = match layer.style {
+                    MarkStyle::Line(dash) => dash.into(),
+                    MarkStyle::Points(symbol) => symbol.into(),
+                    MarkStyle::Estimates => "",
+                };
+                let (names, kind) =
+                    ([&layer.series[..], &layer.name], [number.as_str(), layer.style.into(), form]);
+                layer.marks.iter().try_for_each(|mark| write(names, *mark, kind, layer.ink))?;
             }
             for Words { x, y, text, ink, .. } in &panel.words {
-                write(text, Mark::new(*x, *y), ["", "words", ""], *ink)?;
+                write(["", text], Mark::new(*x, *y), ["", "words", ""], *ink)?;
             }
         }
         Ok(String::from_utf8(writer.into_inner()?)?)

@@ -1,6 +1,6 @@
 //! A picture as it is written: shapes, and over them texts whose places are known before.
 
-use super::figure::{Dash, Ink, LabelPosition, Words};
+use super::figure::{Dash, Ink, LabelPosition, Symbol, Words};
 use super::text::{Level, escape, runs, words};
 
 /// A place in a picture.
@@ -11,6 +11,9 @@ pub const LETTERS: f64 = 8.0;
 pub const SMALL: f64 = 7.2;
 /// Mean width of a letter, of its height.
 pub const LETTER_WIDTH: f64 = 0.54;
+
+/// Width of the line of a circle or cross, of its radius.
+const OUTLINE: f64 = 0.45;
 
 /// The colours in a file, and their names on the page, by [`Ink::place`]. Data: Okabe & Ito's palette without
 /// its yellow, too faint on white.
@@ -108,18 +111,23 @@ impl Picture {
         }
     }
 
-    /// Draws small discs: strokes of no length with round ends, short to write.
-    pub fn dots(&mut self, places: &[Point], radius: f64, ink: Ink, opacity: f64) {
+    /// Draws small symbols, short to write: a disc is a stroke of no length with round ends.
+    pub fn symbols(&mut self, places: &[Point], symbol: Symbol, radius: f64, ink: Ink, opacity: f64) {
+        let (r, d) = (round(radius), round(2.0 * radius));
+        let (shape, width) = match symbol {
+            Symbol::Disc | Symbol::Dot => ("h0".to_string(), d),
+            Symbol::Circle => (format!("m-{r} 0a{r} {r} 0 1 1 0 .1"), OUTLINE * r),
+            Symbol::Cross => (format!("m-{r}-{r}l{d} {d}m-{d} 0l{d}-{d}"), OUTLINE * r),
+        };
         let finite = places.iter().filter(|place| is_finite(place));
-        let d: String = finite.map(|place| format!("M{} {}h0", round(place.x), round(place.y))).collect();
-        let style = format!(" stroke-linecap=\"round\" stroke-opacity=\"{opacity}\"");
-        self.stroke(&d, ink, 2.0 * radius, &style);
+        let d: String = finite.map(|at| format!("M{} {}{shape}", round(at.x), round(at.y))).collect();
+        self.stroke(&d, ink, width, &format!(" stroke-linecap=\"round\" stroke-opacity=\"{opacity}\""));
     }
 
     /// Draws a disc over its limits, a broad, pale line.
-    pub fn estimate(&mut self, at: Point, limits: [Point; 2], radius: f64, ink: Ink) {
+    pub fn estimate(&mut self, at: Point, limits: [Point; 2], ink: Ink) {
         self.stroke(&course(&limits), ink, 2.4, " class=\"limits\" stroke-opacity=\"0.42\"");
-        self.dots(&[at], radius, ink, 1.0);
+        self.symbols(&[at], Symbol::Dot, 2.2, ink, 1.0);
     }
 
     pub fn fill(&mut self, outline: &[Point], ink: Ink, opacity: f64) {

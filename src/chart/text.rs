@@ -66,9 +66,14 @@ pub fn html(marked: &str) -> String {
     text
 }
 
-/// Drops the marks.
+/// Drops the marks but for those of small letters: `P_ro`, `R^2`.
 pub fn words(marked: &str) -> String {
-    runs(marked).into_iter().map(|run| run.words).collect()
+    let mark = |level| match level {
+        Level::Line => "",
+        Level::Sub => "_",
+        Level::Super => "^",
+    };
+    runs(marked).into_iter().flat_map(|run| [mark(run.level).to_string(), run.words]).collect()
 }
 
 /// The letters and digits of a marked text as the name of a file: `rack-2-csgm`.

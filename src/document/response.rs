@@ -7,7 +7,7 @@ use rockfrag_core::units::G_M_S2;
 use super::Document;
 use crate::chart::round;
 use crate::chart::text::{escape, file_words, literal, words};
-use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol, Words};
 use crate::figures::common::called;
 use crate::figures::envelope;
 use crate::number;
@@ -115,8 +115,8 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let guides = [-1.0, 1.0].map(|limit| Layer::guide("tipping angle", Ink::Muted, guide(limit)));
     let dots = |event| response.times(event).into_iter().map(|time_s| Mark::new(time_s, 0.0));
     let events = [
-        Layer::points("uplift", Ink::Data(2), dots(SolverEvent::Uplift)),
-        Layer::points("impact", Ink::Data(0), dots(SolverEvent::Impact)),
+        Layer::points("uplift", Ink::Data(2), Symbol::Disc, dots(SolverEvent::Uplift)),
+        Layer::points("impact", Ink::Data(0), Symbol::Disc, dots(SolverEvent::Impact)),
     ];
     let layers = guides.into_iter().chain([rotation]).chain(events).collect();
     let time = |label: &str| Axis::linear(label).over(low, high);

@@ -8,7 +8,7 @@ use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns, Usual, over_all};
-use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
+use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
 
@@ -135,8 +135,8 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
         Layer::guide("outline as it tips", Ink::Data(1), turned),
         Layer::guide("edge to centre as it tips", Ink::Data(1), [edge, tipped(centre)]),
         Layer::guide("edge to centre", Ink::Muted, [edge, centre]),
-        Layer::points("centre of mass as it tips", Ink::Data(1), [tipped(centre)]).unlisted(),
-        Layer::points("centre of mass", Ink::Text, [centre]).unlisted(),
+        Layer::points("centre of mass as it tips", Ink::Data(1), Symbol::Disc, [tipped(centre)]).unlisted(),
+        Layer::points("centre of mass", Ink::Text, Symbol::Disc, [centre]).unlisted(),
     ];
     let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
     let degrees = significant(alpha_rad.to_degrees(), 3);
@@ -237,7 +237,7 @@ fn hazard_panel(drawn: &AtSite) -> Panel {
     }
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("hazard curve", Ink::Text, curve).unlisted());
-    panel.layers.push(Layer::points("usual return periods", Ink::Text, dots).unlisted());
+    panel.layers.push(Layer::points("usual return periods", Ink::Text, Symbol::Disc, dots).unlisted());
     let caption = format!("How often {what} is exceeded at the site: {}.", words.join(", "));
     panel.explained(caption)
 }
@@ -311,9 +311,6 @@ impl ProbabilityRow {
     }
 }
 
-/// How far apart the values of a row stand, rows.
-const APART: f64 = 0.34;
-
 /// A panel of rows, in percent, over all values and the target.
 pub fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
     let (mut layers, mut words): (Vec<Layer>, _) = (Vec::new(), Vec::new());
@@ -321,10 +318,9 @@ pub fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: O
     for (at, row) in rows.iter().enumerate() {
         let (y, text) = (at as f64, row.words.clone());
         words.push(Words { x: 0.0, y, text, position: LabelPosition::Margin, ink: Ink::Text });
-        for (place, (p, ink, label)) in row.values.iter().enumerate() {
+        for (p, ink, label) in &row.values {
             ends.extend([p.value, p.low, p.high].into_iter().flatten());
             let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-            let y = y + APART * (place as f64 - 0.5 * (row.values.len() as f64 - 1.0));
             let mark = Mark { low, high, ..Mark::new(x, y) };
             match layers.iter_mut().find(|layer| layer.ink == *ink) {
                 Some(layer) => layer.marks.push(mark),

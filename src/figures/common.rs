@@ -1,8 +1,8 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
-use std::collections::BTreeMap;
-
-use rockfrag_core::fragility::{Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure};
+use rockfrag_core::fragility::{
+    Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, Predictors,
+};
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::{Interval, Range};
@@ -32,9 +32,9 @@ impl Fits {
     }
 
     /// The curve of overturning of some cases over these measures.
-    pub fn curve(&self, cases: &Cases, im_x: &Measure, im_y: Option<&Measure>) -> Option<&CurveFit> {
+    pub fn curve(&self, cases: &Cases, predictors: &Predictors) -> Option<&CurveFit> {
         let mut fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
-        fits.find(|fit| (&fit.im_x, fit.im_y.as_ref()) == (im_x, im_y))
+        fits.find(|fit| fit.predictors() == *predictors)
     }
 
     /// The regressions of the demand of some cases, of one form.
@@ -141,15 +141,23 @@ pub fn estimate(x: f64, Interval { value, low, high }: Interval) -> Mark {
 }
 
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %
-/// limits, number of cases. Empty bins are left out.
-pub fn observed_shares(cases: &[(f64, bool)], bin: impl Fn(f64) -> usize) -> Vec<Mark> {
-    let mut bins: BTreeMap<usize, (f64, usize, usize)> = BTreeMap::new();
-    for &(value, event) in cases {
-        let (sum, n, events) = bins.entry(bin(value)).or_default();
-        (*sum, *n, *events) = (*sum + value, *n + 1, *events + usize::from(event));
+/// limits, number of cases. A bin of fewer cases than `least` is joined with the next; the last is left out.
+pub fn observed_shares(cases: &[(f64, bool)], least: usize, bin: impl Fn(f64) -> usize) -> Vec<Mark> {
+    let mut cases = cases.to_vec();
+    cases.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut joined: Vec<Vec<(f64, bool)>> = Vec::new();
+    for its in cases.chunk_by(|a, b| bin(a.0) == bin(b.0)) {
+        match joined.last_mut().filter(|last| last.len() < least) {
+            Some(last) => last.extend(its),
+            None => joined.push(its.to_vec()),
+        }
     }
-    let share = |(sum, n, events)| estimate(sum / n as f64, observed_share(events, n));
-    bins.into_values().map(|bin| Mark { n: bin.1 as f64, ..share(bin) }).collect()
+    let share = |its: Vec<(f64, bool)>| {
+        let (n, events) = (its.len(), its.iter().filter(|(_, event)| *event).count());
+        let mean = its.iter().map(|(value, _)| value).sum::<f64>() / n as f64;
+        Mark { n: n as f64, ..estimate(mean, observed_share(events, n)) }
+    };
+    joined.into_iter().filter(|its| its.len() >= least).map(share).collect()
 }
 
 /// Bins of equal ratio within a span, for [`observed_shares`].

@@ -1,4 +1,5 @@
-//! Figures 3, 4, 7, 8 and 9: the demand over peak velocity, period and the measures of Eq. 13; its planes.
+//! Figures 3, 4, 7, 8 and 9: outcomes and demand over velocity and period of the pulse; the demand over the
+//! measures of Eq. 13; its planes.
 
 use std::f64::consts::TAU;
 
@@ -6,55 +7,131 @@ use nalgebra::Vector3;
 use rockfrag_core::fragility::{
     Case, Cases, DemandFit, DemandModel, Group, Measure, PLANE, Predictors, ln_median_demand,
 };
-use rockfrag_core::statistics::Range;
+use rockfrag_core::motion::Suite;
+use rockfrag_core::rocking::Outcome;
+use rockfrag_core::statistics::scores::sample_quantile;
+use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, by, compare, demands, label, name, rocked, short_label};
+use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label};
 use crate::chart::text::file_words;
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel};
-use crate::number;
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel, Symbol};
+use crate::number::{self, PERCENT};
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;
 /// Where overturned structures stand: so many times the largest demand, or 1.
 const TOP: f64 = 2.0;
-/// Largest zeta of Figure 8, over the least: what lies beyond predicts nothing.
-const MOST_ZETA: f64 = 5.0;
+/// The column of the velocity of the pulse.
+pub const VP: &str = "vp_m_s";
+const PERIOD: &str = "*T*_{p} (s)";
 
-/// The demand in safe rocking of some cases over a value of theirs.
-fn panel(title: &str, x: &str, cases: &Cases, value: &dyn Fn(&Case) -> Option<f64>) -> Panel {
-    let safe = demands(cases).filter_map(|(case, edp)| Some(Mark::new(value(case)?, edp)));
-    let layers = vec![Layer::points("safe rocking", Ink::Data(0), safe)];
-    Panel::new(title, Axis::log(x), Axis::log(DEMAND), layers)
+/// The velocity of the pulse of a motion, m/s, with its label; where only the whole motion is known, its PGV.
+fn velocity(cases: &Cases, row: usize) -> (f64, &'static str) {
+    let unit_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
+    let pulses = cases.columns.get(VP).map(|vp| (unit_m_s * vp[row], "*V*_{p} (m/s)"));
+    pulses.unwrap_or((cases.all[row].peaks.pgv_m_s, "PGV (m/s)"))
 }
 
-/// Figures 3 and 4: the demand over peak velocity and pulse period, one row of panels a group.
+/// The period of the pulse, s.
+fn period(cases: &Cases, row: usize) -> Option<f64> {
+    Some(TAU / (cases.all[row].measures.im1? * cases.structure.p_rad_s))
+}
+
+/// Figures 3 and 4: what came of the motions over velocity and period of their pulses, with the line of
+/// Eq. 5; and the demand over each of the two. A column a group.
 pub fn demand(groups: &[&Cases]) -> Figure {
-    let mut panels = Vec::new();
-    for cases in groups {
-        let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
-        let mut draw = |label: &str, value: &dyn Fn(&Case) -> Option<f64>| {
-            let mut panel = panel(&name(cases), label, cases, value);
-            let fallen = rocked(cases).filter(|(_, overturned)| *overturned);
-            let fallen = fallen.filter_map(|(case, _)| Some(Mark::new(value(case)?, top)));
-            panel.layers.push(Layer::points("overturning, at the top", Ink::Data(1), fallen));
-            panel.y = panel.y.over(LEAST, 1.3 * top);
-            panels.push(panel);
-        };
-        draw("PGV (m/s)", &|case| Some(case.peaks.pgv_m_s));
-        draw("*T*_{p} (s)", &|case| Some(TAU / (case.measures.im1? * cases.structure.p_rad_s)));
-    }
-    let caption = format!(
-        "Each point is a motion in which the structure rocks. The right-hand panels omit motions \
-         without a pulse period; demands below {LEAST} are not drawn."
+    let is_pulse = |cases: &&&Cases| cases.suite.as_deref() == Some(Suite::Pulse.into());
+    // PGA Tp / Vp of the pulses.
+    let ratios = groups.iter().filter(is_pulse).flat_map(|cases| {
+        let ratio = |row: usize| cases.all[row].peaks.pga_m_s2 / velocity(cases, row).0;
+        (0..cases.all.len()).filter_map(move |row| Some(ratio(row) * period(cases, row)?))
+    });
+    let ratios: Vec<f64> = ratios.collect();
+    let quantile = |share| sample_quantile(ratios.clone(), share);
+    let [low, value, high] = [0.05, 0.5, 0.95].map(|share| quantile(share).unwrap_or(f64::NAN));
+    let c = Interval { value, low, high };
+    let pulses = groups.iter().filter(|cases| cases.all.iter().any(|case| case.measures.im1.is_some()));
+    let planes = pulses.clone().map(|cases| outcomes(cases, c));
+    let over_velocity = groups
+        .iter()
+        .map(|cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0)));
+    let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
+    let panels: Vec<Panel> = planes.chain(over_velocity).chain(over_period).collect();
+    let mut caption = format!(
+        "What came of the motions over velocity and period of their pulses, and the demand over each. Where \
+         the structure does not rock the demand stands at the bottom, where it overturns at the top; demands \
+         below {LEAST} are not drawn."
     );
-    Figure::new("demand", "Demand over peak velocity and pulse period", 2, 105.0, panels)
+    if value > 0.0 {
+        let [value, low, high] = [value, low, high].map(|c| number::significant(c, 2));
+        caption += &format!(
+            " The line is Eq. 5 for the pulse alone, whose PGA is *c* *V*_{{p}} / *T*_{{p}}: *V*_{{p}} = *g* \
+             tan *α* *T*_{{p}} / *c* with *c* = {value}, the median of the pulses; its band is that of 90 % of \
+             them, {low} to {high}."
+        );
+    }
+    let columns = groups.len().clamp(2, 3);
+    Figure::new("demand", "Rocking over velocity and period of the pulse", columns, 120.0, panels)
         .explained(compare(&caption, "Figures 3 and 4"))
 }
 
-/// The modified dispersion beta / b; none where the demand falls with the measure.
+/// Layers of what does not rock, rocks and is safe, and overturns, each with the places of its motions.
+fn marked(cases: &Cases, place: impl Fn(usize) -> Option<Mark>) -> Vec<Layer> {
+    let layer = |name: &str, ink, symbol, is_of: fn(Outcome) -> bool| {
+        let rows = (0..cases.all.len()).filter(|row| is_of(cases.all[*row].outcome));
+        Layer::points(name, ink, symbol, rows.filter_map(&place))
+    };
+    vec![
+        layer("does not rock", Ink::Muted, Symbol::Cross, |one| one == Outcome::NoRocking),
+        layer("rocks, safe", Ink::Data(0), Symbol::Circle, |one| matches!(one, Outcome::SafeRocking(_))),
+        layer("overturns", Ink::Data(1), Symbol::Disc, |one| one == Outcome::Overturned),
+    ]
+}
+
+/// Velocity over period, and the line of Eq. 5 with `c` = PGA Tp / Vp; without pulses it is not known.
+fn outcomes(cases: &Cases, c: Interval) -> Panel {
+    let mut layers = marked(cases, |row| Some(Mark::new(period(cases, row)?, velocity(cases, row).0)));
+    let marks = || layers.iter().flat_map(|layer| &layer.marks);
+    let (periods, velocities) =
+        (Range::over(marks().map(|mark| mark.x)), Range::over(marks().map(|mark| mark.y)));
+    let [rest, safe, fallen] = [0, 1, 2].map(|layer| number::count(layers[layer].marks.len()));
+    let mut caption =
+        format!("{rest} motions do not rock the structure, {safe} rock it, {fallen} overturn it.");
+    let limit = |period_s: f64, c: f64| cases.structure.uplift_acceleration_m_s2() * period_s / c;
+    if c.value > 0.0 {
+        let at_rest = |is_below: bool| {
+            let side = |mark: &&Mark| (mark.y < limit(mark.x, c.value)) == is_below;
+            let share =
+                layers[0].marks.iter().filter(side).count() as f64 / marks().filter(side).count() as f64;
+            PERCENT.one(share)
+        };
+        let [below, above] = [true, false].map(at_rest);
+        caption += &format!(" Of those below the line {below} do not rock it, of those above {above}.");
+        let line = [periods.low, periods.high].map(|x| Mark {
+            low: limit(x, c.high),
+            high: limit(x, c.low),
+            ..Mark::new(x, limit(x, c.value))
+        });
+        layers.push(Layer::line("Eq. 5 for the pulse alone", Ink::Text, line));
+    }
+    let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
+    Panel::new(&name(cases), Axis::log(PERIOD), y, layers).explained(caption)
+}
+
+fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> Panel {
+    let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
+    let edp = |row: usize| match cases.all[row].outcome {
+        Outcome::NoRocking => LEAST,
+        Outcome::SafeRocking(edp) => edp,
+        Outcome::Overturned => top,
+    };
+    let layers = marked(cases, |row| Some(Mark::new(value(row)?, edp(row))));
+    Panel::new(&name(cases), Axis::log(x), Axis::log(DEMAND).over(0.8 * LEAST, 1.3 * top), layers)
+}
+
+/// The modified dispersion |zeta| = beta / |b|.
 fn zeta(fit: &DemandFit) -> Option<f64> {
-    let b = fit.coefficients[1];
-    Some(fit.beta? / b).filter(|_| b > 0.0)
+    Some(fit.beta? / fit.coefficients[1].abs())
 }
 
 /// Figure 7: the demand in safe rocking over each measure, with its regression, ln EDP = ln a + b ln IM
@@ -65,20 +142,24 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let mut panels = Vec::new();
     for measure in Measure::SCALAR.into_iter().filter(|_| !laws.is_empty()) {
         let value = |case: &Case| measure.value_of(&case.measures);
-        let mut panel = panel(&short_label(&measure), label(&measure), cases, &value);
+        let safe = demands(cases).filter_map(|(case, edp)| Some(Mark::new(value(case)?, edp)));
+        let layers = vec![Layer::points("safe rocking", Ink::Data(0), Symbol::Dot, safe)];
+        let (x, y) = (Axis::log(label(&measure)), Axis::log(DEMAND));
+        let mut panel = Panel::new(&short_label(&measure), x, y, layers);
         let Range { low, high } = Range::over(demands(cases).filter_map(|(case, _)| value(case)));
         if let Some(fit) = laws.iter().find(|fit| fit.im_x == measure && low < high) {
             let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
             panel.layers.push(Layer::line("regression", Ink::Data(1), line));
-            let zeta = zeta(fit).map_or("none".to_string(), |zeta| number::significant(zeta, 3));
-            let [r2, beta] = [fit.r2, fit.beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
-            panel.title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}*ζ* {zeta}");
+            let [r2, beta, zeta] = [fit.r2, fit.beta, zeta(fit)];
+            let [r2, beta] = [r2, beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
+            let zeta = number::significant(zeta.unwrap_or(f64::NAN), 3);
+            panel.title += &format!("\u{2003}*R*^{{2}} {r2}\u{2002}*β* {beta}\u{2002}|*ζ*| {zeta}");
         }
         panels.push(panel);
     }
     let group = name(cases);
     let caption = "Demand in safe rocking over each measure of Eq. 13, with ln EDP = ln *a* + *b* ln IM. *β* \
-                   is the dispersion and *ζ* = *β*/*b*, which a falling regression does not have.";
+                   is the dispersion, *ζ* = *β*/*b*.";
     let file = format!("regressions-{}", file_words(&group));
     Figure::new(&file, &format!("Demand over one measure: {group}"), 3, 90.0, panels)
         .explained(compare(caption, "Figure 7"))
@@ -88,22 +169,23 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
 /// overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let laws = fits.demand.iter().filter(|fit| fit.model != DemandModel::Biplanar && fit.r2.is_some());
-    let panel = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
-        let range = Range::over(laws.clone().filter_map(value));
-        let most = 1.08 * range.high.min(MOST_ZETA * range.low.max(0.2));
+    let panel = |value: fn(&DemandFit) -> Option<f64>, x: Axis| {
         let all = laws.clone().map(|fit| (fit.group(), fit.predictors(), value(fit)));
-        dots(all.collect(), Axis::linear(label).over(0.0, most), groups)
+        dots(all.collect(), x, groups)
+    };
+    let from_zero = |label: &str, value: fn(&DemandFit) -> Option<f64>| {
+        Axis::linear(label).over(0.0, 1.08 * laws.clone().filter_map(value).fold(0.0, f64::max))
     };
     let scores = fits.curves.iter().map(|fit| (fit.group(), fit.predictors(), fit.held_out_log_score));
     let score = Axis::linear("log score of overturning on held-out cases (more is better)");
     let panels = [
-        panel(|fit| fit.r2, "*R*^{2} (more is better)"),
-        panel(|fit| fit.beta, "*β* (less is better)"),
-        panel(zeta, "*ζ* = *β* / *b* (less is better)"),
+        panel(|fit| fit.r2, from_zero("*R*^{2} (more is better)", |fit| fit.r2)),
+        panel(|fit| fit.beta, from_zero("*β* (less is better)", |fit| fit.beta)),
+        panel(zeta, Axis::log("|*ζ*| = *β* / |*b*| (less is better)")),
         dots(scores.collect(), score, groups),
     ];
     let caption = "Of the regressions of the demand over all cases, and of the lognormal curves of \
-                   overturning. A measure without a dot has no such number, or one far to the right.";
+                   overturning; a measure without a dot has no fit.";
     let figure =
         Figure::new("quality", "Quality of the measures", 2, 0.0, panels.into_iter().flatten().collect());
     figure.explained(compare(caption, "Figure 8"))
@@ -118,10 +200,9 @@ fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
     let names = rows.iter().map(|row| row[0].1.measures().map(short_label).collect::<Vec<_>>().join(", "));
     let mut layers = Vec::new();
     for (number, cases) in groups.iter().enumerate() {
-        let apart = (number as f64 - 0.5 * (groups.len() as f64 - 1.0)) * 0.6 / groups.len() as f64;
         let marks = rows.iter().zip(0_i32..).filter_map(|(row, place)| {
             let (_, _, value) = row.iter().find(|(group, _, _)| *group == cases.group())?;
-            Some(Mark::new((*value)?, f64::from(place) + apart))
+            Some(Mark::new((*value)?, f64::from(place)))
         });
         layers.push(Layer::new(&name(cases), Ink::Data(number), MarkStyle::Estimates, marks));
     }
@@ -139,8 +220,8 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
         panels.extend(high.range_low.map(|transition| planes_panel(cases, transition, coefficients)));
     }
-    let caption = "Demand in safe rocking in the space of ln IM4, ln IM3 and ln EDP, seen along the line in \
-                   which the planes meet.";
+    let caption = "Demand in safe rocking over ln IM4 and ln IM3 with its two planes (Table II), from the \
+                   viewpoint of the paper: along the line in which the planes meet, from where both are lines.";
     let caption =
         compare(caption, "Figure 9") + " There, velocity and period stand in place of the two measures.";
     Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels).explained(caption)
@@ -165,7 +246,7 @@ fn planes_panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Pa
         let line = its.iter().map(|case| view(on_plane(case)));
         let ends = line.clone().min_by(by_x).into_iter().chain(line.max_by(by_x));
         lines.push(Layer::line("planes", Ink::Text, ends));
-        layers.push(Layer::points(label, ink, its.into_iter().map(view)));
+        layers.push(Layer::points(label, ink, Symbol::Dot, its.into_iter().map(view)));
     }
     layers.extend(lines);
     let [x, y] = [right, up].map(|direction| Axis::linear(&sum(direction)));

@@ -9,7 +9,7 @@ mod probability;
 mod studies;
 
 pub use common::Fits;
-pub use demand::{demand, planes, quality, regressions};
+pub use demand::{VP, demand, planes, quality, regressions};
 pub use motion::{envelope, motion, similarity};
 pub use probability::{exceedance, hybrids, maps, overturning};
 pub use studies::{ida, validation};

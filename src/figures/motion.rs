@@ -11,41 +11,43 @@ use crate::number;
 use crate::table::motions::MotionRow;
 
 /// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
-const VALUES: usize = 1200;
+const VALUES: usize = 900;
 const SMOOTH_VALUES: usize = 450;
-const UNIT: &str = "*a* (m/s^{2})";
+const UNITS: [&str; 2] = ["*a* (m/s^{2})", "*v* (m/s)"];
 /// Free rocking that Figure 5 shows, in 1 / p.
 const TAIL: f64 = 5.0;
 
-/// Figure 1: the coherent pulse, the high frequencies, the whole motion, and the velocities; of a combined
-/// motion that has its pulse beside it, else of any.
+/// Figure 1: acceleration and velocity of the coherent pulse, the high frequencies and the whole motion; of a
+/// combined motion that has its pulse beside it, else of any.
 pub fn motion(motions: &[MotionRow]) -> Figure {
     let combined = motions.iter().find(|whole| is_of(whole, Suite::Csgm) && pulse(whole, motions).is_some());
     let Some(whole) = combined.or(motions.first()) else { return Figure::default() };
-    let layer = |name: &str, ink: Ink, values: &[f64], most: usize| {
-        Layer::line(name, ink, envelope(values, whole.dt_s, most))
-    };
-    let panel = |title: &str, unit: &str, layers: Vec<Layer>| {
-        let time = Axis::linear("time (s)").over(0.0, whole.acceleration_m_s2.len() as f64 * whole.dt_s);
-        Panel::new(title, time, Axis::linear(unit), layers)
-    };
-    let mut panels = Vec::new();
-    let mut velocities = vec![layer("whole motion", Ink::Data(0), &velocity(whole), VALUES)];
+    let mut parts = vec![("Whole motion", Ink::Data(0), VALUES, whole.acceleration_m_s2.clone())];
     let mut caption = format!("Acceleration and velocity: {}.", words(whole));
     if let Some(pulse) = pulse(whole, motions) {
-        let parts = whole.acceleration_m_s2.iter().zip(&pulse.acceleration_m_s2);
-        let rest: Vec<f64> = parts.map(|(whole, pulse)| whole - pulse).collect();
-        let coherent = layer("pulse", Ink::Data(1), &pulse.acceleration_m_s2, SMOOTH_VALUES);
-        panels.push(panel("Coherent pulse", UNIT, vec![coherent]));
-        let rest = layer("high frequencies", Ink::Muted, &rest, VALUES);
-        panels.push(panel("High frequencies", UNIT, vec![rest]));
-        velocities.push(layer("pulse", Ink::Data(1), &velocity(pulse), SMOOTH_VALUES));
+        let pulse = &pulse.acceleration_m_s2;
+        let rest = whole.acceleration_m_s2.iter().zip(pulse).map(|(whole, pulse)| whole - pulse).collect();
+        parts.insert(0, ("Coherent pulse", Ink::Data(1), SMOOTH_VALUES, pulse.clone()));
+        parts.insert(1, ("High frequencies", Ink::Muted, VALUES, rest));
         caption = compare(&format!("A combined motion and its parts: {}.", words(whole)), "Figure 1");
     }
-    let all = layer("whole motion", Ink::Data(0), &whole.acceleration_m_s2, VALUES);
-    panels.push(panel("Whole motion", UNIT, vec![all]));
-    panels.push(panel("Velocity", "*v* (m/s)", velocities));
-    Figure::new("motion", "A ground motion", 1, 46.0, panels).explained(caption)
+    let end = whole.acceleration_m_s2.len() as f64 * whole.dt_s;
+    // The axes of all parts are the same, so that they compare.
+    let mut most = [0.0_f64; 2];
+    let mut panels = Vec::new();
+    for (title, ink, values, acceleration) in parts {
+        let velocity = measures::velocity(&acceleration, whole.dt_s);
+        for (place, series) in [acceleration, velocity].iter().enumerate() {
+            most[place] = series.iter().fold(most[place], |most, value| most.max(value.abs()));
+            let line = Layer::line(title, ink, envelope(series, whole.dt_s, values)).unlisted();
+            let time = Axis::linear("time (s)").over(0.0, end);
+            panels.push(Panel::new(title, time, Axis::linear(UNITS[place]), vec![line]));
+        }
+    }
+    for (panel, most) in panels.iter_mut().zip(most.into_iter().cycle()) {
+        panel.y.range = Some([-1.05 * most, 1.05 * most]);
+    }
+    Figure::new("motion", "A ground motion", 2, 60.0, panels).explained(caption)
 }
 
 fn is_of(motion: &MotionRow, suite: Suite) -> bool {
@@ -58,10 +60,6 @@ fn pulse<'a>(whole: &MotionRow, motions: &'a [MotionRow]) -> Option<&'a MotionRo
         let is_same = (other.mw, other.re_km, other.tp_s) == (whole.mw, whole.re_km, whole.tp_s);
         is_same && is_of(other, Suite::Pulse)
     })
-}
-
-fn velocity(motion: &MotionRow) -> Vec<f64> {
-    measures::velocity(&motion.acceleration_m_s2, motion.dt_s)
 }
 
 fn words(motion: &MotionRow) -> String {

@@ -1,9 +1,8 @@
 //! Figures 10, 11 and 12: probabilities over a measure, with the observed shares; and maps of overturning
 //! over PGA and PGV.
 
-use rockfrag_core::fragility::{
-    Calibration, Cases, CurveFit, DemandFit, DemandModel, Measure, MotionKind, Tau, hybrid_measure, lambda,
-};
+use rockfrag_core::fragility::{Calibration, CurveFit, DemandFit, DemandModel, beta, lambda, mu};
+use rockfrag_core::fragility::{Cases, Event, Measure, MotionKind, Predictors, Tau};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::statistics::scores::sample_quantile;
@@ -11,8 +10,9 @@ use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, by, called, compare, demands, estimate, label, name};
-use super::common::{observed_shares, ratio_bins, rocked};
-use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
+use super::common::{observed_shares, ratio_bins, rocked, short_label};
+use crate::chart::text::{literal, minus};
+use crate::chart::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number;
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
@@ -26,159 +26,208 @@ const CONFIDENCE: f64 = 0.95;
 const LEVELS: [(f64, Dash); 4] =
     [(0.02, Dash::Short), (0.1, Dash::Mixed), (0.5, Dash::Solid), (0.9, Dash::Long)];
 
-/// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one.
-pub fn exceedance(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let axes = [label(&Measure::Im4), "*P*_{ex}"];
-    let panels = suites.iter().filter_map(|groups| {
-        let rocking = || groups.iter().flat_map(|cases| demands(cases)).map(|(case, _)| &case.measures);
-        let im3: Vec<f64> = rocking().filter_map(|measures| measures.im3).collect();
-        let span = Range { low: 1.0, high: rocking().map(|measures| measures.im4).fold(1.5, f64::max) };
-        panel(axes, suites, groups, |cases| exceeding(fits, cases, span, &im3))
+/// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one; a panel a
+/// group.
+pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
+    let panels = groups.iter().map(|cases| {
+        // Structures of one suite have curves at the same IM3.
+        let of_suite = groups.iter().filter(|other| other.suite == cases.suite);
+        let im3 = of_suite.flat_map(|cases| demands(cases)).filter_map(|(case, _)| case.measures.im3);
+        exceeding(fits, cases, &im3.collect::<Vec<f64>>())
     });
-    let caption = "Probability of exceeding the limit state by the two planes at quantiles of IM3, and by \
-                   IM4 alone where it has a curve.";
+    let panels = panels.filter(|panel| !panel.layers.is_empty());
+    let caption = format!(
+        "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3 \
+         and by IM4 alone where it has a curve; bands: 95 %.",
+        number::plain(fits.limit_state)
+    );
     let title = "Exceeding the limit state in safe rocking";
-    Figure::new("exceedance", title, 2, 118.0, panels.collect()).explained(compare(caption, "Figure 10"))
-}
-
-/// Figure 11: probability of overturning over single measures.
-pub fn overturning(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let panels = [&Measure::Im4, &Measure::Im5].map(|measure| over(fits, suites, measure, None));
-    let caption = "Lognormal curves with 95 % bands, and observed fractions with 95 % limits.";
-    Figure::new("overturning", "Overturning over single measures", 2, 118.0, panels.concat())
-        .explained(compare(caption, "Figure 11"))
-}
-
-/// Figure 12: probability of overturning over hybrid measures (Eq. 23).
-pub fn hybrids(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
-    let panels = over(fits, suites, &Measure::Im4, Some(&Measure::Im3Inverse));
-    let caption = "Lognormal curves over the hybrid measure of each structure (Eq. 23) with 95 % bands, and \
-                   observed fractions with 95 % limits.";
-    Figure::new("overturning-hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
-        .explained(compare(caption, "Figure 12"))
-}
-
-/// A panel of the structures of a suite that have layers, each in one colour in all panels.
-fn panel(
-    [x, y]: [&str; 2],
-    suites: &[Vec<&Cases>],
-    groups: &[&Cases],
-    layers_of: impl Fn(&Cases) -> Vec<Layer>,
-) -> Option<Panel> {
-    let names = by(suites.iter().flatten(), |cases| &cases.structure.name);
-    // Layers of nothing, for the legend: the colours, then what the dashes and the dots mean.
-    let (mut colours, mut keys, mut layers) = (Vec::new(), Vec::new(), Vec::new());
-    for (Cases { structure, .. }, its) in groups.iter().map(|cases| (cases, layers_of(cases))) {
-        let number = names.iter().position(|same| same[0].structure.name == structure.name);
-        let (called, ink) = (called(structure), Ink::Data(number.unwrap_or(0)));
-        colours.extend(its.first().map(|_| Layer::line(&called, ink, [])));
-        keys.extend(its.iter().map(|layer| Layer { marks: Vec::new(), ..layer.clone() }));
-        layers.extend(its.into_iter().map(|layer| {
-            let name = format!("{called}, {}", layer.name);
-            Layer { name, ink, is_listed: false, ..layer }
-        }));
-    }
-    layers.sort_by_key(|layer| layer.style == MarkStyle::Estimates);
-    let suite = groups.first()?.suite.clone().unwrap_or_default();
-    let has_curves = !layers.is_empty();
-    let layers = [colours, keys, layers].concat();
-    has_curves.then(|| Panel::new(&suite, Axis::log(x), Axis::fraction(y), layers))
-}
-
-/// A curve with its band, broken where it has no value.
-fn curve(name: &str, dash: Dash, x: impl Iterator<Item = f64>, p: impl Fn(f64) -> Option<Interval>) -> Layer {
-    let marks = x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| estimate(x, p)));
-    Layer::new(name, Ink::Muted, MarkStyle::Line(dash), marks)
-}
-
-/// The measures of a motion with these IM4 and IM3.
-fn measures(im4: f64, im3: f64) -> IntensityMeasures {
-    IntensityMeasures::from_peaks(im4, im4 / im3)
+    Figure::new("exceedance", title, 2, 118.0, panels.collect()).explained(compare(&caption, "Figure 10"))
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone.
-fn exceeding(fits: &Fits, cases: &Cases, span: Range, im3: &[f64]) -> Vec<Layer> {
+fn exceeding(fits: &Fits, cases: &Cases, im3: &[f64]) -> Panel {
+    let (x, y) = (Axis::log(label(&Measure::Im4)), Axis::fraction("*P*_{ex}"));
+    let mut panel = Panel::new(&name(cases), x, y, Vec::new());
     let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
+    let highest = demands(cases).map(|(case, _)| case.measures.im4).fold(1.5, f64::max);
+    let p = |fit: &DemandFit, im4: f64, im3: f64| {
+        let measures = IntensityMeasures::from_peaks(im4, im4 / im3);
+        fit.p_exceeding(&measures, fits.limit_state, CONFIDENCE)
+    };
     let transition = planes.last().and_then(|plane| plane.range_low);
-    let mut curves = Vec::new();
-    for (share, dash) in SHARES {
-        let Some((im3, transition)) = sample_quantile(im3.to_vec(), share).zip(transition) else { continue };
-        let below = equal_ratios(span.low, transition * (1.0 - 1e-9), STEPS);
-        let im4 = below.chain([f64::NAN]).chain(equal_ratios(transition, span.high, STEPS));
-        let p = |im4: f64| {
-            let plane = planes.iter().find(|fit| fit.holds_at(im4))?;
-            plane.p_exceeding(&measures(im4, im3), fits.limit_state, CONFIDENCE)
-        };
-        curves.push(curve(&format!("IM3 at its {} % quantile", number::plain(100.0 * share)), dash, im4, p));
+    for (number, (share, dash)) in SHARES.into_iter().enumerate() {
+        let Some((im3, from)) = sample_quantile(im3.to_vec(), share).zip(transition) else { continue };
+        let p = |im4: f64| p(planes.iter().find(|fit| fit.holds_at(im4))?, im4, im3);
+        let before = from * (1.0 - 1e-9);
+        let im4 =
+            equal_ratios(1.0, before, STEPS).chain([f64::NAN]).chain(equal_ratios(from, highest, STEPS));
+        let words = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
+        panel.layers.push(curve(&words, Ink::Data(number), dash, im4, p));
+        if let Some((below, above)) = p(before).zip(p(from)).filter(|_| share == 0.5) {
+            let verb = if above.value < below.value { "falls" } else { "rises" };
+            let [below, above] = [below, above].map(|p| number::fixed(p.value, 3));
+            let from = number::significant(from, 3);
+            panel.caption = format!(
+                "As IM4 passes {from}, from one plane to the other, *P*_{{ex}} at the median IM3 {verb} from \
+                 {below} to {above}."
+            );
+        }
     }
     let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
-    curves.extend(alone.map(|fit| {
-        let p = |im4: f64| fit.p_exceeding(&measures(im4, 1.0), fits.limit_state, CONFIDENCE);
-        curve("IM4 alone", Dash::Mixed, equal_ratios(span.low, span.high, STEPS), p)
+    panel.layers.extend(alone.map(|fit| {
+        curve("IM4 alone", Ink::Muted, Dash::Mixed, equal_ratios(1.0, highest, STEPS), |im4| p(fit, im4, 1.0))
     }));
-    curves
+    panel
 }
 
-/// P_ro over a measure, or over a hybrid one at the median IM3; a panel a suite.
-fn over(fits: &Fits, suites: &[Vec<&Cases>], im_x: &Measure, im_y: Option<&Measure>) -> Vec<Panel> {
-    let axes = [if im_y.is_some() { "hybrid measure" } else { label(im_x) }, "*P*_{ro}"];
-    let panels = suites.iter().filter_map(|groups| {
-        panel(axes, suites, groups, |cases| {
-            let fit = fits.curve(cases, im_x, im_y);
-            let rising = fit.filter(|fit| fit.coefficients[1..].iter().sum::<f64>() > 0.0);
-            rising.map_or(Vec::new(), |fit| overturned(fit, cases))
-        })
+/// A curve with its band, broken where it has no value.
+fn curve(
+    name: &str,
+    ink: Ink,
+    dash: Dash,
+    x: impl Iterator<Item = f64>,
+    p: impl Fn(f64) -> Option<Interval>,
+) -> Layer {
+    let marks = x.map(|x| p(x).map_or(Mark::new(f64::NAN, f64::NAN), |p| estimate(x, p)));
+    Layer::new(name, ink, MarkStyle::Line(dash), marks)
+}
+
+/// What the captions of Figures 11 and 12 say of curves.
+const CURVES: &str = "*μ* = ln *θ* is the logarithm of the median, *β* the dispersion; bands: 95 %. Where \
+                      *P*_{ro} falls with a measure, *β* is that of its inverse. Dots are observed fractions \
+                      with 95 % limits.";
+
+/// Figure 11: probability of overturning over single measures; a panel a structure and measure.
+pub fn overturning(fits: &Fits, groups: &[&Cases]) -> Figure {
+    let caption = format!("Lognormal curves over single measures (Eq. 20): {CURVES}");
+    let panels = over(fits, groups, |predictors| predictors.im_y.is_none());
+    Figure::new("overturning", "Overturning over single measures", 2, 100.0, panels)
+        .explained(compare(&caption, "Figure 11"))
+}
+
+/// Figure 12: probability of overturning over hybrid measures (Eq. 23); a panel a structure and pair.
+pub fn hybrids(fits: &Fits, groups: &[&Cases]) -> Figure {
+    let mut caption = format!(
+        "Lognormal curves over hybrid measures (Eqs. 23 and 24): {CURVES} Below 0, *λ* makes one of the two \
+         exponents negative."
+    );
+    // Pairs of the same likelihood are one model, as IM4 and IM5 = IM4 / IM3 are with IM3.
+    let likelihood = |pair: &Predictors| fits.curve(groups.first()?, pair)?.log_likelihood;
+    let pairs = predictors(fits, groups).into_iter().filter_map(|pair| Some((likelihood(&pair)?, pair)));
+    let pairs: Vec<(f64, Predictors)> = pairs.filter(|(_, pair)| pair.im_y.is_some()).collect();
+    for same in
+        by(&pairs, |(likelihood, _)| (1e4 * likelihood).round()).into_iter().filter(|same| same.len() > 1)
+    {
+        let names: Vec<String> = same.iter().map(|(_, pair)| short_labels(pair)).collect();
+        caption += &format!(
+            " The hybrids of {} are one model with other parameters: they give each motion the same *P*_{{ro}}.",
+            names.join(" and of ")
+        );
+    }
+    let panels = over(fits, groups, |predictors| predictors.im_y.is_some());
+    Figure::new("hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
+        .explained(compare(&caption, "Figure 12"))
+}
+
+/// The measures of the curves of some cases, in the order in which they first come.
+fn predictors(fits: &Fits, groups: &[&Cases]) -> Vec<Predictors> {
+    let its = fits.curves.iter().filter(|fit| groups.iter().any(|cases| cases.group() == fit.group()));
+    by(its, CurveFit::predictors).into_iter().map(|fits| fits[0].predictors()).collect()
+}
+
+fn short_labels(predictors: &Predictors) -> String {
+    predictors.measures().map(short_label).collect::<Vec<_>>().join(", ")
+}
+
+/// P_ro over measures, a panel for each structure and each of the measures that are wanted.
+fn over(fits: &Fits, groups: &[&Cases], is_wanted: fn(&Predictors) -> bool) -> Vec<Panel> {
+    let structures = by(groups.iter().copied(), |cases| &cases.structure.name).into_iter();
+    let panels = structures.flat_map(|groups| {
+        let wanted = predictors(fits, &groups).into_iter().filter(is_wanted);
+        wanted.map(|predictors| over_measure(fits, &groups, &predictors)).collect::<Vec<_>>()
     });
     panels.collect()
 }
 
+/// The curves of the suites of a structure, with their parameters in the corner that the first leaves free.
+fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Panel {
+    let labels: Vec<&str> = predictors.measures().map(label).collect();
+    let hybrid = if labels.len() > 1 { "hybrid measure of " } else { "" };
+    let x = Axis::log(&format!("{hybrid}{}", labels.join(" and ")));
+    let title = format!("{}: {}", called(&groups[0].structure), short_labels(predictors));
+    let mut panel = Panel::new(&title, x, Axis::fraction("*P*_{ro}"), Vec::new());
+    let mut words = Vec::new();
+    for (number, cases) in groups.iter().enumerate() {
+        let (ink, series) = (Ink::Data(number), literal(cases.suite.as_deref().unwrap_or("motions")));
+        let fit = fits.curve(cases, predictors);
+        words.push((format!("{series}: {}", fit.map_or("no curve".to_string(), parameters)), ink));
+        let layers = fit.map_or(Vec::new(), |fit| overturned(fit, cases));
+        let coloured = |layer| Layer { ink, series: series.clone(), is_listed: false, ..layer };
+        panel.layers.extend(layers.into_iter().map(coloured));
+    }
+    panel.layers.sort_by_key(|layer| layer.style == MarkStyle::Estimates);
+    let span = Range::over(panel.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.x));
+    let falls = fits.curve(groups[0], predictors).is_some_and(|fit| beta(&fit.coefficients).value < 0.0);
+    let (x, position) =
+        if falls { (span.high, LabelPosition::Left) } else { (span.low, LabelPosition::Right) };
+    let lines = words.into_iter().enumerate();
+    panel.words = lines
+        .map(|(line, (text, ink))| Words { x, y: 0.95 - 0.1 * line as f64, text, position, ink })
+        .collect();
+    panel
+}
+
+/// The parameters of a curve.
+fn parameters(fit: &CurveFit) -> String {
+    let b = &fit.coefficients;
+    let written = |value: f64| minus(number::significant(value, 2));
+    let (mu, beta) = (mu(b).value, beta(b).value);
+    let mut words = format!("*μ* {} (*θ* {}), *β* {}", written(mu), written(mu.exp()), written(beta.abs()));
+    words.extend(fit.im_y.as_ref().map(|_| format!(", *λ* {}", written(lambda(b).value))));
+    words + if beta < 0.0 { ", falls" } else { "" }
+}
+
+/// The curve of a fit and the observed shares, over its measure or the hybrid of its two.
 fn overturned(fit: &CurveFit, cases: &Cases) -> Vec<Layer> {
-    let observed = rocked(cases).filter_map(|(case, event)| Some((measure_of(fit, &case.measures)?, event)));
-    let observed: Vec<(f64, bool)> = observed.collect();
-    let im3 = cases.all.iter().filter_map(|case| case.measures.im3).collect();
-    let im3 = sample_quantile(im3, 0.5).unwrap_or(1.0);
-    let span = Range::over(observed.iter().map(|(value, _)| *value));
-    let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
-    let p = |value: f64| fit.probability(&motion_at(fit, value, im3), CONFIDENCE);
-    let curve = curve("lognormal curve", Dash::Solid, equal_ratios(span.low, span.high, STEPS), p);
-    let shares = observed_shares(&observed, bin);
-    let shares = Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares);
-    vec![curve.unlisted(), shares]
-}
-
-/// The measure of a curve, or the hybrid of its two (Eq. 23); none where one is missing.
-fn measure_of(fit: &CurveFit, measures: &IntensityMeasures) -> Option<f64> {
-    let x = fit.im_x.value_of(measures)?;
-    let Some(im_y) = &fit.im_y else { return Some(x) };
-    Some(hybrid_measure(x, im_y.value_of(measures)?, lambda(&fit.coefficients).value))
-}
-
-/// The measures of a motion of this IM3 at which the measure of a curve of IM4, IM5 or the hybrid of
-/// IM4 and 1/IM3 has a value: the inverse of [`measure_of`].
-fn motion_at(fit: &CurveFit, value: f64, im3: f64) -> IntensityMeasures {
-    let im4 = match (&fit.im_x, &fit.coefficients[..]) {
-        (_, [_, b1, b2]) => (((b1 + b2) * value.ln() + b2 * im3.ln()) / b1).exp(),
-        (Measure::Im5, _) => value * im3,
-        _ => value,
+    let measures: Vec<Measure> = fit.predictors().measures().cloned().collect();
+    let sample = cases.sample(&measures, |case| Event::Overturning.happened(case.outcome, f64::INFINITY));
+    let measure = |row: usize| {
+        fit.measure_at(&sample.ln_im.iter().map(|column| column[row].exp()).collect::<Vec<f64>>())
     };
-    measures(im4, im3)
+    let observed = sample.y.iter().enumerate().map(|(row, event)| (measure(row), *event));
+    let observed: Vec<(f64, bool)> = observed.collect();
+    let span = Range::over(observed.iter().map(|(value, _)| *value));
+    // Of a hybrid, the second measure is at its median.
+    let ln_y = sample.ln_im.get(1).and_then(|column| sample_quantile(column.clone(), 0.5));
+    let p = |value: f64| {
+        let of_hybrid = |ln_y: f64| {
+            let lambda = lambda(&fit.coefficients).value;
+            vec![(((1.0 + lambda) * value.ln() - ln_y) / lambda).exp(), ln_y.exp()]
+        };
+        Some(fit.probability_at(&ln_y.map_or(vec![value], of_hybrid), CONFIDENCE))
+    };
+    let curve =
+        curve("lognormal curve", Ink::Muted, Dash::Solid, equal_ratios(span.low, span.high, STEPS), p);
+    let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
+    let shares = observed_shares(&observed, (observed.len() / 50).clamp(3, 20), bin);
+    vec![curve, Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares)]
 }
 
-/// Maps of overturning, one panel per suite: of its first structure, with a line for each of the others.
-pub fn maps(fits: &Fits, suites: &[Vec<&Cases>]) -> Figure {
+/// Maps of overturning, a panel a group.
+pub fn maps(fits: &Fits, groups: &[&Cases]) -> Figure {
     let caption = "Each point is a motion in which the structure rocks. Lines join motions of equal \
-                   probability of overturning by the model, calibrated with these responses; coloured lines \
-                   are those of probability 0.5 of other structures.";
-    let panels = suites.iter().filter_map(|groups| Some(map(fits, groups.split_first()?)));
-    Figure::new("map", "Overturning over PGA and PGV", 2, 150.0, panels.collect()).explained(caption)
+                   probability of overturning by the model, calibrated with these responses.";
+    let panels = groups.iter().map(|cases| map(fits, cases)).collect();
+    Figure::new("map", "Overturning over PGA and PGV", 2, 150.0, panels).explained(caption)
 }
 
-fn map(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
+fn map(fits: &Fits, cases: &Cases) -> Panel {
     let mut layers = Vec::new();
     for (label, ink, event) in [("rocks", Ink::Data(0), false), ("overturns", Ink::Data(1), true)] {
         let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
         let its = its.map(|(case, _)| Mark::new(case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s));
-        layers.push(Layer::points(label, ink, its));
+        layers.push(Layer::points(label, ink, Symbol::Dot, its));
     }
     let all = Range::over(cases.all.iter().map(|case| case.peaks.pga_m_s2));
     let pga = Range { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
@@ -187,10 +236,6 @@ fn map(fits: &Fits, (cases, others): (&&Cases, &[&Cases])) -> Panel {
     for (level, dash) in LEVELS {
         let line = line(fits, cases, level, pga, pgv);
         layers.push(Layer::new(&format!("probability {level}"), Ink::Text, MarkStyle::Line(dash), line));
-    }
-    for (number, other) in (2..).zip(others) {
-        let label = format!("{}, 0.5", called(&other.structure));
-        layers.push(Layer::line(&label, Ink::Data(number), line(fits, other, 0.5, pga, pgv)));
     }
     Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)
 }

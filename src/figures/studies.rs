@@ -33,7 +33,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
     let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
     let cases: Vec<(f64, bool)> = its.collect();
-    let shares = observed_shares(&cases, |x| levels.partition_point(|level| *level < x));
+    let shares = observed_shares(&cases, 1, |x| levels.partition_point(|level| *level < x));
     let every = shares.len().div_ceil(LEVELS).max(1);
     let its = rows.iter().filter(|row| row.group() == fit.group());
     let capacities = its.filter_map(|row| match row.found.status {

@@ -44,7 +44,7 @@ pub struct FitPro {
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
     confidence: f64,
-    /// Fit all six measures, not only IM4 and IM5
+    /// Fit all six measures and both hybrids of the paper, not only IM4 and IM5
     #[arg(long)]
     all: bool,
 }

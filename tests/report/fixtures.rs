@@ -167,7 +167,6 @@ pub fn traced(count: usize) -> Trace {
 pub fn figures(count: usize) -> Vec<Figure> {
     let (all, tables) = tables(count);
     let groups: Vec<&Cases> = all.iter().take(count).collect();
-    let suites = [groups.clone()];
     let wave: Vec<f64> = (0..50 * count).map(|k| 2.0 * (0.02 * k.min(157) as f64).sin()).collect();
     let record = |suite: &str| MotionRow {
         motion_id: "1".to_string(),
@@ -217,10 +216,10 @@ pub fn figures(count: usize) -> Vec<Figure> {
         regressions(&tables, &all[0]),
         quality(&tables, &groups),
         planes(&tables, &groups),
-        exceedance(&tables, &suites),
-        overturning(&tables, &suites),
-        hybrids(&tables, &suites),
-        maps(&tables, &suites),
+        exceedance(&tables, &groups),
+        overturning(&tables, &groups),
+        hybrids(&tables, &groups),
+        maps(&tables, &groups),
         figure_of(&AnswerTable { at_site: Some(at_site()), ..answers(1, 1e-3) }),
         figure_of(&before),
         compared.unwrap_or_default(),

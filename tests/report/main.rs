@@ -4,7 +4,7 @@ mod fixtures;
 
 use resvg::{tiny_skia::Pixmap, usvg};
 use rockfrag::answer::AnswerTable;
-use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, png, svg};
+use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, Symbol, png, svg};
 use rockfrag::document::{Document, Table, compare, response};
 use rockfrag::figures::common::{estimate, observed_shares, ratio_bins};
 use rockfrag::figures::planes;
@@ -31,8 +31,8 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
         let table = figure.csv().unwrap();
         let mut rows = csv::Reader::from_reader(table.as_bytes());
         let number = |text: &str| text.parse().unwrap_or(f64::NAN);
-        let rows = rows.records().map(Result::unwrap).filter(|row| &row[14] != "words");
-        let read = rows.map(|row| [3, 5, 6, 7, 8].map(|column| number(&row[column])));
+        let rows = rows.records().map(Result::unwrap).filter(|row| &row[15] != "words");
+        let read = rows.map(|row| [4, 6, 8, 9, 10].map(|column| number(&row[column])));
         let marks = figure.panels.iter().flat_map(|panel| &panel.layers).flat_map(|layer| &layer.marks);
         let drawn: Vec<[f64; 5]> = marks.map(|mark| [mark.x, mark.y, mark.low, mark.high, mark.n]).collect();
         assert!(format!("{:?}", read.collect::<Vec<_>>()) == format!("{drawn:?}"), "{}", figure.name);
@@ -46,7 +46,7 @@ fn values_stand_where_the_axes_say() {
     let panel = Panel {
         x,
         y,
-        layers: vec![Layer::points("", Ink::Data(0), [Mark::new(5.0, 10.0)])],
+        layers: vec![Layer::points("", Ink::Data(0), Symbol::Dot, [Mark::new(5.0, 10.0)])],
         ..Default::default()
     };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
@@ -72,7 +72,7 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 #[test]
 fn shares_count_cases_and_events() {
     let cases = [(1.0, false), (1.5, true), (3.0, true), (90.0, false), (100.0, true)];
-    let shares = observed_shares(&cases, ratio_bins(Range { low: 1.0, high: 100.0 }, 4));
+    let shares = observed_shares(&cases, 2, ratio_bins(Range { low: 1.0, high: 100.0 }, 4));
     let first = Mark { n: 3.0, ..estimate(5.5 / 3.0, observed_share(2, 3)) };
     let last = Mark { n: 2.0, ..estimate(95.0, observed_share(1, 2)) };
     assert_eq!(shares, [first, last]);
@@ -142,16 +142,18 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
         let files = std::fs::read_dir(at("out/report")).unwrap().map(|file| file.unwrap().path());
         files.filter(|file| file.extension().is_some_and(|of| of == ending)).collect::<Vec<_>>()
     };
-    let names = ["motion", "similarity", "demand", "regressions-a-csgm", "quality", "planes", "exceedance"];
+    let names = ["motion", "similarity", "demand-a", "regressions-a-csgm", "quality", "planes", "exceedance"];
     assert!(names.iter().all(|name| at(&format!("out/report/{name}.svg")).exists()), "{:?}", endings("svg"));
     assert!(endings("svg").len() == endings("png").len() && endings("svg").len() == endings("csv").len());
     for svg in endings("svg") {
         let text = std::fs::read_to_string(&svg).unwrap();
         usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
-        let rows = csv::Reader::from_path(svg.with_extension("csv")).unwrap().into_records().count();
-        let is_of_dots = svg.ends_with("demand.svg");
+        let rows = csv::Reader::from_path(svg.with_extension("csv")).unwrap().into_records();
+        let forms: Vec<String> = rows.map(|row| row.unwrap()[16].to_string()).collect();
+        let dots = forms.iter().filter(|form| *form == "dot").count();
+        let is_of_dots = svg.ends_with("planes.svg");
         assert!(
-            rows > 0 && (!is_of_dots || text.matches("h0").count() == rows + 2),
+            !forms.is_empty() && (!is_of_dots || text.matches("h0").count() == dots + 2),
             "each row, two in the legend"
         );
     }
@@ -177,8 +179,10 @@ fn values_beyond_all_axes_are_left_out() {
     let hostile = [f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, 1e-308, 0.0, f64::NAN];
     let points: Vec<Mark> = hostile.iter().flat_map(|x| hostile.map(|y| Mark::new(*x, y))).collect();
     for axis in [Axis::linear("x"), Axis::log("x"), Axis::log("x").over(1e-308, 1e300)] {
-        let layers =
-            vec![Layer::line("", Ink::Data(0), points.clone()), Layer::points("", Ink::Text, points.clone())];
+        let layers = vec![
+            Layer::line("", Ink::Data(0), points.clone()),
+            Layer::points("", Ink::Text, Symbol::Circle, points.clone()),
+        ];
         let panel = Panel { x: axis.clone(), y: axis, layers, ..Default::default() };
         let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
         let text = svg(&figure);

@@ -117,11 +117,12 @@ pub fn beta(b: &[f64]) -> DeltaEstimate {
 }
 
 /// Fits the curves of [`Event::Overturning`] or [`Event::Rocking`]: of IM4 and IM5 or, if `all`, of all six
-/// measures of Eq. 13, then of what is `asked` for.
+/// measures of Eq. 13 and of both hybrids of Figure 12, then of what is `asked` for.
 pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) -> Vec<CurveFit> {
     let single = if all { Measure::SCALAR.to_vec() } else { vec![Measure::Im4, Measure::Im5] };
-    let single = single.into_iter().map(Predictors::one).collect();
-    let predictors = Predictors::without_repeats(single, asked);
+    let hybrids = [Measure::Im4, Measure::Im5].map(|im_x| Predictors::two([im_x, Measure::Im3Inverse]));
+    let usual = single.into_iter().map(Predictors::one).chain(hybrids.into_iter().filter(|_| all));
+    let predictors = Predictors::without_repeats(usual.collect(), asked);
     predictors.into_par_iter().map(|Predictors { im_x, im_y }| fit_curve(cases, event, im_x, im_y)).collect()
 }
 
@@ -174,17 +175,30 @@ impl CurveFit {
     /// The probability of the event (Eqs. 20 and 24), with limits by the delta method on the scale of ln IM -
     /// mu. None without a fit, or where a measure is missing.
     pub fn probability(&self, measures: &IntensityMeasures, confidence: f64) -> Option<Interval> {
-        let ims =
-            values(&self.im_x, self.im_y.as_ref(), measures).filter(|_| !self.coefficients.is_empty())?;
+        let ims = values(&self.im_x, self.im_y.as_ref(), measures)?;
+        (!self.coefficients.is_empty()).then(|| self.probability_at(&ims, confidence))
+    }
+
+    /// The same at IMx and, of a hybrid, IMy.
+    ///
+    /// # Panics
+    /// Without a fit.
+    pub fn probability_at(&self, ims: &[f64], confidence: f64) -> Interval {
         let b = &self.coefficients;
         let (mu, beta) = (mu(b).value, beta(b).value);
-        let im = match ims[..] {
-            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(b).value),
-            _ => ims[0],
-        };
-        let error = beta * delta_variance(&self.covariance, &design_row(&ims)).sqrt();
+        let error = beta.abs() * delta_variance(&self.covariance, &design_row(ims)).sqrt();
         let half_width = quantile(confidence, self.degrees) * error;
-        Some(Interval::shifted(half_width, |shift| p_overturning(im, mu - shift, beta)))
+        let towards = beta.signum();
+        let im = self.measure_at(ims);
+        Interval::shifted(half_width, |shift| p_overturning(im, mu - towards * shift, beta))
+    }
+
+    /// The measure of the curve at IMx and, of a hybrid, IMy (Eq. 23).
+    pub fn measure_at(&self, ims: &[f64]) -> f64 {
+        match *ims {
+            [im_x, im_y] => hybrid_measure(im_x, im_y, lambda(&self.coefficients).value),
+            _ => ims[0],
+        }
     }
 
     /// The curve with each independent error of its coefficients at the limits of confidence.

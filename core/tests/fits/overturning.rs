@@ -99,7 +99,7 @@ fn curves_are_those_of_the_paper_or_all() {
     let curves = |all| fit_curves(&cases, Event::Overturning, &pairs, all);
     let measures = |all| curves(all).into_iter().map(|fit| (fit.im_x, fit.im_y)).collect::<Vec<_>>();
     assert_eq!(measures(false), [(Measure::Im4, None), (Measure::Im5, None), HYBRID]);
-    assert_eq!(measures(true).len(), 7);
+    assert_eq!(measures(true).len(), 8);
     assert!(["im4:im4", "", "im4:", "im4:im3:im5"].iter().all(|pair| pair.parse::<Predictors>().is_err()));
 }
 

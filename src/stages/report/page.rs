@@ -1,6 +1,7 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
-use rockfrag_core::fragility::{Cases, DemandModel, Measure};
+use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
+use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -12,7 +13,7 @@ use serde_json::{Value, json};
 use super::tables::{Kind, Tables};
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
-use crate::chart::text::{literal, minus};
+use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
 use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
 use crate::figures::*;
@@ -26,12 +27,15 @@ const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
 /// of a list there are only these.
 const OF_RATES: &[&str] = &["map", "ida", "validation"];
-const OF_PAPER: &[&str] = &["overturning-hybrid", "map", "motion", "similarity", "planes", "exceedance"];
+const OF_PAPER: &[&str] = &["hybrid", "demand", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
 
-/// The most pairs of suite and structure that are drawn, and structures in one panel.
+/// The most pairs of suite and structure that are drawn.
 const MOST_GROUPS: usize = 24;
-const MOST_STRUCTURES: usize = 6;
+
+/// The most panels of a figure of several structures, and groups that have a colour.
+const MOST_PANELS: usize = 4;
+const MOST_COLOURS: usize = 6;
 
 /// What is said of each stage that made a table.
 const METHOD: &str = "\
@@ -63,7 +67,7 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
         _ => OF_PAPER,
     };
     let (seen, more): (Vec<Figure>, Vec<Figure>) =
-        others.into_iter().partition(|figure| shown.contains(&figure.name.as_str()));
+        others.into_iter().partition(|figure| shown.iter().any(|name| figure.name.starts_with(name)));
     let mut joined = Warnings::default();
     tables.made().for_each(|made| joined.join(&made.warnings));
     let (warnings, folded) = if is_client { (vec![], joined.lines()) } else { (joined.lines(), vec![]) };
@@ -99,28 +103,43 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         let names = names.join(", ");
         tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
     }
-    let suites: Vec<Vec<&Cases>> = by(groups.iter().copied(), |cases| &cases.suite)
-        .iter()
-        .flat_map(|suite| suite.chunks(MOST_STRUCTURES).map(<[_]>::to_vec))
-        .collect();
+    let suite = |cases: &&Cases| cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
+    let mut groups = groups.to_vec();
+    groups.sort_by_key(|cases| suite(cases).map_or(usize::MAX, |suite| suite as usize));
     let (motions, fits) = (tables.motions()?, &tables.fits);
     let stripes = tables.rows(Kind::Stripes)?;
-    let mut figures = vec![
-        ida(&tables.rows(Kind::CapacityFits)?, &tables.rows(Kind::Capacities)?, &stripes),
-        hybrids(fits, &suites),
-        maps(fits, &suites),
+    let mut figures = vec![ida(&tables.rows(Kind::CapacityFits)?, &tables.rows(Kind::Capacities)?, &stripes)];
+    let draw = |all: &[fn(&Fits, &[&Cases]) -> Figure]| {
+        all.iter().flat_map(|draw| by_structure(&groups, |groups| draw(fits, groups))).collect::<Vec<_>>()
+    };
+    figures.extend(draw(&[hybrids, maps]));
+    figures.extend([
         validation(&tables.rows(Kind::Reliability)?),
         motion(&motions),
         similarity(&tables.groups, &motions).unwrap_or_default(),
-        planes(fits, groups),
-        exceedance(fits, &suites),
-        overturning(fits, &suites),
-        demand(groups),
-        quality(fits, groups),
-    ];
+    ]);
+    figures.extend(draw(&[planes, exceedance, overturning, quality, |_, groups| demand(groups)]));
     figures.extend(groups.iter().map(|cases| regressions(fits, cases)));
     figures.retain(|figure| !figure.panels.is_empty());
     Ok(figures)
+}
+
+/// The figure of all groups; if it wouldhave more panels than four, or more groups than colours, one a
+/// structure.
+fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Figure> {
+    let whole = draw(groups);
+    if whole.panels.len() <= MOST_PANELS && groups.len() <= MOST_COLOURS {
+        return vec![whole];
+    }
+    let of_structure = |groups: &[&Cases]| {
+        let (figure, structure) = (draw(groups), called(&groups[0].structure));
+        let name = format!("{}-{}", figure.name, file_words(&structure));
+        Figure { name, title: format!("{}: {structure}", figure.title), ..figure }
+    };
+    by(groups.iter().copied(), |cases| &cases.structure.name)
+        .iter()
+        .flat_map(|groups| groups.chunks(MOST_COLOURS).map(of_structure))
+        .collect()
 }
 
 /// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
@@ -241,7 +260,8 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
 fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, Interval<Option<f64>>) {
-    let Some(fit) = tables.fits.curve(cases, &Measure::Im5, None) else { return Default::default() };
+    let curve = tables.fits.curve(cases, &Predictors::one(Measure::Im5));
+    let Some(fit) = curve else { return Default::default() };
     let CurveLine { theta, beta, .. } = CurveLine::new(fit, 0.95);
     let pgv_m_s = cases.structure.uplift_acceleration_m_s2() / cases.structure.p_rad_s;
     (theta.map(|im5| im5 * pgv_m_s), beta)

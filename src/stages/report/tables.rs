@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use rockfrag_core::fragility::{Calibration, Cases, Event};
+use rockfrag_core::fragility::{Calibration, Cases, Event, Measure, Predictors};
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
@@ -11,7 +11,7 @@ use strum::{EnumProperty, VariantArray};
 
 use crate::answer::{Answer, AnswerTable};
 use crate::document::response::Trace;
-use crate::figures::Fits;
+use crate::figures::{Fits, VP};
 use crate::stages::shared::motion_columns::MotionColumns;
 use crate::stages::shared::responses;
 use crate::table::TableError;
@@ -143,12 +143,6 @@ impl Tables {
             tables.items.extend(items);
         }
         tables.leave_out_strangers();
-        let groups =
-            tables.of(Kind::Responses).map(|item| responses::read(&item.path, &MotionColumns::default()));
-        tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        if tables.groups.len() > 2 {
-            tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
-        }
         let calibrations: Vec<Calibration> = tables.rows(Kind::Calibrations)?;
         let (exceeding, calibrations): (Vec<_>, Vec<_>) =
             calibrations.into_iter().partition(|row| row.limit_state.is_some());
@@ -159,6 +153,12 @@ impl Tables {
             limit_state: exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE),
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
+        let groups =
+            tables.of(Kind::Responses).map(|item| responses::read(&item.path, &tables.columns(item)?));
+        tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
+        if tables.groups.len() > 2 {
+            tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
+        }
         tables.compared = tables.rows(Kind::Paper)?;
         for item in &tables.items {
             match item.kind {
@@ -176,6 +176,19 @@ impl Tables {
         }
         tables.leave_out_incomparable();
         Ok(tables)
+    }
+
+    /// Columns of the motions of responses, where these are there: the velocity of the pulse, and measures of
+    /// curves.
+    fn columns(&self, responses: &Item) -> anyhow::Result<MotionColumns> {
+        let motions = self.of(Kind::Motions).find(|item| responses.input("in").as_ref() == Some(&item.key));
+        let Some(motions) = motions else { return Ok(MotionColumns::default()) };
+        let known = ParquetTable::open(&motions.path)?;
+        let measures = self.fits.curves.iter().flat_map(|fit| [Some(fit.im_x.clone()), fit.im_y.clone()]);
+        let columns = measures.flatten().filter(|measure| matches!(measure, Measure::Column(_)));
+        let wanted = columns.chain([Measure::Column(VP.to_string())]);
+        let wanted = wanted.filter(|column| known.schema().index_of(column.as_str()).is_ok());
+        MotionColumns::read(&wanted.map(Predictors::one).collect::<Vec<_>>(), Some(&motions.path))
     }
 
     /// Leaves out what is in another time, under another motion or over another peak than the first answers.
