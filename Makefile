@@ -5,7 +5,7 @@
 #     make check-docs      the commands of README and docs
 #     make check-exports   OpenQuake and pelicun read what export writes (1.5 GB for the time of the check)
 #     make spread          the numbers over twenty seeds that are shipped in data/
-#     make universal       the fragility surface that is shipped, of records: AT2=folder TABLE=list.csv
+#     make universal       the fragility surface that is shipped, of data/records.csv: AT2=folder
 #     make picture         the head of the report in docs/report.png (chromium, selenium)
 #     make peers           the table of speeds in docs/review/speed.md
 # `rockfrag run` does the same from pipeline.yaml alone. A stage leaves a table that is up to date as it is; touching it
@@ -55,7 +55,7 @@ spread: | $(BUILT)
 	python3 scripts/seed_spread.py $(ROCKFRAG)
 
 universal: | $(BUILT)
-	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2) $(TABLE)
+	scripts/universal/make.sh $(ROCKFRAG) $(OUT)/universal $(AT2)
 
 picture: $(OUT)/report.html
 	python3 scripts/browser.py $(OUT)/report.html --into $(OUT) --head docs/report.png

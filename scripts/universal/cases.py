@@ -20,9 +20,6 @@ MOTION = ["motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"]
 WEAK, FACTORS = 0.1, (1.0, 2.0)
 # Cases near uplift are few and steep: all are kept.
 NEAR = 1.2
-# Names of FEMA P695 for earthquakes of other tables.
-ALSO = {"CHI-CHI 09/20/99": "CHICHI", "CHI-CHI TAIWAN": "CHICHI", "DENALI ALASKA": "DENALI"}
-ALSO |= {"NORTHRIDGE-01": "NORTHR"}
 
 
 def read(files, share=1.0, suite=None):
@@ -75,9 +72,8 @@ def chosen(name):
 
 def motions(imported):
     own = pl.read_parquet(imported).filter(pl.col("pga_m_s2") >= WEAK * G)
-    own = own.select(MOTION).with_columns(pl.col("earthquake").replace(ALSO)).rows()
     of_fema = ((f"{of_set} {name}", *of_component) for of_set, name, *of_component in fema())
-    for motion_id, earthquake, mw, dt, samples in [*of_fema, *own]:
+    for motion_id, earthquake, mw, dt, samples in [*of_fema, *own.select(MOTION).rows()]:
         for factor in FACTORS:
             yield f"{motion_id} x{factor:g}", earthquake, mw, dt, (factor * np.asarray(samples)).tolist()
 

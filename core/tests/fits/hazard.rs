@@ -163,8 +163,7 @@ fn pgv_of_a_spectrum_is_that_by_ground_motion_models() {
 
 #[test]
 fn hard_rock_and_the_clay_of_a_lake_are_told_from_other_ground() {
-    // PGA and SA(1.0 s), m/s2, once in 475, 2,475 and 10,000 years, of published ground-motion models
-    // (scripts/reference/worlds.py).
+    // PGA and SA(1.0 s), m/s2, once in 475, 2,475 and 10,000 years, of sites in scripts/reference/worlds.py.
     let sites = [
         ([3.49, 7.27, 11.85], [2.00, 5.14, 9.29], vec![]),
         ([2.48, 3.87, 5.14], [4.69, 9.19, 14.11], vec![]),

@@ -66,7 +66,7 @@ fn the_worked_example_prints_half_of_one_and_the_error_function() {
 }
 
 #[test]
-fn published_numbers_lie_in_their_prints_and_have_twenty_seeds() {
+fn numbers_of_the_paper_lie_in_their_prints_and_have_twenty_seeds() {
     let rows = compare(&[], &[]);
     assert_eq!(rows.len(), published().len());
     for row in published() {

@@ -1,4 +1,4 @@
-//! Synthetic ground motions against published values, and the measures of any motion against closed forms.
+//! Synthetic ground motions against numpy, and the measures of any motion against closed forms.
 
 mod floor;
 mod measures;

@@ -1,4 +1,4 @@
-//! Synthetic motions (sections 2.1.2 and 2.1.3) against published values and closed forms.
+//! Synthetic motions (sections 2.1.2 and 2.1.3) against numpy, closed forms, values of regression.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
@@ -55,8 +55,8 @@ fn synthesize(model: &MotionModel, scenarios: &[Scenario]) -> Vec<SyntheticMotio
 
 /// Seeds whose medians are averaged. The standard error of a median of 100 motions is 1 to 2.6 %.
 const SEEDS: u64 = 6;
-/// The published medians are of 100 motions: 2.6 % for theirs, 1 % for ours, and half a unit of the last
-/// digit.
+/// The medians of regression are of 100 motions: 2.6 % for those, 1 % for these, and half a unit of
+/// the last digit.
 const SAMPLING: f64 = 0.06;
 
 /// Medians of PGA (g), PGV (cm/s) and Tm (s) of 100 motions, averaged over the seeds.
@@ -87,7 +87,7 @@ fn spectrum(samples: &[f64]) -> Vec<Complex64> {
 }
 
 #[test]
-fn the_largest_velocity_of_a_pulse_has_its_published_values() {
+fn the_largest_velocity_of_a_pulse_is_that_by_numpy() {
     for (gamma, expected) in [(1.0, 0.6495), (1.5, 0.7939), (1.93, 0.8616), (3.0, 0.9365)] {
         let f = largest_velocity(gamma, FRAC_PI_2);
         assert!((f - expected).abs() < 5e-5, "gamma = {gamma}: {f}");
@@ -98,7 +98,7 @@ fn the_largest_velocity_of_a_pulse_has_its_published_values() {
 }
 
 #[test]
-fn the_source_has_its_published_constant_duration_and_amplitudes() {
+fn the_source_has_the_constant_duration_and_amplitudes_of_its_equations_by_numpy() {
     assert!((CONSTANT / 5.155914e-24 - 1.0).abs() < 1e-7, "{CONSTANT:e}");
     // M 6.5 at 10 km: fa 0.09057 Hz and R 13.069 km by hand.
     assert!((Source::new(6.5, 10.0).duration_s() - (0.5 / 0.09057 + 0.05 * 13.069)).abs() < 1e-3);
@@ -110,7 +110,7 @@ fn the_source_has_its_published_constant_duration_and_amplitudes() {
     ] {
         for (f, expected) in [0.1, 1.0, 10.0].into_iter().zip(expected) {
             let amplitude = model.fourier_amplitude_cm_s(&Source::new(mw, 10.0), f);
-            // Half a unit of the last published digit: the fourth decimal, but the third of 12.363.
+            // Half a unit of the last digit: the fourth decimal, but the third of 12.363.
             let half_unit = if expected == 12.363 { 5e-4 } else { 5e-5 };
             assert!((amplitude - expected).abs() < 1.01 * half_unit, "M {mw}, {f} Hz: {amplitude}");
         }
@@ -148,7 +148,7 @@ fn amplitudes_fall_with_distance_and_filters_as_their_equations_say() {
 }
 
 #[test]
-fn the_window_has_its_published_constants_and_its_peak_of_one_at_a_fifth() {
+fn the_window_has_its_constants_by_numpy_and_its_peak_of_one_at_a_fifth() {
     let window = Window::new(3.0);
     assert_eq!(window.duration_s, 6.0);
     for (value, expected) in [(window.b, 1.2531497), (window.c, 6.2657487), (window.a, 26.3117724)] {
@@ -187,7 +187,7 @@ fn two_hundred_motions_have_the_amplitude_of_the_model_in_every_band() {
 }
 
 #[test]
-fn motions_have_their_published_medians() {
+fn motions_keep_their_medians() {
     for (suite, mw, re_km, expected) in [
         (Suite::Hfc, 5.5, 5.0, [0.259, 9.5, 0.20]),
         (Suite::Hfc, 6.5, 5.0, [0.433, 23.0, 0.27]),
@@ -328,7 +328,7 @@ fn the_noise_depends_on_seed_and_scenario() {
 }
 
 #[test]
-fn sites_amplify_as_published() {
+fn sites_keep_their_amplification() {
     for (f, rock, soil) in
         [(0.0, 1.0, 1.0), (0.51, 1.42, 2.24), (6.05, 2.58, 3.05), (61.2, 4.0, 3.21), (100.0, 4.0, 3.21)]
     {

