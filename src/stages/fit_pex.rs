@@ -39,7 +39,7 @@ pub struct FitPex {
           value_parser = number(1.0_f64.next_up()..=100.0, "an IM4 above 1, such as 1.3"))]
     transition: f64,
     /// Lower bound on rotations in safe rocking, rad, as a solver of finite tolerance imposes
-    #[arg(long, value_name = "RAD", default_value = "0",
+    #[arg(long, value_name = "RAD", default_value = "1e-6",
           value_parser = number(0.0..=0.1, "a rotation from 0 to 0.1 rad"))]
     rotation_floor: f64,
     /// Confidence level of the limits

@@ -63,18 +63,18 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "rock", value_hint = FilePath)]
     site: PathBuf,
     /// Window of the high frequencies, in durations of the earthquake
-    #[arg(long, default_value = "2", value_name = "TIMES",
+    #[arg(long, default_value = "1", value_name = "TIMES",
           value_parser = number(0.1..=10.0, "0.1 to 10 durations"))]
     window: f64,
     /// Shear-wave velocity of the crust, km/s
-    #[arg(long, default_value = "3.5", value_name = "KM/S",
+    #[arg(long, default_value = "3.7", value_name = "KM/S",
           value_parser = number(0.1..=10.0, "0.1 to 10 km/s"))]
     shear_velocity: f64,
     /// Near-surface attenuation kappa, s
-    #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
+    #[arg(long, default_value = "0.035", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
     kappa: f64,
     /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz; 1e6 for none
-    #[arg(long, default_value = "1e6", value_name = "HZ",
+    #[arg(long, default_value = "15", value_name = "HZ",
           value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
     fmax: f64,
     /// Corner of the high-pass filter 1/(1 + (fc/f)^8), Hz [default: none]

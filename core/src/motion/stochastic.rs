@@ -37,10 +37,10 @@ impl Default for StochasticModel {
     fn default() -> StochasticModel {
         StochasticModel {
             site: SiteAmplification::rock(),
-            shear_velocity_km_s: 3.5,
-            window: 2.0,
-            kappa_s: 0.030,
-            fmax_hz: f64::INFINITY,
+            shear_velocity_km_s: 3.7,
+            window: 1.0,
+            kappa_s: 0.035,
+            fmax_hz: 15.0,
             low_cut_hz: None,
         }
     }
