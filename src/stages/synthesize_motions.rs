@@ -53,7 +53,7 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "0.005", value_name = "S",
           value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
-    /// High frequencies where the pulse is the stronger: clamp (none), or none for the plain sum
+    /// High frequencies where the pulse is stronger: left out (clamp), or as they are (none, the plain sum)
     #[arg(long, default_value = "clamp")]
     difference: Difference,
     /// Where the pulse peaks: envelope-peak, pga or pgv of the high frequencies
