@@ -5,7 +5,8 @@
 #     make check-docs      the commands of README and docs
 #     make check-exports   OpenQuake and pelicun read what export writes (1.5 GB for the time of the check)
 #     make spread          the numbers over twenty seeds that are shipped in data/
-#     make universal       the fragility surface that is shipped, of data/records.csv: AT2=folder
+#     make universal       the fragility surface that is shipped, of data/records.csv: AT2=folder; without it, that of
+#                          synthetic motions
 #     make picture         the head of the report in docs/report.png (chromium, selenium)
 #     make peers           the table of speeds in docs/review/speed.md
 # `rockfrag run` does the same from pipeline.yaml alone. A stage leaves a table that is up to date as it is; touching it

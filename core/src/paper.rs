@@ -17,8 +17,8 @@ pub const ETA: f64 = 0.92;
 pub const STRUCTURES: [(&str, f64, f64); 2] = [("frame", 1.0, 0.15), ("electrical-equipment", 2.5, 0.20)];
 /// alpha (rad) that the text prints for the frame, and Table II for the equipment.
 pub const OTHER_ALPHA: [f64; 2] = [0.149, 0.19];
-/// Readings of section 2.1 among which the set-up was chosen by Table II.
-pub const READINGS: usize = 1;
+/// Readings of section 2.1 among which the set-up was chosen by Table II (docs/review/choices.md).
+pub const READINGS: usize = 255;
 
 pub fn structures() -> Vec<Structure> {
     STRUCTURES.map(|(name, p, alpha)| Structure::new(name, p, alpha, ETA).expect("possible values")).into()

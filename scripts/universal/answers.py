@@ -1,5 +1,5 @@
 """Answers that the tests of the program compare with: python answers.py SURFACE.csv STUDY
-RECORDS_RESPONSES OUT_FOLDER
+RECORDS_RESPONSES OUT_FOLDER (RECORDS_RESPONSES -: the records' cases as they are there)
 
 universal_answers.csv: at 60 points of the domain and beyond it L, M - 6.9 (of a third with M unknown, mw
 -1) and what is added near uplift. calibration_cases.csv: cases of a structure under csgm and of one under
@@ -55,8 +55,12 @@ def calibration(surface, event, cases):
 path, study, records, folder = sys.argv[1:]
 surface = Surface(open(path))
 points(surface).write_csv(f"{folder}/universal_answers.csv")
-recorded = of.read([records]).filter(structure=5)
-parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded.gather_every(9)]
+if records == "-":
+    recorded = pl.read_csv(f"{folder}/calibration_cases.csv").filter(kind="recorded")
+    recorded = recorded.with_columns(pl.col("overturned") == 1, pl.when(pl.col("edp") >= 0).then("edp"))
+else:
+    recorded = of.read([records]).filter(structure=5).gather_every(9)
+parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded]
 written = pl.concat(parts).select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
 written.write_csv(f"{folder}/calibration_cases.csv")
 answers = [calibration(surface, event, part) for part in parts for event in TERMS]

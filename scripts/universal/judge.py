@@ -1,4 +1,4 @@
-"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv FOLDER"""
+"""Prints how well the surface does, as tables in Markdown: python judge.py SURFACE.csv FOLDER [synthetic]"""
 
 import sys
 
@@ -13,7 +13,7 @@ from fit import monotone_logistic
 from make import CLASSES, held, of_cells_left_out, of_records_left_out, shift
 from surface import CORRECTED, KINDS, LIMIT, TERMS, Surface, design, uplift
 
-_, path, FOLDER = sys.argv
+_, path, FOLDER, *only_synthetic = sys.argv
 surface = Surface(open(path))
 rng = np.random.default_rng(1)
 UNKNOWN = pl.lit(None, pl.Float64)
@@ -171,9 +171,11 @@ def own_responses(event):
     show(title, means.drop("share"))
 
 
-RECORDS = of.read([f"{FOLDER}/records.parquet"])
-TABLES = earthquakes_left_out, few_records, between_structures, cells_left_out, own_responses
-demand_left_out()
+TABLES = [cells_left_out, own_responses]
+if not only_synthetic:
+    RECORDS = of.read([f"{FOLDER}/records.parquet"])
+    TABLES = [earthquakes_left_out, few_records, between_structures, *TABLES]
+    demand_left_out()
 for event in TERMS:
     for table in TABLES:
         table(event)

@@ -1,5 +1,8 @@
-"""Makes core/data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES STUDY STUDY RESPONSES..."""
+"""Makes core/data/universal.csv: python make.py OUT.csv MOTIONS RECORDS_RESPONSES STUDY STUDY RESPONSES...
 
+If RECORDS_RESPONSES is -, the domain and all that is of recorded motions stay as they are in OUT.csv."""
+
+import re
 import sys
 
 import numpy as np
@@ -58,12 +61,15 @@ def shift(event, logit_of, cases):
     return minimize(loss, start, method="BFGS", options={"gtol": 0.3}).x
 
 
-def fitted(event, kind, cases, recorded):
-    """Coefficients by term, c, ln s, m and h, and n, d, k of a kind."""
-    if kind != "recorded":
-        terms = [*TERMS[event], *SYNTHETIC[event]]
-        b, m, numbers = fit.surface(event, terms, cases.filter(kind=kind), True)
-        return b, [0.0, 0.0, m, 0.0], numbers
+def of_synthetic(event, kind, cases):
+    """Coefficients by term, c, ln s, m and h, and n, d, k."""
+    terms = [*TERMS[event], *SYNTHETIC[event]]
+    b, m, numbers = fit.surface(event, terms, cases.filter(kind=kind), True)
+    return b, [0.0, 0.0, m, 0.0], numbers
+
+
+def of_recorded(event, cases, recorded):
+    """The same of recorded motions, from those of high frequencies alone."""
     b, _, _ = fit.surface(event, TERMS[event], cases.filter(kind="hfc"), False)
     shifted = shift(event, lambda c: design(b, c) @ [*b.values()], recorded)
     corrected = {term: b[term] + gain for term, gain in zip(CORRECTED[event], shifted[7:])}
@@ -121,16 +127,16 @@ def priors(surface, event, kind, cases, recorded, studies, mean):
     return *sd, tau_of(*(of_cells_left_out(surface, event, kind, study, prior) for study in of_kind))
 
 
-def peak_lines(motions):
-    """ln(PGV/PGA) on the logarithm of either peak: a line with one bend."""
-    pga, pgv = (np.log(motions[name].to_numpy()) for name in ("pga_m_s2", "pgv_m_s"))
-    for name, peak in (("pga", pga), ("pgv", pgv)):
-        knot = np.quantile(peak, KNOT)
-        columns = np.stack([np.ones_like(peak), peak, np.maximum(peak - knot, 0)], axis=1)
-        b, *_ = np.linalg.lstsq(columns, pgv - pga)
-        off = pgv - pga - columns @ b
-        sds = (np.sqrt(np.mean(off[side] ** 2)) for side in (off < 0, off > 0))
-        yield name, (*b[:2], knot, b[2], *sds)
+def peak_line(motions, name):
+    """ln(PGV/PGA) on the logarithm of a peak, pga or pgv: a line with one bend."""
+    pga, pgv = (np.log(motions[column].to_numpy()) for column in ("pga_m_s2", "pgv_m_s"))
+    peak = {"pga": pga, "pgv": pgv}[name]
+    knot = np.quantile(peak, KNOT)
+    columns = np.stack([np.ones_like(peak), peak, np.maximum(peak - knot, 0)], axis=1)
+    b, *_ = np.linalg.lstsq(columns, pgv - pga)
+    off = pgv - pga - columns @ b
+    sds = (np.sqrt(np.mean(off[side] ** 2)) for side in (off < 0, off > 0))
+    return *b[:2], knot, b[2], *sds
 
 
 def magnitude_line(motions, low, high):
@@ -141,38 +147,74 @@ def magnitude_line(motions, low, high):
     return intercept, slope, np.std(mw - intercept - slope * ratio), low, high
 
 
+class Table:
+    """The lines of universal.csv. What it `keeps` of another table, by words, is not computed again."""
+
+    def __init__(self, lines, kept):
+        self.lines, self.kept = lines, kept
+
+    def put(self, words, numbers, form):
+        numbers = self.kept[tuple(words)] if tuple(words) in self.kept else numbers()
+        self.lines.append(",".join([*words, *(format(number, form) for number in numbers)]))
+
+
+def of_records(lines):
+    """What lines have of recorded motions, as it is written: the domain, rows, and the first number of terms."""
+    rows = [line.split(",") for line in lines if not line.startswith("#")]
+    of_terms = [",".join(row[:4]) for row in rows if row[0] == "term"]
+    return of_terms + [",".join(row) for row in rows if row[0] == "domain" or row[1] == "recorded"]
+
+
+def shipped(lines):
+    """How many components and earthquakes, coefficients of recorded motions by event, and rows to keep."""
+    numbers = Surface(lines).numbers
+    b = {event: {term: numbers["term", event, term][0] for term in TERMS[event]} for event in TERMS}
+    rows = {words: row for words, row in numbers.items() if words[0] == "domain" or words[1] == "recorded"}
+    return re.search(r"(\d+) components of\n# (\d+) earthquakes", "\n".join(lines)).groups(), b, rows
+
+
 def main():
     out, motions, records_responses, *studies = sys.argv[1:6]
-    recorded = of.read([records_responses])
-    cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
     synthetic = pl.read_parquet(motions, columns=["suite", "pga_m_s2", "pgv_m_s", "mw"])
-    of_records = recorded.filter(pl.col("scale") == "x1").unique("motion_id").sort("motion_id")
-    motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS} | {"recorded": of_records}
-    lines = HEAD.format(
+    cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
+    motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS}
+    if records_responses == "-":
+        before = open(out).read().splitlines()
+        recorded, (counts, b, kept) = None, shipped(before)
+        found = {(event, "recorded"): (b[event], [0.0] * 4, None) for event in TERMS}
+    else:
+        recorded, kept = of.read([records_responses]), {}
+        motions_of["recorded"] = recorded.filter(scale="x1").unique("motion_id").sort("motion_id")
+        counts = len(motions_of["recorded"]), recorded["cluster"].n_unique()
+        found = {(event, "recorded"): of_recorded(event, cases, recorded) for event in TERMS}
+    head = HEAD.format(
         structures=cases["structure"].n_unique(), motions=cases["motion_id"].n_unique(), cases=len(cases),
-        records=len(of_records), earthquakes=recorded["cluster"].n_unique()).splitlines()  # fmt: skip
-    texts = lambda values, form: [format(value, form) for value in values]
-    put = lambda words, values, form: lines.append(",".join(words + texts(values, form)))
+        records=counts[0], earthquakes=counts[1])  # fmt: skip
+    table = Table(head.splitlines(), kept)
     of_im5 = np.quantile(cases["im5"], [0.001, 0.999])
     for name, ends in (DOMAIN | {"im4": (1.0, MOST_IM4), "im5": of_im5}).items():
-        put(["domain", name], ends, ".4g")
-    found = {(event, kind): fitted(event, kind, cases, recorded) for event in TERMS for kind in KINDS}
+        table.put(["domain", name], lambda: ends, ".4g")
+    found |= {(event, kind): of_synthetic(event, kind, cases) for event in TERMS for kind in KINDS[1:]}
+    by_event = [(event, kind) for event in TERMS for kind in KINDS]
     for event, terms in TERMS.items():
         for term in [*terms, *SYNTHETIC[event]]:
-            put(["term", event, term], (found[event, kind][0].get(term, 0.0) for kind in KINDS), ".6g")
-    for event, kind in found:
-        put(["uplift", kind, event], found[event, kind][2], ".4g")
+            row = [found[event, kind][0].get(term, 0.0) for kind in KINDS]
+            table.put(["term", event, term], lambda: row, ".6g")
+    for event, kind in by_event:
+        table.put(["uplift", kind, event], lambda: found[event, kind][2], ".4g")
     for kind, of_kind in motions_of.items():
-        put(["magnitude", kind], magnitude_line(of_kind, *MW.get(kind, (5.5, 7.5))), ".4g")
-        for name, line in peak_lines(of_kind):
-            put(["peaks", kind, name], line, ".4f")
-    surface = Surface(lines)
-    for event, kind in found:
+        ends = MW.get(kind, (5.5, 7.5))
+        table.put(["magnitude", kind], lambda: magnitude_line(of_kind, *ends), ".4g")
+        for name in ("pga", "pgv"):
+            table.put(["peaks", kind, name], lambda: peak_line(of_kind, name), ".4f")
+    surface = Surface(table.lines)
+    for event, kind in by_event:
         *mean, h = found[event, kind][1]
-        prior = (*mean, *priors(surface, event, kind, cases, recorded, studies, mean), h)
-        put(["calibration", kind, event], prior, ".3f")
+        spreads = lambda: priors(surface, event, kind, cases, recorded, studies, mean)
+        table.put(["calibration", kind, event], lambda: (*mean, *spreads(), h), ".3f")
+    assert recorded is not None or of_records(table.lines) == of_records(before)
     with open(out, "w") as file:
-        file.write("\n".join(lines) + "\n")
+        file.write("\n".join(table.lines) + "\n")
 
 
 if __name__ == "__main__":

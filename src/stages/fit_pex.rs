@@ -38,10 +38,10 @@ pub struct FitPex {
     #[arg(long, value_name = "IM4", default_value = "1.3",
           value_parser = number(1.0_f64.next_up()..=100.0, "an IM4 above 1, such as 1.3"))]
     transition: f64,
-    /// Lower bound on demands, as a solver of finite tolerance imposes
-    #[arg(long, value_name = "DEMAND", default_value = "0",
-          value_parser = number(0.0..=1.0, "a demand from 0 to 1"))]
-    demand_floor: f64,
+    /// Lower bound on rotations in safe rocking, rad, as a solver of finite tolerance imposes
+    #[arg(long, value_name = "RAD", default_value = "1e-6",
+          value_parser = number(0.0..=0.1, "a rotation from 0 to 0.1 rad"))]
+    rotation_floor: f64,
     /// Confidence level of the limits
     #[arg(long, value_name = "P", default_value = "0.95",
           value_parser = number(0.5..=0.9999, "a level from 0.5 to 0.9999"))]
@@ -76,7 +76,7 @@ impl Stage for FitPex {
         let bar = context.bar(groups.len());
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
         for cases in &mut groups {
-            cases.raise_demands(self.demand_floor);
+            cases.raise_rotations(self.rotation_floor);
             fits.extend(fit_demand(cases, Some(self.transition), &self.limit_state, &self.pairs, self.all));
             let limits = self.limit_state.iter();
             calibrations.extend(limits.map(|limit_state| Calibration::fit(cases, Some(*limit_state))));

@@ -53,9 +53,8 @@ pub struct SynthesizeMotions {
     #[arg(long, default_value = "0.005", value_name = "S",
           value_parser = number(1e-4..=0.1, "a time step from 0.0001 to 0.1 s"))]
     dt: f64,
-    /// Spectrum where the pulse is stronger than the high frequencies: absolute, signed or clamp
-    /// difference, or none (plain sum)
-    #[arg(long, default_value = "absolute")]
+    /// High frequencies where the pulse is stronger: left out (clamp), or as they are (none, the plain sum)
+    #[arg(long, default_value = "clamp")]
     difference: Difference,
     /// Where the pulse peaks: envelope-peak, pga or pgv of the high frequencies
     #[arg(long, default_value = "envelope-peak")]
@@ -63,12 +62,21 @@ pub struct SynthesizeMotions {
     /// Site: rock, soil, none, or a CSV file of frequencies (Hz) and factors
     #[arg(long, default_value = "rock", value_hint = FilePath)]
     site: PathBuf,
+    /// Window of the high frequencies, in durations of the earthquake
+    #[arg(long, default_value = "1", value_name = "TIMES",
+          value_parser = number(0.1..=10.0, "0.1 to 10 durations"))]
+    window: f64,
+    /// Shear-wave velocity of the crust, km/s
+    #[arg(long, default_value = "3.7", value_name = "KM/S",
+          value_parser = number(0.1..=10.0, "0.1 to 10 km/s"))]
+    shear_velocity: f64,
     /// Near-surface attenuation kappa, s
-    #[arg(long, default_value = "0.03", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
+    #[arg(long, default_value = "0.035", value_name = "S", value_parser = number(0.0..=1.0, "0 to 1 s"))]
     kappa: f64,
-    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz [default: none]
-    #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
-    fmax: Option<f64>,
+    /// Corner of the filter 1/sqrt(1 + (f/fmax)^8), Hz; 1e6 for none
+    #[arg(long, default_value = "15", value_name = "HZ",
+          value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
+    fmax: f64,
     /// Corner of the high-pass filter 1/(1 + (fc/f)^8), Hz [default: none]
     #[arg(long, value_name = "HZ", value_parser = number(1e-6..=1e6, "a frequency above 0 Hz"))]
     low_cut: Option<f64>,
@@ -125,8 +133,14 @@ impl Stage for SynthesizeMotions {
         let suites = &self.suite;
         let sa_periods_s = self.sa.as_ref().map_or(Vec::new(), |steps| steps.0.clone());
         let plan = MeasurePlan { housner: self.housner, sa_periods_s };
-        let (site, kappa_s) = (site(&self.site)?, self.kappa);
-        let stochastic = StochasticModel { site, kappa_s, fmax_hz: self.fmax, low_cut_hz: self.low_cut };
+        let stochastic = StochasticModel {
+            site: site(&self.site)?,
+            shear_velocity_km_s: self.shear_velocity,
+            window: self.window,
+            kappa_s: self.kappa,
+            fmax_hz: self.fmax,
+            low_cut_hz: self.low_cut,
+        };
         let Self { difference, epoch, seed, .. } = *self;
         let model = MotionModel { dt_s: self.dt, difference, epoch, stochastic, seed };
         // Of threads that are between two chunks.

@@ -125,7 +125,7 @@ fn what_is_not_the_papers_set_up_is_named() {
     for (fit, is_papers) in [
         ("--transition 2.5", false),
         ("--limit-state 0.5", false),
-        ("--demand-floor 0.001", false),
+        ("--rotation-floor 0.0001", false),
         ("--limit-state 0.1,0.5 --all", true),
     ] {
         succeed(folder, &format!("fit-pex --in out/responses.parquet {fit} --out other/pex.parquet --force"));

@@ -132,8 +132,9 @@ impl Cases {
         self.all.iter().filter(|case| case.outcome == outcome).count()
     }
 
-    /// Raises smaller demands in safe rocking to `floor`, as a solver of finite tolerance does.
-    pub fn raise_demands(&mut self, floor: f64) {
+    /// Raises smaller rotations in safe rocking to `floor_rad`, as a solver of finite tolerance does.
+    pub fn raise_rotations(&mut self, floor_rad: f64) {
+        let floor = floor_rad / self.structure.alpha_rad;
         for case in &mut self.all {
             if let Outcome::SafeRocking(demand) = &mut case.outcome {
                 *demand = demand.max(floor);

@@ -7,8 +7,6 @@ use super::amplification::SiteAmplification;
 // Crust, spreading and attenuation of Atkinson & Silva (2000).
 /// Density of the crust, g/cm3.
 const DENSITY: f64 = 2.8;
-/// Shear-wave velocity of the crust, km/s.
-const SHEAR_VELOCITY_KM_S: f64 = 3.5;
 /// Distance (km) at which geometric spreading changes from 1/R to 1/sqrt(R).
 const CROSSOVER_KM: f64 = 40.0;
 /// Quality factor Q = 180 f^0.45.
@@ -19,26 +17,32 @@ pub const PEAK_SHARE: f64 = 0.2;
 /// Value of the window at its end: eta of Boore (2003).
 const END_VALUE: f64 = 0.05;
 
-/// Constant C of the amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free surface) x
-/// 1e-20 / (4 pi rho beta^3).
-pub const CONSTANT: f64 = 0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20
-    / (4.0 * PI * DENSITY * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S * SHEAR_VELOCITY_KM_S);
-
 /// The stochastic model apart from the scenario.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StochasticModel {
     pub site: SiteAmplification,
+    /// Shear-wave velocity beta of the crust, km/s.
+    pub shear_velocity_km_s: f64,
+    /// te of the window over the duration T of source and path: 2 (Boore 2003), or 1.
+    pub window: f64,
     /// kappa of the near-surface attenuation exp(-pi kappa f), s.
     pub kappa_s: f64,
     /// Corner fmax of the low-pass filter 1/sqrt(1 + (f/fmax)^8), Hz.
-    pub fmax_hz: Option<f64>,
+    pub fmax_hz: f64,
     /// Corner fc of the high-pass filter 1/(1 + (fc/f)^8), Hz.
     pub low_cut_hz: Option<f64>,
 }
 
 impl Default for StochasticModel {
     fn default() -> StochasticModel {
-        StochasticModel { site: SiteAmplification::rock(), kappa_s: 0.030, fmax_hz: None, low_cut_hz: None }
+        StochasticModel {
+            site: SiteAmplification::rock(),
+            shear_velocity_km_s: 3.7,
+            window: 1.0,
+            kappa_s: 0.035,
+            fmax_hz: 15.0,
+            low_cut_hz: None,
+        }
     }
 }
 
@@ -49,21 +53,27 @@ impl StochasticModel {
         let r = source.distance_km;
         // f / Q with Q = 180 f^0.45.
         let f_per_q = f.powf(1.0 - QUALITY_EXPONENT) / QUALITY;
-        CONSTANT
+        constant(self.shear_velocity_km_s)
             * source.moment_dyne_cm
             * (2.0 * PI * f).powi(2)
             * source.shape(f)
             * spreading(r)
-            * (-PI * (f_per_q * r / SHEAR_VELOCITY_KM_S + self.kappa_s * f)).exp()
+            * (-PI * (f_per_q * r / self.shear_velocity_km_s + self.kappa_s * f)).exp()
             * self.site.amplification(f)
             * self.filters(f)
     }
 
     fn filters(&self, f: f64) -> f64 {
-        let fmax = self.fmax_hz.map_or(1.0, |fmax| 1.0 / (1.0 + (f / fmax).powi(8)).sqrt());
+        let fmax = 1.0 / (1.0 + (f / self.fmax_hz).powi(8)).sqrt();
         let low_cut = self.low_cut_hz.map_or(1.0, |corner| 1.0 / (1.0 + (corner / f).powf(8.0)));
         fmax * low_cut
     }
+}
+
+/// Computes the constant C of the amplitude: 0.55 (radiation) / sqrt(2) (one of two components) x 2 (free
+/// surface) x 1e-20 / (4 pi rho beta^3).
+pub fn constant(shear_velocity_km_s: f64) -> f64 {
+    0.55 * FRAC_1_SQRT_2 * 2.0 * 1e-20 / (4.0 * PI * DENSITY * shear_velocity_km_s.powi(3))
 }
 
 /// The two-corner source of Atkinson & Silva (2000) at a distance.
@@ -119,18 +129,18 @@ pub struct Window {
     pub a: f64,
     pub b: f64,
     pub c: f64,
-    /// te: twice the duration of the source, s.
+    /// te, s.
     pub duration_s: f64,
 }
 
 impl Window {
-    pub fn new(source_duration_s: f64) -> Window {
+    pub fn new(duration_s: f64) -> Window {
         // Boore (2003): b = -epsilon ln eta / (1 + epsilon (ln epsilon - 1)), c = b / epsilon,
         // a = (e / epsilon)^b.
         let b = -PEAK_SHARE * END_VALUE.ln() / (1.0 + PEAK_SHARE * (PEAK_SHARE.ln() - 1.0));
         let c = b / PEAK_SHARE;
         let a = (E / PEAK_SHARE).powf(b);
-        Window { a, b, c, duration_s: 2.0 * source_duration_s }
+        Window { a, b, c, duration_s }
     }
 
     /// Computes the window at a time (s) from its start: at most 1, and 0 outside.

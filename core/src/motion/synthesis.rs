@@ -1,4 +1,5 @@
 use std::collections::HashMap;
+use std::f64::consts::PI;
 
 use rand_distr::{Distribution, StandardNormal};
 
@@ -11,8 +12,12 @@ use super::stochastic::{PEAK_SHARE, Source, StochasticModel, Window};
 use crate::random::{Purpose, stream};
 use crate::units::CM_PER_M;
 
-/// Quiet time before and after the motion, s: the reach of the zero-phase filters.
+/// Time before and after the motion in which its zero-phase filters die away: at least this, s, and this
+/// share of the duration of source and path, of which the corner of the source is the greater part.
 const MARGIN_S: f64 = 2.0;
+const MARGIN_SHARE: f64 = 0.5;
+/// Time at rest at both ends, s.
+const REST_S: f64 = 0.5;
 
 /// The model of synthetic motions, with its options.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +33,7 @@ impl Default for MotionModel {
     fn default() -> MotionModel {
         MotionModel {
             dt_s: 0.005,
-            difference: Difference::Absolute,
+            difference: Difference::Clamp,
             epoch: Epoch::EnvelopePeak,
             stochastic: StochasticModel::default(),
             seed: 42,
@@ -39,24 +44,33 @@ impl Default for MotionModel {
 impl MotionModel {
     pub fn sample_count(&self, scenario: &Scenario) -> usize {
         let source = Source::new(scenario.mw, scenario.re_km);
-        self.time_axis(&Window::new(source.duration_s()), &Pulse::of(scenario)).1
+        self.time_axis(&source, &Pulse::of(scenario)).samples
     }
 
-    /// Computes the sample at which the window begins, and the number of samples: padded at the start so that
-    /// the pulse is never cut, and at the end to a fast length of Fourier transforms.
-    fn time_axis(&self, window: &Window, pulse: &Pulse) -> (usize, usize) {
+    /// Pads at the start so that the pulse is never cut, and at the end to a fast length of Fourier
+    /// transforms.
+    fn time_axis(&self, source: &Source, pulse: &Pulse) -> TimeAxis {
         let dt_s = self.dt_s;
+        let window_s = self.stochastic.window * source.duration_s();
+        let margin_s = MARGIN_S.max(MARGIN_SHARE * source.duration_s());
         let half_pulse_s = 0.5 * pulse.duration_s();
         // Earliest and latest peak of the pulse, from the onset of the window.
         let (earliest_s, latest_s) = match self.epoch {
-            Epoch::EnvelopePeak => (PEAK_SHARE * window.duration_s, PEAK_SHARE * window.duration_s),
-            Epoch::Pga | Epoch::Pgv => (0.0, window.duration_s),
+            Epoch::EnvelopePeak => (PEAK_SHARE * window_s, PEAK_SHARE * window_s),
+            Epoch::Pga | Epoch::Pgv => (0.0, window_s),
         };
-        let onset = ((MARGIN_S + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
-        let moving_s = window.duration_s.max(latest_s + half_pulse_s);
-        let after = ((moving_s + MARGIN_S) / dt_s).ceil() as usize + 1;
-        (onset, even_smooth_at_least(onset + after))
+        let onset = ((margin_s + (half_pulse_s - earliest_s).max(0.0)) / dt_s).ceil() as usize;
+        let moving_s = window_s.max(latest_s + half_pulse_s);
+        let after = ((moving_s + margin_s) / dt_s).ceil() as usize + 1;
+        TimeAxis { margin_s, onset, samples: even_smooth_at_least(onset + after) }
     }
+}
+
+struct TimeAxis {
+    margin_s: f64,
+    /// Sample at which the window begins.
+    onset: usize,
+    samples: usize,
 }
 
 /// The motions of one scenario on one time axis: accelerations, m/s2. The pulse is always there; others
@@ -112,9 +126,9 @@ struct Earthquake {
 }
 
 impl Earthquake {
-    fn new(mw: f64, re_km: f64, dt_s: f64) -> Earthquake {
-        let source = Source::new(mw, re_km);
-        let window = Window::new(source.duration_s());
+    fn new(mw: f64, re_km: f64, model: &MotionModel) -> Earthquake {
+        let (source, dt_s) = (Source::new(mw, re_km), model.dt_s);
+        let window = Window::new(model.stochastic.window * source.duration_s());
         let sample_count = (window.duration_s / dt_s).floor() as usize;
         let weights = (1..=sample_count).map(|k| window.value(k as f64 * dt_s)).collect();
         Earthquake { mw, re_km, source, window, weights, amplitudes: HashMap::new() }
@@ -144,38 +158,42 @@ impl Synthesizer {
         let Scenario { mw, re_km, .. } = *scenario;
         let mut earthquake = match self.earthquake.take() {
             Some(known) if (known.mw, known.re_km) == (mw, re_km) => known,
-            _ => Earthquake::new(mw, re_km, self.model.dt_s),
+            _ => Earthquake::new(mw, re_km, &self.model),
         };
         let pulse = Pulse::of(scenario);
-        let (onset, sample_count) = self.model.time_axis(&earthquake.window, &pulse);
+        let axis = self.model.time_axis(&earthquake.source, &pulse);
+        let sample_count = axis.samples;
         let mut made = SyntheticMotion { dt_s: self.model.dt_s, ..SyntheticMotion::default() };
         let mut spectrum = Vec::new();
         if self.high_frequency || self.combined {
-            let mut noise = self.windowed_noise(scenario, &earthquake.weights, onset, sample_count);
+            let mut noise = self.windowed_noise(scenario, &earthquake.weights, &axis);
             spectrum = transform(&mut noise);
             shape_noise(&mut spectrum, earthquake.amplitudes(&self.model, sample_count), made.dt_s);
             if self.high_frequency {
                 invert(&mut spectrum.clone(), &mut noise);
+                bring_to_rest(&mut noise, made.dt_s, axis.margin_s);
                 made.high_frequency = noise;
             }
         }
-        made.epoch_s = self.epoch_s(&earthquake.window, onset, &made.high_frequency);
+        made.epoch_s = self.epoch_s(&earthquake.window, axis.onset, &made.high_frequency);
         made.pulse = pulse.sample(made.dt_s, made.epoch_s, sample_count);
         if self.combined {
             made.combined = made.pulse.clone();
             let pulse_spectrum = transform(&mut made.combined);
-            combine(&mut spectrum, &pulse_spectrum, self.model.difference);
+            let periods = pulse.duration_s() / (sample_count as f64 * made.dt_s);
+            combine(&mut spectrum, &pulse_spectrum, self.model.difference, periods);
             invert(&mut spectrum, &mut made.combined);
+            bring_to_rest(&mut made.combined, made.dt_s, axis.margin_s);
         }
         self.earthquake = Some(earthquake);
         made
     }
 
-    fn windowed_noise(&self, of: &Scenario, weights: &[f64], onset: usize, sample_count: usize) -> Vec<f64> {
-        let mut samples = vec![0.0; sample_count];
+    fn windowed_noise(&self, of: &Scenario, weights: &[f64], axis: &TimeAxis) -> Vec<f64> {
+        let mut samples = vec![0.0; axis.samples];
         let noise = stream(self.model.seed, Purpose::Noise, of.scenario_id as u64);
         let normals = Distribution::<f64>::sample_iter(StandardNormal, noise);
-        for ((sample, normal), weight) in samples[onset + 1..].iter_mut().zip(normals).zip(weights) {
+        for ((sample, normal), weight) in samples[axis.onset + 1..].iter_mut().zip(normals).zip(weights) {
             *sample = normal * weight;
         }
         samples
@@ -201,8 +219,21 @@ fn shape_noise(noise: &mut [Complex64], amplitudes: &[f64], dt_s: f64) {
     // From the continuous spectrum to the discrete one.
     let scale = 1.0 / (mean_square.sqrt() * dt_s);
     noise.iter_mut().zip(amplitudes).for_each(|(x, amplitude)| *x *= scale * amplitude);
-    // With a mean of 0 the ground comes to rest.
-    noise[0] = Complex64::ZERO;
+}
+
+/// Brings the ground to rest at both ends. A zero-phase filter has no end: what is left of it in the margins
+/// is tapered by a raised cosine, and the mean under this taper is taken out, so that no velocity is left.
+fn bring_to_rest(acceleration: &mut [f64], dt_s: f64, margin_s: f64) {
+    let last = acceleration.len() - 1;
+    let taper = |k: usize| {
+        let from_end_s = k.min(last - k) as f64 * dt_s;
+        let share = ((from_end_s - REST_S) / (margin_s - REST_S)).clamp(0.0, 1.0);
+        0.5 - 0.5 * (PI * share).cos()
+    };
+    let tapers: Vec<f64> = (0..=last).map(taper).collect();
+    let weighted = acceleration.iter().zip(&tapers).map(|(a, taper)| a * taper).sum::<f64>();
+    let mean = weighted / tapers.iter().sum::<f64>();
+    acceleration.iter_mut().zip(&tapers).for_each(|(a, taper)| *a = taper * (*a - mean));
 }
 
 fn index_of_peak(series: &[f64]) -> usize {

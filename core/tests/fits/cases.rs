@@ -30,7 +30,7 @@ fn only_cases_with_a_demand_and_all_measures_are_fitted() {
         (Outcome::Overturned, 3.0, 2.0, 2),
         (Outcome::SafeRocking(1e-9), 2.5, 4.0, 2),
     ]);
-    cases.raise_demands(1e-6);
+    cases.raise_rotations(1e-6 * cases.structure.alpha_rad);
     let sample = cases.sample(&[Measure::Im4, Measure::Im3Inverse], Case::ln_demand);
     assert_eq!(sample.y, [0.2f64.ln(), 1e-6f64.ln(), 1e-6f64.ln()]);
     assert_eq!(sample.clusters, [1, 1, 2]);
