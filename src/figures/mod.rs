@@ -7,9 +7,11 @@ mod demand;
 mod motion;
 mod probability;
 mod studies;
+mod universality;
 
 pub use common::Fits;
 pub use demand::{VP, demand, planes, quality, regressions};
 pub use motion::{envelope, motion, similarity};
 pub use probability::{exceedance, hybrids, maps, overturning};
 pub use studies::{ida, validation};
+pub use universality::universality;

@@ -218,6 +218,7 @@ pub fn figures(count: usize) -> Vec<Figure> {
         planes(&tables, &groups),
         exceedance(&tables, &groups),
         overturning(&tables, &groups),
+        universality(&(0..count.min(10)).map(|k| cases((0.1 * k as f64).exp(), 200)).collect::<Vec<_>>()),
         hybrids(&tables, &groups),
         maps(&tables, &groups),
         figure_of(&AnswerTable { at_site: Some(at_site()), ..answers(1, 1e-3) }),

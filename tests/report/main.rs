@@ -7,12 +7,12 @@ use rockfrag::answer::AnswerTable;
 use rockfrag::chart::{Axis, Figure, Ink, Layer, Mark, Panel, Symbol, png, svg};
 use rockfrag::document::{Document, Table, compare, response};
 use rockfrag::figures::common::{estimate, observed_shares, ratio_bins};
-use rockfrag::figures::planes;
+use rockfrag::figures::{planes, universality};
 use rockfrag::number;
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
 
-use fixtures::{answers, figures, limited, tables, traced};
+use fixtures::{answers, cases, figures, limited, tables, traced};
 
 #[test]
 fn each_figure_is_drawn_and_its_table_has_the_numbers() {
@@ -67,6 +67,17 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
         let off = |mark: &Mark| (mark.y - from.y - slope * (mark.x - from.x)).abs();
         assert!(points.marks.len() > 20 && points.marks.iter().all(|mark| off(mark) < 1e-9));
     }
+}
+
+/// Structures whose p grow by a tenth and that overturn at the same IM4 and IM3: over PGV the sd of ln theta
+/// is that of ln p, over dimensionless measures 0.
+#[test]
+fn curves_that_are_universal_have_one_median() {
+    let groups: Vec<_> = (0..10).map(|k| cases((0.1 * f64::from(k)).exp(), 200)).collect();
+    let figure = universality(&groups);
+    let titles: Vec<&str> = figure.panels.iter().map(|panel| panel.title.as_str()).collect();
+    assert_eq!(titles, ["0.30", "0.00", "0.00"].map(|sd| format!("csgm: sd of ln *θ* {sd}")));
+    assert!(universality(&groups[1..]).panels.is_empty(), "nine structures are few");
 }
 
 #[test]

@@ -28,7 +28,7 @@ const MOST_NAMED: usize = 4;
 /// of a list there are only these.
 const OF_RATES: &[&str] = &["map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["hybrid", "demand", "map", "motion", "similarity", "planes", "exceedance"];
-const OF_RESPONSES: &[&str] = &["ida", "map", "overturning", "validation"];
+const OF_RESPONSES: &[&str] = &["ida", "universality", "map", "overturning", "validation"];
 
 /// The most pairs of suite and structure that are drawn.
 const MOST_GROUPS: usize = 24;
@@ -114,6 +114,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     };
     figures.extend(draw(&[hybrids, maps]));
     figures.extend([
+        universality(&tables.groups),
         validation(&tables.rows(Kind::Reliability)?),
         motion(&motions),
         similarity(&tables.groups, &motions).unwrap_or_default(),

@@ -1,0 +1,85 @@
+//! How nearly one curve of overturning holds for structures of any p and alpha.
+
+use rockfrag_core::fragility::{Case, Cases, Measure, beta, hybrid_measure, mu, p_overturning};
+use rockfrag_core::paper::EXAMPLE_LAMBDA;
+use rockfrag_core::statistics::numerics::equal_ratios;
+use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
+
+use super::common::{by, called, label, rocked};
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
+use crate::number;
+
+/// The fewest structures of a suite that are drawn.
+const LEAST_STRUCTURES: usize = 10;
+const STEPS: usize = 60;
+/// Slenderness (rad) at which the colour changes.
+const SLENDERNESS: [f64; 2] = [0.15, 0.3];
+
+/// The measure of a case.
+type Over = fn(&Case) -> Option<f64>;
+
+/// A lognormal curve (Eq. 20) over some measure, and the range of its cases.
+struct Curve<'a> {
+    cases: &'a Cases,
+    mu: f64,
+    beta: f64,
+    range: Range,
+}
+
+impl<'a> Curve<'a> {
+    fn fit(cases: &'a Cases, measure: Over) -> Option<Curve<'a>> {
+        let known = rocked(cases).filter_map(|(case, overturned)| Some((measure(case)?.ln(), overturned)));
+        let (x, events): (Vec<f64>, Vec<bool>) = known.unzip();
+        let count = events.iter().filter(|event| **event).count();
+        if count.min(events.len() - count) < FEW_EVENTS {
+            return None;
+        }
+        let fit = probit(&[&x], &events).ok()?.fit;
+        let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
+        let range = Range::over(x.iter().map(|x| x.exp()));
+        (beta > 0.0).then_some(Curve { cases, mu, beta, range })
+    }
+
+    fn layer(&self) -> Layer {
+        let structure = &self.cases.structure;
+        let step = SLENDERNESS.iter().filter(|alpha| structure.alpha_rad > **alpha).count();
+        let x = equal_ratios(self.range.low, self.range.high, STEPS);
+        let marks = x.map(|x| Mark::new(x, p_overturning(x, self.mu, self.beta)));
+        Layer::line(&called(structure), Ink::Step(step), marks).unlisted()
+    }
+}
+
+/// Curves of P_ro of all structures over PGV, IM5 and the hybrid measure of the paper's exponent; a row a
+/// suite of ten curves or more.
+pub fn universality(groups: &[Cases]) -> Figure {
+    let hybrid = format!("hybrid of IM4 and 1/IM3, *λ* = {EXAMPLE_LAMBDA}");
+    let measures: [(&str, Over); 3] = [
+        ("PGV (m/s)", |case| Some(case.peaks.pgv_m_s)),
+        (label(&Measure::Im5), |case| Some(case.measures.im5)),
+        (&hybrid, |case| Some(hybrid_measure(case.measures.im4, 1.0 / case.measures.im3?, EXAMPLE_LAMBDA))),
+    ];
+    let panels = by(groups, |cases| &cases.suite).into_iter().flat_map(|groups| {
+        measures.map(|(label, measure)| {
+            let curves: Vec<Curve> = groups.iter().filter_map(|cases| Curve::fit(cases, measure)).collect();
+            (curves.len() >= LEAST_STRUCTURES).then(|| panel(label, &curves))
+        })
+    });
+    let caption = "Lognormal curves of structures that at least ten motions overturn and ten do not, within \
+                   the range of these motions. Over a measure for which curves are universal, the medians \
+                   *θ* of all structures are one.";
+    let title = "Universality of the curves of overturning";
+    Figure::new("universality", title, 3, 118.0, panels.flatten().collect()).explained(caption)
+}
+
+fn panel(label: &str, curves: &[Curve]) -> Panel {
+    let n = curves.len() as f64;
+    let mean = curves.iter().map(|curve| curve.mu).sum::<f64>() / n;
+    let sd = (curves.iter().map(|curve| (curve.mu - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
+    let suite = curves[0].cases.suite.as_deref().unwrap_or("motions");
+    let title = format!("{suite}: sd of ln *θ* {}", number::fixed(sd, 2));
+    let [low, high] = SLENDERNESS;
+    let colours = [format!("*α* up to {low}"), format!("{low} to {high}"), format!("above {high}")];
+    let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Step(step), []));
+    let layers = keys.chain(curves.iter().map(Curve::layer)).collect();
+    Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
+}
