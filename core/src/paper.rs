@@ -72,6 +72,29 @@ pub struct SeedValue {
     pub value: f64,
 }
 
+/// A number over seeds, and whether it supports a claim: a row of data/claims.csv (scripts/claims.py).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Claim {
+    pub claim: String,
+    pub quantity: String,
+    pub suite: String,
+    pub structure: String,
+    /// Side or value that the claim asks for.
+    pub claimed: String,
+    pub mean: f64,
+    /// Limits of one more seed.
+    pub low: f64,
+    pub high: f64,
+    pub supports: Option<bool>,
+    /// Of the claim as a whole.
+    pub verdict: String,
+    pub figure: String,
+}
+
+pub fn claims() -> Vec<Claim> {
+    read(include_str!("../data/claims.csv"))
+}
+
 /// In the order of display.
 pub fn published() -> Vec<Published> {
     read(include_str!("../data/paper.csv"))

@@ -9,6 +9,7 @@ use rockfrag::document::{Document, Table, compare, response};
 use rockfrag::figures::common::{estimate, observed_shares, ratio_bins};
 use rockfrag::figures::{planes, universality};
 use rockfrag::number;
+use rockfrag_core::paper;
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
 
@@ -78,6 +79,23 @@ fn curves_that_are_universal_have_one_median() {
     let titles: Vec<&str> = figure.panels.iter().map(|panel| panel.title.as_str()).collect();
     assert_eq!(titles, ["0.30", "0.00", "0.00"].map(|sd| format!("csgm: sd of ln *θ* {sd}")));
     assert!(universality(&groups[1..]).panels.is_empty(), "nine structures are few");
+}
+
+#[test]
+fn the_page_of_claims_has_their_numbers() {
+    let page = include_str!("../../docs/review/claims.md");
+    for row in paper::claims() {
+        let half = 0.5 * (row.high - row.low);
+        let cells: Vec<String> =
+            (0..5).map(|digits| format!("{:.digits$}±{half:.digits$}", row.mean)).collect();
+        assert!(cells.iter().any(|cell| page.contains(cell)), "{row:?}");
+        assert!(
+            page.contains(&format!("{} | {} |", row.claim, row.verdict)),
+            "{}: {}",
+            row.claim,
+            row.verdict
+        );
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
 use rockfrag_core::motion::Suite;
+use rockfrag_core::paper::{self, Claim};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -82,6 +83,7 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     }
     let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
+        Document { tables: claims(tables), ..section("The paper's claims") },
         Document { figures: more, ..section("More figures") },
         Document { facts: method.collect(), ..section("Method") },
         Document { facts: folded, tables: tests, ..section("Tests and fits") },
@@ -300,6 +302,39 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     ));
     all.retain(|table| !table.rows.is_empty());
     Ok(all)
+}
+
+/// The claims of the paper: a table each, with a column for each suite and structure.
+fn claims(tables: &Tables) -> Vec<Table> {
+    let all = if tables.compared.is_empty() { Vec::new() } else { paper::claims() };
+    let shown = |row: &Claim| {
+        let [mean, low, high] =
+            [row.mean, row.low, row.high].map(|value| minus(number::significant(value, 3)));
+        let mark = if row.supports == Some(false) { " \u{2717}" } else { "" };
+        format!("{mean} ({low} to {high}){mark}")
+    };
+    let of_claim = |rows: Vec<&Claim>| {
+        let column = |row: &Claim| literal(&format!("{}, {}", row.structure, row.suite));
+        let columns = by(rows.iter().copied(), column).into_iter().map(|its| column(its[0]));
+        let heads: Vec<String> =
+            ["number", "claimed"].map(str::to_string).into_iter().chain(columns).collect();
+        let line = |its: Vec<&Claim>| {
+            let cells = heads[2..].iter().map(|head| {
+                let its_row = its.iter().copied().find(|row| column(row) == *head);
+                its_row.map_or(String::new(), shown)
+            });
+            let claimed = its.iter().map(|row| row.claimed.as_str()).max().unwrap_or_default();
+            [&its[0].quantity, claimed].map(literal).into_iter().chain(cells).collect()
+        };
+        let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
+        let Claim { claim, verdict, figure, .. } = rows[0];
+        let caption = format!(
+            "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more; those \
+             with \u{2717} do not support the claim."
+        );
+        Table { caption, heads, rows: lines }
+    };
+    by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
 }
 
 fn files(tables: &Tables) -> Table {
