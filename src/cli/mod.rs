@@ -68,9 +68,6 @@ enum Tool {
         /// Folder to write into; nothing there is replaced
         #[arg(long, value_name = "DIR", default_value = ".")]
         out: PathBuf,
-        /// Print nothing
-        #[arg(long)]
-        quiet: bool,
     },
     /// Show what a file holds and where it came from
     Inspect(inspect::Inspect),
@@ -169,10 +166,7 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> anyhow::Result<u8> {
             print(&plan, Format::Text)?;
             return Ok(u8::from(check && is_due));
         }
-        Tool::Init { start, out, quiet } => {
-            let written = init::init(start, &out)?;
-            if quiet { String::new() } else { written }
-        }
+        Tool::Init { start, out } => init::init(start, &out)?,
         Tool::Inspect(inspect) => return print(&inspect.run()?, inspect.format).map(|()| 0),
         Tool::Completions { shell } => {
             let mut script = Vec::new();
