@@ -37,7 +37,7 @@ pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::MOST_CASES;
 pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
-pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
+pub use demand::{fit_demand, fit_law, fit_planes, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};
 pub use given_peak::GivenPeak;
 pub use joint_peaks::{JointPeaks, Peak, RatioGiven};
