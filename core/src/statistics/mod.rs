@@ -32,7 +32,7 @@ mod range;
 pub mod scores;
 
 pub use binary::{FEW_EVENTS, ProbitFit, clustered_probit, log_likelihood, probit};
-pub use clusters::{Folds, held_out};
+pub use clusters::held_out;
 pub use fit::{Fit, FitStatus, delta_variance, independent_errors, predict};
 pub use interval::Interval;
 pub use linear::{LinearFit, clustered_least_squares, least_squares};
