@@ -72,7 +72,10 @@ impl Plan {
                 _ if common.force => continue,
                 _ if real.metadata()?.permissions().readonly() => "is read-only; --force replaces it",
                 _ if self.is_ours(out, common.is_run) => continue,
-                _ => return Err(TableError::not_ours(out).into()),
+                _ => {
+                    let problem = "is there already, not known as rockfrag's; --force replaces it";
+                    return Err(TableError::table(out, problem).into());
+                }
             };
             return Err(UsageError::because(format!("{}: {problem}", out.display())));
         }

@@ -63,10 +63,6 @@ impl TableError {
         TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
     }
 
-    pub fn not_ours(path: &Path) -> TableError {
-        TableError::table(path, "is there already, not known as rockfrag's; --force replaces it")
-    }
-
     /// Any other problem with a table.
     pub fn table(path: &Path, problem: impl Into<String>) -> TableError {
         TableError::Table { path: path.to_path_buf(), problem: problem.into() }
