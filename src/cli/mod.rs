@@ -91,7 +91,6 @@ const USUAL: &str = "about all author candidate column depth dt eta fits from ha
                      pex pga pgv pro re rotate sa samples scale seed site structure structures suite \
                      target terms title to trace unit vs30 width";
 
-/// Describes all stages and their options, as JSON.
 pub fn describe() -> Value {
     let stages = stages::all().into_iter().map(|StageKind { command, .. }| {
         let options: Vec<Value> = command.get_arguments().map(option).collect();
@@ -209,7 +208,6 @@ fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
     print(&printed, calls[answer].stage.format())
 }
 
-/// Prints the weightiest warnings.
 fn warn(warnings: &Warnings) {
     let lines = warnings.lines();
     for (after, line) in (0..lines.len()).rev().zip(&lines).take(SHOWN) {

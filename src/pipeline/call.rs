@@ -46,12 +46,10 @@ pub struct Done {
 }
 
 impl Plan {
-    /// Returns the provenance of one of the outputs.
     pub fn output(&self, output: usize) -> Provenance {
         Provenance { output, ..self.made.clone() }
     }
 
-    /// Returns the keys of the outputs.
     pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
         let outputs = self.outputs.iter().enumerate();
         outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))

@@ -121,7 +121,6 @@ impl Context {
         Ok(writer)
     }
 
-    /// Ends a table with its provenance.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
         let (summary, warnings) = (summary.to_string(), self.warnings());
@@ -166,7 +165,6 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         self.common.observed.expect_running()?;
         locked(&self.written).push(PendingFile::new(path, content)?);
@@ -179,7 +177,6 @@ impl Context {
         Ok(self.finish(writer, summary)?)
     }
 
-    /// Begins progress over `total` steps.
     pub fn bar(&self, total: usize) -> Progress {
         self.common.observed.total.fetch_add(total, Ordering::Relaxed);
         // Without a terminal, indicatif draws nothing.

@@ -15,7 +15,6 @@ use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::frame;
 
-/// Column of the names of motions.
 const ID: &str = "motion_id";
 /// The units at the end of the names of columns, the longer ones first.
 const UNITS: [(&str, Dimension); 4] = [
