@@ -71,8 +71,8 @@ pub fn clustered_error_of_mean(values: &[f64], clusters: &[u32]) -> f64 {
 
 /// Predicts the z of each case by a fit without its fold. Clusters are dealt in turn, so that neighbours are
 /// apart, to at most ten folds, since motions of one earthquake, or of one magnitude and distance, are alike
-/// (Roberts et al. 2017, Ecography 40, 913-929). `fit` takes the columns and `y` of some cases, and gives what
-/// else predicts: z comes with it. None for one cluster, or if a fold has no fit.
+/// (Roberts et al. 2017, Ecography 40, 913-929). `fit` takes the columns and `y` of some cases, and gives
+/// what else predicts: z comes with it. None for one cluster, or if a fold has no fit.
 pub fn held_out<Y: Copy + Sync, With: Copy + Send>(
     x: &[&[f64]],
     y: &[Y],

@@ -67,7 +67,8 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
         let fell = has_fallen(grid, row, fell)?;
         ensure!(
             !fell || peaks.pga_m_s2 > structure.uplift_acceleration_m_s2(),
-            "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? leave it out"
+            "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? leave it \
+             out"
         );
         let cells = (0..grid.headings.len()).filter(|at| Some(*at) != grid.about("outcome"));
         let cells: Vec<&str> = cells.map(|at| grid.cell(row, at)).collect();
